@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fem/types.hpp"
+
+/// Frames for ParaView: .vtu, .vtp and a .pvd over them. Everything arrives in SI and is written
+/// in the output's length unit (coordinates, displacement, velocity per second) and SI otherwise.
+namespace articular::sim {
+
+/// A named array over points or cells: `components` rows, one column a point or cell.
+struct Field {
+  std::string name;  // e.g. "contact_pressure"
+  std::string unit;  // e.g. "Pa"; written as a field-data array "<name>.unit"
+  Eigen::MatrixXd values;
+};
+
+struct TissueFrame {
+  std::string body;
+  const Positions& x;
+  const Tetrahedra& tets;
+  std::vector<Field> point_fields, cell_fields;
+};
+
+struct BoneFrame {
+  std::string body;
+  const Positions& x;
+  const Triangles& triangles;
+  std::vector<Field> point_fields, cell_fields;
+};
+
+/// Muscles and ligaments: each a polyline; one value a line in each cell field.
+struct LinesFrame {
+  std::vector<std::string> names;
+  std::vector<Positions> paths;
+  std::vector<Field> cell_fields;  // activation, force, length, kind (0 muscle, 1 ligament)
+};
+
+/// Writes a time series into a folder: DIR/NAME.pvd and DIR/frames/BODY_000123.vtu etc. Every file
+/// appears whole or not at all; after each frame the .pvd lists all frames so far.
+class FrameWriter {
+ public:
+  /// @param length_unit  [m] per unit in the files, with its name, e.g. 1e-3, "mm"
+  /// @throws SystemError when the folder can't be made or written
+  FrameWriter(std::filesystem::path directory, std::string name, double length_unit,
+              std::string length_unit_name);
+
+  /// Resumes: forgets frames after `time`, keeps those before.
+  void resume_at(double time);
+
+  void write_tissue(const TissueFrame& frame, int index, double time);
+  void write_bone(const BoneFrame& frame, int index, double time);
+  void write_lines(const LinesFrame& frame, int index, double time);
+  /// All parts of this frame are there: publishes it in the .pvd.
+  void finish_frame(int index, double time);
+
+ private:
+  struct Entry {
+    double time;
+    int index;
+    std::string part, file;
+  };
+  std::filesystem::path directory_;
+  std::string name_;
+  double length_unit_;
+  std::string length_unit_name_;
+  std::vector<Entry> published_, pending_;
+};
+
+/// Writes a text file whole or not at all. @throws SystemError
+void write_text_file(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace articular::sim
