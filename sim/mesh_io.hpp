@@ -8,21 +8,24 @@ namespace articular::sim {
 
 /// What a mesh file holds: tetrahedra (tissue), triangles (bone surfaces), or both.
 struct MeshData {
-  Positions X;       // [unit of the file * unit]
-  Tetrahedra tets;   // as in the file, 4 x 0 if none
+  Positions X;          // [unit of the file * unit]
+  Tetrahedra tets;      // as in the file, 4 x 0 if none
   Triangles triangles;  // surface triangles of the file, polygons split; 3 x 0 if none
 };
 
-/// Reads .vtu, .vtp, .vtk, .stl, .obj, .ply or Abaqus .inp (*NODE, *ELEMENT TYPE=C3D4; others skipped),
-/// by the file's ending. Nodes that no cell uses are dropped; coincident vertices of .stl are merged.
+/// Reads .vtu, .vtp, .vtk, .stl, .obj, .ply or Abaqus .inp (*NODE, *ELEMENT TYPE=C3D4; others
+/// skipped), by the file's ending. Nodes that no cell uses are dropped; coincident vertices of .stl
+/// are merged. Positions are in double precision, but for .stl and .ply, which VTK reads in single
+/// precision.
 /// @param unit  metres per unit of the file
 /// @throws InputError naming the file (and line, for .inp) when it is missing, not readable as its
-///         format, empty, or holds a position that is not finite
+///         format, empty, holds other volume cells than linear tetrahedra, or a position that is
+///         not finite
 MeshData read_mesh(const std::filesystem::path& file, double unit);
 
-/// Writes tetrahedra as .vtu, or triangles (when there are no tetrahedra) as .vtp: binary, compressed,
-/// whole or not at all (write beside, then rename).
-/// @throws SystemError when it can't be written
+/// Writes tetrahedra (and triangles, if there are both) as .vtu, or triangles alone as .vtp:
+/// binary, compressed, whole or not at all (write beside, then rename).
+/// @throws SystemError when it can't be written, InputError when the file's ending is another
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh, double unit);
 
 }  // namespace articular::sim

@@ -7,12 +7,18 @@
 #include <vector>
 
 #include "fem/types.hpp"
+#include "sim/frame_series.hpp"
+
+class vtkDataSetAttributes;
+class vtkPointSet;
 
 /// Frames for ParaView: .vtu, .vtp and a .pvd over them. Everything arrives in SI and is written
 /// in the output's length unit (coordinates, displacement, velocity per second) and SI otherwise.
 namespace articular::sim {
 
-/// A named array over points or cells: `components` rows, one column a point or cell.
+/// A named array over points or cells: `components` rows, one column a point or cell. A
+/// `displacement` in "m" and a `velocity` in "m/s" are written in the output's length unit, every
+/// other field as it is.
 struct Field {
   std::string name;  // e.g. "contact_pressure"
   std::string unit;  // e.g. "Pa"; written as a field-data array "<name>.unit"
@@ -49,7 +55,8 @@ class FrameWriter {
   FrameWriter(std::filesystem::path directory, std::string name, double length_unit,
               std::string length_unit_name);
 
-  /// Resumes: forgets frames after `time`, keeps those before.
+  /// Resumes: keeps the frames up to `time` (relative tolerance 1e-12) that an earlier run
+  /// published, forgets those after it. @throws InputError when that .pvd can't be understood
   void resume_at(double time);
 
   void write_tissue(const TissueFrame& frame, int index, double time);
@@ -59,19 +66,22 @@ class FrameWriter {
   void finish_frame(int index, double time);
 
  private:
-  struct Entry {
-    double time;
-    int index;
-    std::string part, file;
-  };
+  void write_part(const std::string& part, const std::string& ending, vtkPointSet& set, int index,
+                  double time);
+  std::filesystem::path series_file() const;
+  void add_field(vtkPointSet& set, vtkDataSetAttributes& target, const Field& field) const;
+  void add_fields(vtkPointSet& set, const std::vector<Field>& point_fields,
+                  const std::vector<Field>& cell_fields) const;
+
   std::filesystem::path directory_;
   std::string name_;
   double length_unit_;
   std::string length_unit_name_;
-  std::vector<Entry> published_, pending_;
+  std::vector<SeriesEntry> published_, pending_;
 };
 
-/// Writes a text file whole or not at all. @throws SystemError
+/// Writes a file (text or bytes) whole or not at all: beside it as `<file>.part`, then renamed.
+/// What is no regular file (/dev/stdout, a pipe) is written straight. @throws SystemError
 void write_text_file(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace articular::sim

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace articular::sim {
+
+/// One part (body, or the lines) of one frame, as listed in a .pvd.
+struct SeriesEntry {
+  double time;       // [s]
+  int index;         // frame number, as in the file's name
+  std::string part;  // name of the body, or "lines"
+  std::string file;  // relative to the folder of the .pvd
+};
+
+/// The entries of a .pvd in its order. @throws InputError when it is missing or not understood
+std::vector<SeriesEntry> read_series(const std::filesystem::path& pvd);
+
+/// Writes a .pvd whole or not at all; the parts of a frame stand together. @throws SystemError
+void write_series(const std::filesystem::path& pvd, const std::vector<SeriesEntry>& entries);
+
+/// "condyle_left_000123.vtp"
+std::string frame_file_name(const std::string& part, int index, const std::string& ending);
+
+}  // namespace articular::sim
