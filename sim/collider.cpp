@@ -1,0 +1,165 @@
+#include "sim/collider.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace articular::sim {
+namespace {
+
+/// Positive where the tetrahedron a b c d is.
+double six_volumes(const Positions& X, const Eigen::Vector4i& t) {
+  const Vec3 a = X.col(t[0]);
+  return (X.col(t[1]) - a).cross(X.col(t[2]) - a).dot(X.col(t[3]) - a);
+}
+
+/// The three tetrahedra of the prism under an outward triangle. The diagonals of its sides start at
+/// the lower surface index, so that neighbouring prisms share them.
+std::array<Eigen::Vector4i, 3> prism(const Eigen::Vector3i& triangle, int below) {
+  std::array<int, 3> order = {0, 1, 2};
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return triangle[i] < triangle[j]; });
+  const int a = triangle[order[0]], b = triangle[order[1]], c = triangle[order[2]];
+  const bool even = (order[1] - order[0] + 3) % 3 == 1;
+  std::array<Eigen::Vector4i, 3> tets = {Eigen::Vector4i(a, c, b, c + below),
+                                         Eigen::Vector4i(a, c + below, b, b + below),
+                                         Eigen::Vector4i(a, c + below, b + below, a + below)};
+  if (!even)
+    for (auto& t : tets) std::swap(t[1], t[2]);
+  return tets;
+}
+
+Positions vertex_normals(const Positions& X, const Triangles& triangles) {
+  Positions normals = Positions::Zero(3, X.cols());
+  for (Eigen::Index f = 0; f < triangles.cols(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = X.col(triangles((k + 1) % 3, f)) - X.col(triangles(k, f));
+      const Vec3 b = X.col(triangles((k + 2) % 3, f)) - X.col(triangles(k, f));
+      const Vec3 cross = a.cross(b);
+      const double angle = std::atan2(cross.norm(), a.dot(b));
+      if (cross.norm() > 0) normals.col(triangles(k, f)) += angle * cross.normalized();
+    }
+  for (Eigen::Index i = 0; i < normals.cols(); ++i)
+    if (const double length = normals.col(i).norm(); length > 0) normals.col(i) /= length;
+  return normals;
+}
+
+}  // namespace
+
+Tetrahedra shell_under(Positions& X, const Triangles& triangles, double thickness) {
+  const auto n = static_cast<int>(X.cols());
+  const Positions normals = vertex_normals(X, triangles);
+  Eigen::VectorXd depth = Eigen::VectorXd::Constant(n, thickness);
+  X.conservativeResize(3, 2 * n);
+  Tetrahedra tets(4, 3 * triangles.cols());
+  for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
+    const auto three = prism(triangles.col(f), n);
+    for (int k = 0; k < 3; ++k) tets.col(3 * f + k) = three[static_cast<std::size_t>(k)];
+  }
+  // Folded prisms get thinner until none is left; a vertex that needs more halvings than this has
+  // faces on all sides of it.
+  constexpr int kMostHalvings = 20;
+  for (int round = 0; round <= kMostHalvings; ++round) {
+    X.rightCols(n) = X.leftCols(n) - normals * depth.asDiagonal();
+    std::vector<char> folded(static_cast<std::size_t>(n), 0);
+    bool any = false;
+    for (Eigen::Index t = 0; t < tets.cols(); ++t) {
+      // Of the volume that the prism would have on a flat surface.
+      constexpr double kLeastVolume = 0.02;
+      const auto face = triangles.col(t / 3);
+      const Vec3 area = (X.col(face[1]) - X.col(face[0])).cross(X.col(face[2]) - X.col(face[0]));
+      double least_depth = depth[face[0]];
+      for (int k = 1; k < 3; ++k) least_depth = std::min(least_depth, depth[face[k]]);
+      if (six_volumes(X, tets.col(t)) > kLeastVolume * area.norm() * least_depth) continue;
+      any = true;
+      for (int k = 0; k < 3; ++k) folded[static_cast<std::size_t>(face[k])] = 1;
+    }
+    if (!any) return tets;
+    for (int i = 0; i < n; ++i)
+      if (folded[static_cast<std::size_t>(i)] != 0) depth[i] *= 0.5;
+  }
+  throw InputError("a contact surface folds back onto itself at a vertex; expected a smooth surface");
+}
+
+void complete_collider(Collider& collider, const std::vector<char>& is_outer) {
+  const auto num_nodes = static_cast<int>(collider.X.cols());
+  collider.surface = collision::build_surface(collider.tets, num_nodes);
+  const auto& faces = collider.surface.faces;
+  const auto num_faces = static_cast<std::size_t>(faces.cols());
+  collider.outer.assign(num_faces, 1);
+  collider.face_area.resize(num_faces);
+  for (std::size_t f = 0; f < num_faces; ++f) {
+    const auto face = faces.col(static_cast<Eigen::Index>(f));
+    const Vec3 a = collider.X.col(face[0]);
+    collider.face_area[f] =
+        0.5 * (collider.X.col(face[1]) - a).cross(collider.X.col(face[2]) - a).norm();
+    if (!is_outer.empty())
+      for (int k = 0; k < 3; ++k)
+        if (is_outer[static_cast<std::size_t>(face[k])] == 0) collider.outer[f] = 0;
+  }
+
+  // Mean height of the elements that have an outer face, over that face.
+  double height_sum = 0;
+  int heights = 0;
+  std::vector<std::vector<int>> faces_of_node(static_cast<std::size_t>(num_nodes));
+  for (std::size_t f = 0; f < num_faces; ++f) {
+    if (collider.outer[f] == 0) continue;
+    for (int k = 0; k < 3; ++k)
+      faces_of_node[static_cast<std::size_t>(faces(k, static_cast<Eigen::Index>(f)))].push_back(
+          static_cast<int>(f));
+    const double volume =
+        six_volumes(collider.X, collider.tets.col(collider.surface.face_tet[f])) / 6;
+    height_sum += 3 * std::abs(volume) / collider.face_area[f];
+    ++heights;
+  }
+  collider.size = heights > 0 ? height_sum / heights : 0;
+
+  // Outer faces that share a node with a tetrahedron; deeper ones inherit from their neighbours.
+  const auto num_tets = static_cast<std::size_t>(collider.tets.cols());
+  std::vector<std::vector<int>> nearby(num_tets);
+  std::vector<int> ring_of(num_tets, -1), ring;
+  const auto sort_unique = [&](int t) {
+    auto& list = nearby[static_cast<std::size_t>(t)];
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
+  for (std::size_t t = 0; t < num_tets; ++t) {
+    for (int k = 0; k < 4; ++k) {
+      const int node = collider.tets(k, static_cast<Eigen::Index>(t));
+      const auto& faces_here = faces_of_node[static_cast<std::size_t>(node)];
+      nearby[t].insert(nearby[t].end(), faces_here.begin(), faces_here.end());
+    }
+    if (nearby[t].empty()) continue;
+    ring_of[t] = 0;
+    ring.push_back(static_cast<int>(t));
+    sort_unique(static_cast<int>(t));
+  }
+  // A face more than this many elements away is not the one through which a triangle came in.
+  constexpr int kMostRings = 3;
+  for (int depth = 1; depth <= kMostRings && !ring.empty(); ++depth) {
+    std::vector<int> next;
+    for (const int t : ring)
+      for (int k = 0; k < 4; ++k) {
+        const int other = collider.surface.neighbours(k, t);
+        if (other < 0) continue;
+        int& other_ring = ring_of[static_cast<std::size_t>(other)];
+        if (other_ring == -1) {
+          other_ring = depth;
+          next.push_back(other);
+        }
+        if (other_ring != depth) continue;
+        auto& list = nearby[static_cast<std::size_t>(other)];
+        const auto& source = nearby[static_cast<std::size_t>(t)];
+        list.insert(list.end(), source.begin(), source.end());
+      }
+    for (const int t : next) sort_unique(t);
+    ring = std::move(next);
+  }
+  collider.nearby_begin.assign(1, 0);
+  for (const auto& list : nearby) {
+    collider.nearby.insert(collider.nearby.end(), list.begin(), list.end());
+    collider.nearby_begin.push_back(static_cast<int>(collider.nearby.size()));
+  }
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,62 @@
+#include "sim/configuration.hpp"
+
+namespace articular::sim {
+
+Vec3 Configuration::position(const WeightedPoint& point) const {
+  Vec3 result = Vec3::Zero();
+  for (std::size_t k = 0; k < point.nodes.size(); ++k)
+    result += point.weights[k] * position(point.nodes[k]);
+  return result;
+}
+
+Vec3 Configuration::velocity(const WeightedPoint& point) const {
+  Vec3 result = Vec3::Zero();
+  for (std::size_t k = 0; k < point.nodes.size(); ++k)
+    result += point.weights[k] * velocity(point.nodes[k]);
+  return result;
+}
+
+void read_state(const Model& model, const double* y, double t, Configuration& configuration) {
+  const Layout& layout = model.layout;
+  const auto at = [&](int index) { return Eigen::Map<const Vec3>(y + index); };
+  configuration.t = t;
+  configuration.x = Eigen::Map<const Positions>(y, 3, layout.num_free_nodes);
+  configuration.v = Eigen::Map<const Positions>(y + layout.velocities(), 3, layout.num_free_nodes);
+  configuration.poses.resize(model.bones.size());
+  configuration.velocities.resize(model.bones.size());
+  for (std::size_t b = 0; b < model.bones.size(); ++b) {
+    const Bone& bone = model.bones[b];
+    if (bone.unknown) {
+      const auto r = static_cast<int>(b);
+      const double* q = y + layout.bone_q(r);
+      configuration.poses[b].p = at(layout.bone_p(r));
+      configuration.poses[b].R =
+          Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+      configuration.velocities[b] = {at(layout.velocities() + 3 * bone.block),
+                                     at(layout.velocities() + 3 * bone.block + 3)};
+    } else if (bone.motion) {
+      configuration.poses[b] = driven_pose(*bone.motion, bone.rest, t);
+      configuration.velocities[b] = driven_velocity(*bone.motion, bone.rest, t);
+    } else {
+      configuration.poses[b] = bone.rest;
+      configuration.velocities[b] = {};
+    }
+  }
+  configuration.activation =
+      Eigen::Map<const Eigen::VectorXd>(y + layout.activations(), layout.num_muscles);
+}
+
+void positions_of(const Configuration& configuration, const std::vector<NodeRef>& nodes,
+                  Positions& x) {
+  x.resize(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    x.col(static_cast<Eigen::Index>(i)) = configuration.position(nodes[i]);
+}
+
+void add_force(const Configuration& configuration, const WeightedPoint& point, const Vec3& force,
+               Eigen::VectorXd& f) {
+  for (std::size_t k = 0; k < point.nodes.size(); ++k)
+    add_force(configuration, point.nodes[k], point.weights[k] * force, f);
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "sim/model.hpp"
+
+namespace articular::sim {
+
+/// Positions and velocities of everything at one moment, read from the state vector.
+struct Configuration {
+  double t = 0;
+  Positions x, v;                       // free nodes, by block
+  std::vector<Pose> poses;              // bones
+  std::vector<RigidVelocity> velocities;  // bones
+  Eigen::VectorXd activation;
+
+  /// From the bone's reference point to the node [m].
+  Vec3 lever(const NodeRef& node) const {
+    return poses[static_cast<std::size_t>(node.bone)].R * node.local;
+  }
+  Vec3 position(const NodeRef& node) const {
+    if (node.bone < 0) return x.col(node.block);
+    return poses[static_cast<std::size_t>(node.bone)].p + lever(node);
+  }
+  Vec3 velocity(const NodeRef& node) const {
+    if (node.bone < 0) return v.col(node.block);
+    const RigidVelocity& bone = velocities[static_cast<std::size_t>(node.bone)];
+    return bone.linear + bone.angular.cross(lever(node));
+  }
+  Vec3 position(const WeightedPoint& point) const;
+  Vec3 velocity(const WeightedPoint& point) const;
+};
+
+/// @param y  in the order of Layout; quaternions need not be of unit length
+void read_state(const Model& model, const double* y, double t, Configuration& configuration);
+
+/// Positions of a list of nodes, one a column.
+void positions_of(const Configuration& configuration, const std::vector<NodeRef>& nodes, Positions& x);
+
+/// Adds a force at a node to block forces: 3 entries a block, a bone's moment about its reference point.
+inline void add_force(const Configuration& configuration, const NodeRef& node, const Vec3& force,
+                      Eigen::VectorXd& f) {
+  f.segment<3>(3 * node.block) += force;
+  if (node.bone >= 0) f.segment<3>(3 * node.block + 3) += configuration.lever(node).cross(force);
+}
+void add_force(const Configuration& configuration, const WeightedPoint& point, const Vec3& force,
+               Eigen::VectorXd& f);
+
+}  // namespace articular::sim

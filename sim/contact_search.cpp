@@ -1,0 +1,169 @@
+#include "sim/contact_search.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+
+#include "sim/contact_patch.hpp"
+
+namespace articular::sim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The corners of a face.
+Mat3 corners(const Positions& x, const Eigen::Matrix3Xi& faces, int f) {
+  Mat3 result;
+  for (int k = 0; k < 3; ++k) result.col(k) = x.col(faces(k, f));
+  return result;
+}
+
+bool boxes_apart(const Mat3& a, const Mat3& b, double distance) {
+  return (a.rowwise().minCoeff() - b.rowwise().maxCoeff()).maxCoeff() > distance ||
+         (b.rowwise().minCoeff() - a.rowwise().maxCoeff()).maxCoeff() > distance;
+}
+
+/// A triangle and a face that move with the same bone, or share a node, do not touch: tissue tied to a
+/// bone, or neighbours in one tissue.
+bool tied(const Collider& a, int triangle, const Collider& b, int face) {
+  for (const int i : a.surface.faces.col(triangle))
+    for (const int j : b.surface.faces.col(face)) {
+      const NodeRef &p = a.nodes[static_cast<std::size_t>(i)],
+                    &q = b.nodes[static_cast<std::size_t>(j)];
+      if (p.bone == q.bone && (p.bone >= 0 || p.block == q.block)) return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+ContactSearch::ContactSearch(const Model& model)
+    : model_(model), moving_of_body_(model.bodies.size(), -1) {
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const ContactModel& contact = model.contacts[c];
+    for (const int body : {contact.a, contact.b}) {
+      int& index = moving_of_body_[static_cast<std::size_t>(body)];
+      if (index >= 0) continue;
+      index = static_cast<int>(moving_.size());
+      const Collider& collider = *model.bodies[static_cast<std::size_t>(body)].collider;
+      Moving moving;
+      moving.body = body;
+      moving.tree = std::make_unique<collision::BucketTree>(
+          collider.tets, collider.surface, collider.X,
+          collision::BucketTreeOptions{.bucket_ratio = model.scenario.detection.bucket_ratio});
+      moving_.push_back(std::move(moving));
+      seen_.resize(std::max(seen_.size(), collider.outer.size()));
+    }
+    candidates_.push_back({static_cast<int>(c), false, {}});
+    if (contact.a != contact.b) candidates_.push_back({static_cast<int>(c), true, {}});
+  }
+}
+
+bool ContactSearch::needs_update(const Moving& moving, double margin) const {
+  if (moving.margin != margin) return true;
+  const BodyModel& body = model_.bodies[static_cast<std::size_t>(moving.body)];
+  if (body.bone < 0) return true;
+  // Fixed bones are mapped once (for a margin).
+  const Bone& bone = model_.bones[static_cast<std::size_t>(body.bone)];
+  return bone.unknown || bone.motion.has_value();
+}
+
+void ContactSearch::update(Moving& moving, const Configuration& configuration, double margin) {
+  if (!needs_update(moving, margin)) return;
+  const Collider& collider = *model_.bodies[static_cast<std::size_t>(moving.body)].collider;
+  positions_of(configuration, collider.nodes, moving.x);
+  moving.low = moving.x.rowwise().minCoeff();
+  moving.high = moving.x.rowwise().maxCoeff();
+  moving.tree->update(moving.x, margin);
+  moving.margin = margin;
+  ++counts_.tree_updates;
+}
+
+void ContactSearch::find(const Configuration& configuration, double margin) {
+  const auto start = Clock::now();
+  for (Moving& moving : moving_) update(moving, configuration, margin);
+  counts_.update_seconds += seconds_since(start);
+
+  const auto query_start = Clock::now();
+  collision::QueryCounts query;
+  for (CandidateList& list : candidates_) list.pairs.clear();
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    CandidateList& list = candidates_[i];
+    const ContactModel& contact = model_.contacts[static_cast<std::size_t>(list.contact)];
+    const Moving& a = moving_[static_cast<std::size_t>(
+        moving_of_body_[static_cast<std::size_t>(contact.a)])];
+    const Moving& b = moving_[static_cast<std::size_t>(
+        moving_of_body_[static_cast<std::size_t>(contact.b)])];
+    if (contact.a == contact.b) {
+      collision::self_intersections(*a.tree, faces_of_a_, query);
+      collect(faces_of_a_, a, a, margin, list.pairs);
+      continue;
+    }
+    const bool apart = (a.low - b.high).maxCoeff() > margin || (b.low - a.high).maxCoeff() > margin;
+    if (!apart) {
+      collision::collide(*a.tree, *b.tree, faces_of_a_, faces_of_b_, query);
+      collect(faces_of_a_, a, b, margin, list.pairs);
+      CandidateList& reverse = candidates_[i + 1];
+      collect(faces_of_b_, b, a, margin, reverse.pairs);
+    }
+    ++i;  // the reverse list is done too
+  }
+  counts_.narrow_tests += query.narrow_tests;
+  counts_.reported_pairs += query.reported;
+  counts_.narrow_seconds += query.narrow_seconds;
+  counts_.traversal_seconds += seconds_since(query_start) - query.narrow_seconds;
+}
+
+void ContactSearch::collect(const std::vector<collision::Penetration>& found, const Moving& a,
+                            const Moving& b, double margin, std::vector<ContactCandidate>& pairs) {
+  const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
+  const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
+  std::fill(seen_.begin(), seen_.end(), -1);
+  for (const collision::Penetration& p : found) {
+    if (A.outer[static_cast<std::size_t>(p.face)] == 0) continue;
+    const Mat3 s = corners(a.x, A.surface.faces, p.face);
+    const Vec3 n = (s.col(1) - s.col(0)).cross(s.col(2) - s.col(0));
+    const int begin = B.nearby_begin[static_cast<std::size_t>(p.tetrahedron)];
+    const int end = B.nearby_begin[static_cast<std::size_t>(p.tetrahedron) + 1];
+    for (int k = begin; k < end; ++k) {
+      const int f = B.nearby[static_cast<std::size_t>(k)];
+      if (seen_[static_cast<std::size_t>(f)] == p.face) continue;
+      seen_[static_cast<std::size_t>(f)] = p.face;
+      const Mat3 face = corners(b.x, B.surface.faces, f);
+      const Vec3 n_F = (face.col(1) - face.col(0)).cross(face.col(2) - face.col(0));
+      // Not yet facing, but it may turn until the step's end.
+      if (n.dot(n_F) > -0.5 * kFacingCosine * n.norm() * n_F.norm()) continue;
+      if (boxes_apart(s, face, B.reach + margin)) continue;
+      if (tied(A, p.face, B, f)) continue;
+      pairs.push_back({p.face, f});
+    }
+  }
+}
+
+double ContactSearch::motion_since(const Configuration& configuration) const {
+  double largest = 0;
+  for (const Moving& moving : moving_) {
+    const Collider& collider = *model_.bodies[static_cast<std::size_t>(moving.body)].collider;
+    for (std::size_t i = 0; i < collider.nodes.size(); ++i)
+      largest = std::max(largest, (configuration.position(collider.nodes[i]) -
+                                   moving.x.col(static_cast<Eigen::Index>(i)))
+                                      .squaredNorm());
+  }
+  return std::sqrt(largest);
+}
+
+double ContactSearch::largest_speed(const Configuration& configuration) const {
+  double largest = 0;
+  for (const Moving& moving : moving_) {
+    const Collider& collider = *model_.bodies[static_cast<std::size_t>(moving.body)].collider;
+    for (const NodeRef& node : collider.nodes)
+      largest = std::max(largest, configuration.velocity(node).squaredNorm());
+  }
+  return std::sqrt(largest);
+}
+
+}  // namespace articular::sim

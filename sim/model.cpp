@@ -1,0 +1,632 @@
+#include "sim/model.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/collider.hpp"
+#include "sim/muscle_law.hpp"
+#include "sim/shapes.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Contact stiffness of a side is this times constrained modulus / element height: the mean
+/// penetration is then about a tenth of the element's own compression.
+constexpr double kContactFactor = 10;
+/// Cortical bone, where a bone meets a bone without a layer between: E [Pa], nu.
+constexpr double kBoneModulus = 15e9, kBonePoisson = 0.3;
+/// Depth of the collision elements under a bone's surface where the scenario names none [m].
+constexpr double kDefaultShell = 2e-3;
+/// Faces of a contact mesh within 80 degrees of `facing` take part.
+const double kFacingLimit = std::cos(80 * M_PI / 180);
+/// A muscle that gives less than this part of its maximal force at rest and full activation is
+/// probably a table applied to another subject.
+constexpr double kLeastForceAtRest = 0.1;
+
+double constrained_modulus(double E, double nu) { return E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)); }
+
+MeshData load(const MeshFile& file) {
+  MeshData mesh;
+  try {
+    mesh = read_mesh(file.path, file.unit);
+  } catch (const InputError& error) {
+    throw InputError(file.where, error.what());
+  }
+  place(file.placement, mesh.X);
+  return mesh;
+}
+
+void append(const MeshData& part, MeshData& whole) {
+  const auto nodes = static_cast<int>(whole.X.cols());
+  const auto triangles = whole.triangles.cols();
+  whole.X.conservativeResize(3, nodes + part.X.cols());
+  whole.X.rightCols(part.X.cols()) = part.X;
+  whole.triangles.conservativeResize(3, triangles + part.triangles.cols());
+  whole.triangles.rightCols(part.triangles.cols()) = part.triangles.array() + nodes;
+}
+
+/// The faces of a surface that face a direction, with the nodes that they use.
+MeshData facing_part(const MeshData& mesh, const Vec3& direction) {
+  std::vector<int> kept, new_index(static_cast<std::size_t>(mesh.X.cols()), -1);
+  MeshData part;
+  part.triangles.resize(3, mesh.triangles.cols());
+  Eigen::Index count = 0;
+  for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+    const Eigen::Vector3i t = mesh.triangles.col(f);
+    const Vec3 area =
+        (mesh.X.col(t[1]) - mesh.X.col(t[0])).cross(mesh.X.col(t[2]) - mesh.X.col(t[0]));
+    if (area.dot(direction) <= kFacingLimit * area.norm()) continue;
+    for (int k = 0; k < 3; ++k) {
+      int& index = new_index[static_cast<std::size_t>(t[k])];
+      if (index < 0) {
+        index = static_cast<int>(kept.size());
+        kept.push_back(t[k]);
+      }
+      part.triangles(k, count) = index;
+    }
+    ++count;
+  }
+  part.triangles.conservativeResize(3, count);
+  part.X = mesh.X(Eigen::all, kept);
+  return part;
+}
+
+/// What was read of one body.
+struct Geometry {
+  MeshData mesh;     // drawn; tissue: with tetrahedra
+  MeshData contact;  // surfaces that touch, without tetrahedra; empty: the mesh
+};
+
+Geometry read_geometry(const Body& body) {
+  Geometry geometry;
+  if (body.mesh) geometry.mesh = load(*body.mesh);
+  if (body.box) geometry.mesh = box_mesh(*body.box);
+  if (body.sphere) geometry.mesh = sphere_mesh(*body.sphere);
+  if (body.v_shape) geometry.mesh = v_shape_mesh(*body.v_shape);
+  if (!body.mesh) place(body.placement, geometry.mesh.X);
+
+  const Location& where = body.mesh ? body.mesh->where : body.where;
+  const bool tissue = body.kind == Body::Kind::Tissue;
+  if (tissue && geometry.mesh.tets.cols() == 0)
+    throw InputError(where, fmt::format("the mesh of tissue `{}` has no tetrahedra; expected a "
+                                        "tetrahedral mesh (.vtu, .vtk or .inp)",
+                                        body.name));
+  if (!tissue && geometry.mesh.X.cols() > 0 && geometry.mesh.tets.cols() > 0) {
+    const auto surface =
+        collision::build_surface(geometry.mesh.tets, static_cast<int>(geometry.mesh.X.cols()));
+    geometry.mesh.triangles = surface.faces;
+  }
+  for (const MeshFile& file : body.contact_meshes) {
+    MeshData part = load(file);
+    if (part.triangles.cols() == 0)
+      throw InputError(file.where, fmt::format("contact mesh {} of `{}` has no triangles",
+                                               file.path.string(), body.name));
+    append(file.facing ? facing_part(part, *file.facing) : part, geometry.contact);
+  }
+  return geometry;
+}
+
+MassProperties rigid_mass(const Body& body, const MeshData& mesh) {
+  MassProperties mass;
+  const bool from_mesh = !(body.mass && body.center_of_mass && body.inertia);
+  if (from_mesh) {
+    if (mesh.triangles.cols() == 0)
+      throw InputError(body.where, fmt::format("rigid body `{}` needs a mesh, or mass, "
+                                               "center_of_mass and inertia",
+                                               body.name));
+    mass = solid_mass_properties(mesh.X, mesh.triangles, body.density.value_or(1.0));
+    if (!(mass.mass > 0))
+      throw InputError(body.where,
+                       fmt::format("the surface of `{}` encloses no volume; expected a closed "
+                                   "surface with outward normals",
+                                   body.name));
+    if (body.mass) {
+      mass.inertia *= *body.mass / mass.mass;
+    }
+  }
+  if (body.mass) mass.mass = *body.mass;
+  if (body.center_of_mass) mass.center = *body.center_of_mass;
+  if (body.inertia) mass.inertia = *body.inertia;
+  return mass;
+}
+
+/// A region's nodes, tested in the geometry at the start.
+class RegionTest {
+ public:
+  RegionTest(const Region& region, const Model& model, const std::vector<Geometry>& geometry)
+      : region_(region) {
+    if (!region.near_body) return;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      if (model.bodies[b].name == region.near_body->first)
+        near_ = geometry[b].contact.X.cols() > 0 ? &geometry[b].contact : &geometry[b].mesh;
+  }
+  bool contains(const Vec3& x, bool on_surface) const {
+    if (region_.surface_only && !on_surface) return false;
+    if (region_.box && ((x - region_.box->first).minCoeff() < 0 ||
+                        (region_.box->second - x).minCoeff() < 0))
+      return false;
+    if (region_.sphere && (x - region_.sphere->first).norm() > region_.sphere->second) return false;
+    if (region_.near_body)
+      return near_ != nullptr &&
+             (near_->X.colwise() - x).colwise().norm().minCoeff() <= region_.near_body->second;
+    return true;
+  }
+
+ private:
+  const Region& region_;
+  const MeshData* near_ = nullptr;
+};
+
+class Builder {
+ public:
+  explicit Builder(Scenario scenario) { model_.scenario = std::move(scenario); }
+
+  Model build() {
+    read_bodies();
+    make_bones();
+    make_tissues();
+    number_blocks();
+    carry_tissue_mass();
+    make_colliders();
+    make_lines();
+    make_loads();
+    make_contacts();
+    make_probes();
+    return std::move(model_);
+  }
+
+ private:
+  const Scenario& scenario() const { return model_.scenario; }
+
+  int body_index(const std::string& name) const {
+    for (std::size_t b = 0; b < scenario().bodies.size(); ++b)
+      if (scenario().bodies[b].name == name) return static_cast<int>(b);
+    throw InputError(fmt::format("no body `{}`", name));
+  }
+
+  void read_bodies() {
+    for (const Body& body : scenario().bodies) {
+      geometry_.push_back(read_geometry(body));
+      BodyModel entry;
+      entry.name = body.name;
+      entry.kind = body.kind;
+      model_.bodies.push_back(std::move(entry));
+    }
+  }
+
+  void make_bones() {
+    // Rigid ones first: their blocks are unknowns.
+    for (const Body::Kind kind : {Body::Kind::Rigid, Body::Kind::Fixed})
+      for (std::size_t b = 0; b < scenario().bodies.size(); ++b) {
+        const Body& body = scenario().bodies[b];
+        if (body.kind != kind) continue;
+        Bone bone;
+        bone.body = static_cast<int>(b);
+        bone.unknown = kind == Body::Kind::Rigid;
+        if (bone.unknown) {
+          bone.mass = rigid_mass(body, geometry_[b].mesh);
+          bone.rest.p = bone.mass.center;
+          bone.start = {body.velocity, body.angular_velocity};
+          ++model_.layout.num_rigid;
+        } else if (geometry_[b].mesh.X.cols() > 0) {
+          const auto& X = geometry_[b].mesh.X;
+          bone.rest.p = 0.5 * (X.rowwise().minCoeff() + X.rowwise().maxCoeff());
+        }
+        model_.bodies[b].bone = static_cast<int>(model_.bones.size());
+        model_.bones.push_back(bone);
+      }
+    for (const Load& load : scenario().loads) {
+      if (load.kind != Load::Kind::Motion) continue;
+      Bone& bone = model_.bones[static_cast<std::size_t>(
+          model_.bodies[static_cast<std::size_t>(body_index(load.body))].bone)];
+      if (bone.motion)
+        throw InputError(load.where, fmt::format("body `{}` is driven twice", load.body));
+      bone.motion = load.motion;
+    }
+  }
+
+  void make_tissues() {
+    for (std::size_t b = 0; b < scenario().bodies.size(); ++b) {
+      const Body& body = scenario().bodies[b];
+      if (body.kind != Body::Kind::Tissue) continue;
+      const MeshData& mesh = geometry_[b].mesh;
+      const Location& where = body.mesh ? body.mesh->where : body.where;
+      try {
+        Tissue tissue{static_cast<int>(b),
+                      fem::Elasticity(mesh.X, mesh.tets, make_material(*body.material)),
+                      fem::lumped_mass(mesh.X, mesh.tets, *body.density), {}, mesh.X};
+        tissue.nodes.resize(static_cast<std::size_t>(mesh.X.cols()));
+        model_.bodies[b].tissue = static_cast<int>(model_.tissues.size());
+        model_.tissues.push_back(std::move(tissue));
+        surface_.push_back(collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())));
+      } catch (const std::invalid_argument& error) {
+        throw InputError(where, fmt::format("tissue `{}`: {}", body.name, error.what()));
+      }
+    }
+  }
+
+  static fem::Material make_material(const Material& m) {
+    switch (m.law) {
+      case Material::Law::Linear:
+        return fem::Linear(m.young_modulus, m.poisson_ratio);
+      case Material::Law::Corotated:
+        return fem::Corotated(m.young_modulus, m.poisson_ratio);
+      case Material::Law::NeoHookean:
+        break;
+    }
+    return fem::NeoHookean(m.young_modulus, m.poisson_ratio);
+  }
+
+  /// Attached nodes to their bones, the others to blocks of their own; then the bones' blocks.
+  void number_blocks() {
+    for (const Attachment& attachment : scenario().attachments) {
+      const auto b = static_cast<std::size_t>(body_index(attachment.body));
+      Tissue& tissue = model_.tissues[static_cast<std::size_t>(model_.bodies[b].tissue)];
+      const int bone = model_.bodies[static_cast<std::size_t>(body_index(attachment.to))].bone;
+      const RegionTest test(attachment.region, model_, geometry_);
+      const std::vector<char> on_surface = surface_nodes(model_.bodies[b].tissue);
+      int count = 0;
+      for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+        const Vec3 x = tissue.X.col(static_cast<Eigen::Index>(i));
+        if (!test.contains(x, on_surface[i] != 0)) continue;
+        ++count;
+        tissue.nodes[i].bone = bone;
+        tissue.nodes[i].local = x - model_.bones[static_cast<std::size_t>(bone)].rest.p;
+      }
+      if (count == 0)
+        throw InputError(attachment.where,
+                         fmt::format("no node of tissue `{}` lies in the region attached to `{}`",
+                                     attachment.body, attachment.to));
+    }
+    int block = 0;
+    for (Tissue& tissue : model_.tissues)
+      for (NodeRef& node : tissue.nodes)
+        if (node.bone < 0) node.block = block++;
+    model_.layout.num_free_nodes = block;
+    for (Bone& bone : model_.bones) {
+      bone.block = block;
+      block += 2;
+    }
+    model_.num_blocks = block;
+    for (Tissue& tissue : model_.tissues)
+      for (NodeRef& node : tissue.nodes)
+        if (node.bone >= 0)
+          node.block = model_.bones[static_cast<std::size_t>(node.bone)].block;
+    model_.layout.num_muscles = static_cast<int>(scenario().muscles.size());
+  }
+
+  std::vector<char> surface_nodes(int tissue) const {
+    std::vector<char> on_surface(
+        model_.tissues[static_cast<std::size_t>(tissue)].nodes.size(), 0);
+    for (const int node : surface_[static_cast<std::size_t>(tissue)].faces.reshaped())
+      on_surface[static_cast<std::size_t>(node)] = 1;
+    return on_surface;
+  }
+
+  /// Tissue nodes attached to a rigid bone add their mass to it; its centre of mass moves.
+  void carry_tissue_mass() {
+    for (std::size_t r = 0; r < model_.bones.size(); ++r) {
+      Bone& bone = model_.bones[r];
+      if (!bone.unknown) continue;
+      const Vec3 old_center = bone.rest.p;
+      for (const Tissue& tissue : model_.tissues)
+        for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+          if (tissue.nodes[i].bone == static_cast<int>(r))
+            bone.mass = join(bone.mass, {tissue.lumped_mass[static_cast<Eigen::Index>(i)],
+                                         tissue.X.col(static_cast<Eigen::Index>(i)), Mat3::Zero()});
+      bone.rest.p = bone.mass.center;
+      bone.start.linear += bone.start.angular.cross(bone.rest.p - old_center);
+      for (Tissue& tissue : model_.tissues)
+        for (NodeRef& node : tissue.nodes)
+          if (node.bone == static_cast<int>(r)) node.local += old_center - bone.rest.p;
+    }
+    for (const Bone& bone : model_.bones) {
+      const auto b = static_cast<std::size_t>(bone.body);
+      model_.bodies[b].X = geometry_[b].mesh.X.colwise() - bone.rest.p;
+      model_.bodies[b].triangles = geometry_[b].mesh.triangles;
+    }
+  }
+
+  bool can_touch(std::size_t b) const {
+    if (!scenario().contact || !scenario().bodies[b].collides) return false;
+    if (!scenario().contacts.empty()) {
+      return std::any_of(
+          scenario().contacts.begin(), scenario().contacts.end(), [&](const ContactPair& pair) {
+            return pair.a == scenario().bodies[b].name || pair.b == scenario().bodies[b].name;
+          });
+    }
+    return scenario().bodies.size() > 1;
+  }
+
+  void make_colliders() {
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      if (!can_touch(b)) continue;
+      const Body& body = scenario().bodies[b];
+      try {
+        if (model_.bodies[b].tissue >= 0)
+          model_.bodies[b].collider = tissue_collider(b);
+        else if (geometry_[b].mesh.X.cols() > 0 || geometry_[b].contact.X.cols() > 0)
+          model_.bodies[b].collider = bone_collider(b);
+      } catch (const std::exception& error) {
+        throw InputError(body.mesh ? body.mesh->where : body.where,
+                         fmt::format("body `{}`: {}", body.name, error.what()));
+      }
+    }
+  }
+
+  Collider tissue_collider(std::size_t b) const {
+    const Tissue& tissue = model_.tissues[static_cast<std::size_t>(model_.bodies[b].tissue)];
+    const Material& material = *scenario().bodies[b].material;
+    Collider collider;
+    collider.X = tissue.X;
+    collider.tets = tissue.elasticity.tets();
+    collider.nodes = tissue.nodes;
+    complete_collider(collider, {});
+    collider.stiffness = kContactFactor *
+                         constrained_modulus(material.young_modulus, material.poisson_ratio) /
+                         collider.size;
+    collider.reach = 2 * collider.size;
+    return collider;
+  }
+
+  Collider bone_collider(std::size_t b) const {
+    const Body& body = scenario().bodies[b];
+    const Bone& bone = model_.bones[static_cast<std::size_t>(model_.bodies[b].bone)];
+    const bool shell = geometry_[b].contact.X.cols() > 0 || geometry_[b].mesh.tets.cols() == 0;
+    Collider collider;
+    std::vector<char> is_outer;
+    double depth = 0;
+    if (shell) {
+      const MeshData& surface =
+          geometry_[b].contact.X.cols() > 0 ? geometry_[b].contact : geometry_[b].mesh;
+      if (surface.triangles.cols() == 0) throw InputError("its mesh has no triangles");
+      depth = body.shell_thickness.value_or(kDefaultShell);
+      collider.X = surface.X;
+      collider.tets = shell_under(collider.X, surface.triangles, depth);
+      is_outer.assign(static_cast<std::size_t>(collider.X.cols()), 0);
+      std::fill_n(is_outer.begin(), surface.X.cols(), 1);
+    } else {
+      collider.X = geometry_[b].mesh.X;
+      collider.tets = geometry_[b].mesh.tets;
+    }
+    complete_collider(collider, is_outer);
+    if (!shell) depth = 2 * collider.size;
+    collider.reach = depth;
+    for (Eigen::Index i = 0; i < collider.X.cols(); ++i)
+      collider.nodes.push_back(
+          {bone.block, model_.bodies[b].bone, collider.X.col(i) - bone.rest.p});
+    collider.stiffness = kContactFactor * constrained_modulus(kBoneModulus, kBonePoisson) / depth;
+    if (body.layer) {
+      const double layer_stiffness =
+          constrained_modulus(body.layer->young_modulus, body.layer->poisson_ratio) /
+          body.layer->thickness;
+      collider.stiffness = 1 / (1 / collider.stiffness + 1 / layer_stiffness);
+    }
+    return collider;
+  }
+
+  WeightedPoint resolve(const Anchor& anchor) const {
+    const auto b = static_cast<std::size_t>(body_index(anchor.body));
+    const BodyModel& body = model_.bodies[b];
+    WeightedPoint point;
+    if (body.bone >= 0) {
+      const Bone& bone = model_.bones[static_cast<std::size_t>(body.bone)];
+      point.nodes.push_back({bone.block, body.bone, anchor.point - bone.rest.p});
+      point.weights.push_back(1);
+      return point;
+    }
+    const Tissue& tissue = model_.tissues[static_cast<std::size_t>(body.tissue)];
+    const std::vector<char> on_surface = surface_nodes(body.tissue);
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+      if (on_surface[i] == 0) continue;
+      const double distance = (tissue.X.col(static_cast<Eigen::Index>(i)) - anchor.point).norm();
+      if (distance < least) {
+        least = distance;
+        nearest = i;
+      }
+      if (distance <= anchor.radius) point.nodes.push_back(tissue.nodes[i]);
+    }
+    if (point.nodes.empty()) point.nodes.push_back(tissue.nodes[nearest]);
+    point.weights.assign(point.nodes.size(), 1.0 / static_cast<double>(point.nodes.size()));
+    return point;
+  }
+
+  Vec3 start_position(const WeightedPoint& point) const {
+    Vec3 x = Vec3::Zero();
+    for (std::size_t k = 0; k < point.nodes.size(); ++k)
+      x += point.weights[k] * start_position(point.nodes[k]);
+    return x;
+  }
+
+  Vec3 start_position(const NodeRef& node) const {
+    if (node.bone >= 0)
+      return model_.bones[static_cast<std::size_t>(node.bone)].rest.p + node.local;
+    return free_node_start().col(node.block);
+  }
+
+  const Positions& free_node_start() const {
+    if (free_start_.cols() == 0) {
+      free_start_.resize(3, model_.layout.num_free_nodes);
+      for (const Tissue& tissue : model_.tissues)
+        for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+          if (tissue.nodes[i].bone < 0)
+            free_start_.col(tissue.nodes[i].block) = tissue.X.col(static_cast<Eigen::Index>(i));
+    }
+    return free_start_;
+  }
+
+  Line make_line(const std::string& name, const std::vector<Anchor>& path, const Location& where) {
+    Line line;
+    line.name = name;
+    for (const Anchor& anchor : path) line.path.push_back(resolve(anchor));
+    for (std::size_t i = 1; i < line.path.size(); ++i)
+      line.start_length +=
+          (start_position(line.path[i]) - start_position(line.path[i - 1])).norm();
+    if (!(line.start_length > 0))
+      throw InputError(where, fmt::format("`{}` has no length: its points coincide", name));
+    return line;
+  }
+
+  void make_lines() {
+    for (const Muscle& muscle : scenario().muscles) {
+      Line line = make_line(muscle.name, muscle.path, muscle.where);
+      line.muscle = static_cast<int>(model_.muscles.size());
+      MuscleModel m{muscle, muscle.optimal_length.value_or(line.start_length),
+                    static_cast<int>(model_.lines.size())};
+      const double rest =
+          active_force_length(line.start_length, m.optimal_length, muscle.tendon_ratio).value;
+      if (rest < kLeastForceAtRest)
+        model_.warnings.push_back(
+            prefix(muscle.where) +
+            fmt::format("muscle `{}` can give only {:.1f} % of its active force at rest (length "
+                        "{:.1f} mm, optimal {:.1f} mm); does the table belong to this geometry?",
+                        muscle.name, 100 * rest, 1e3 * line.start_length, 1e3 * m.optimal_length));
+      model_.muscles.push_back(std::move(m));
+      model_.lines.push_back(std::move(line));
+    }
+    for (const Ligament& ligament : scenario().ligaments) {
+      Line line = make_line(ligament.name, ligament.path, ligament.where);
+      line.ligament = static_cast<int>(model_.ligaments.size());
+      double slack = line.start_length;
+      if (ligament.slack_length)
+        slack = *ligament.slack_length;
+      else if (ligament.slack_extension)
+        slack += *ligament.slack_extension;
+      else if (ligament.reference_strain)
+        slack /= 1 + *ligament.reference_strain;
+      if (!(slack > 0))
+        throw InputError(ligament.where,
+                         fmt::format("ligament `{}` has slack length {:g} mm; expected more than 0",
+                                     ligament.name, 1e3 * slack));
+      model_.ligaments.push_back({ligament, slack, static_cast<int>(model_.lines.size())});
+      model_.lines.push_back(std::move(line));
+    }
+  }
+
+  void make_loads() {
+    for (const Load& load : scenario().loads) {
+      if (load.kind == Load::Kind::Gravity) model_.gravity += load.acceleration;
+      if (load.kind != Load::Kind::Force) continue;
+      ForceModel force;
+      force.force = load.force;
+      force.profile = load.profile;
+      force.point = load.region ? region_point(load) : resolve(load.anchor);
+      model_.forces.push_back(std::move(force));
+    }
+  }
+
+  WeightedPoint region_point(const Load& load) const {
+    const auto b = static_cast<std::size_t>(body_index(load.body));
+    const int t = model_.bodies[b].tissue;
+    const Tissue& tissue = model_.tissues[static_cast<std::size_t>(t)];
+    const RegionTest test(*load.region, model_, geometry_);
+    const std::vector<char> on_surface = surface_nodes(t);
+    WeightedPoint point;
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+      if (test.contains(tissue.X.col(static_cast<Eigen::Index>(i)), on_surface[i] != 0))
+        point.nodes.push_back(tissue.nodes[i]);
+    if (point.nodes.empty())
+      throw InputError(load.where,
+                       fmt::format("no node of tissue `{}` lies in the loaded region", load.body));
+    point.weights.assign(point.nodes.size(), 1.0 / static_cast<double>(point.nodes.size()));
+    return point;
+  }
+
+  void add_contact(int a, int b, std::optional<double> stiffness) {
+    const auto& A = model_.bodies[static_cast<std::size_t>(a)].collider;
+    const auto& B = model_.bodies[static_cast<std::size_t>(b)].collider;
+    if (!A || !B) return;
+    const double chosen = 1 / (1 / A->stiffness + 1 / B->stiffness);
+    model_.contacts.push_back({a, b, stiffness.value_or(chosen)});
+  }
+
+  void make_contacts() {
+    if (!scenario().contact) return;
+    for (const ContactPair& pair : scenario().contacts) {
+      const int a = body_index(pair.a), b = body_index(pair.b);
+      for (const int body : {a, b})
+        if (!model_.bodies[static_cast<std::size_t>(body)].collider)
+          throw InputError(pair.where,
+                           fmt::format("body `{}` has nothing to touch with: it needs a mesh and "
+                                       "must not have collides = false",
+                                       model_.bodies[static_cast<std::size_t>(body)].name));
+      add_contact(a, b, pair.stiffness);
+    }
+    if (!scenario().contacts.empty()) return;
+    const auto n = static_cast<int>(model_.bodies.size());
+    for (int a = 0; a < n; ++a)
+      for (int b = a + 1; b < n; ++b) {
+        const auto fixed = [&](int body) {
+          return model_.bodies[static_cast<std::size_t>(body)].kind == Body::Kind::Fixed;
+        };
+        if (!(fixed(a) && fixed(b))) add_contact(a, b, {});
+      }
+  }
+
+  void make_probes() {
+    for (const Probe& probe : scenario().probes) {
+      ProbeModel p;
+      p.given = probe;
+      if (probe.kind == Probe::Kind::Point) p.point = resolve(probe.anchor);
+      if (!probe.body.empty()) p.body = body_index(probe.body);
+      if (!probe.other.empty()) p.other = body_index(probe.other);
+      if (probe.kind == Probe::Kind::Line)
+        for (std::size_t l = 0; l < model_.lines.size(); ++l)
+          if (model_.lines[l].name == probe.line) p.line = static_cast<int>(l);
+      model_.probes.push_back(std::move(p));
+    }
+  }
+
+  Model model_;
+  std::vector<Geometry> geometry_;             // one a body
+  std::vector<collision::Surface> surface_;    // one a tissue
+  mutable Positions free_start_;               // of the free tissue nodes, by block
+};
+
+}  // namespace
+
+Model build_model(Scenario scenario) { return Builder(std::move(scenario)).build(); }
+
+double value_at(const Curve& curve, double t) {
+  if (curve.time.empty()) return 1;
+  if (t <= curve.time.front()) return curve.value.front();
+  if (t >= curve.time.back()) return curve.value.back();
+  const auto next = std::upper_bound(curve.time.begin(), curve.time.end(), t);
+  const auto i = static_cast<std::size_t>(next - curve.time.begin());
+  const double s = (t - curve.time[i - 1]) / (curve.time[i] - curve.time[i - 1]);
+  return curve.value[i - 1] + s * (curve.value[i] - curve.value[i - 1]);
+}
+
+Eigen::VectorXd initial_state(const Model& model) {
+  const Layout& layout = model.layout;
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(layout.size());
+  for (const Tissue& tissue : model.tissues) {
+    const Vec3& velocity = model.scenario.bodies[static_cast<std::size_t>(tissue.body)].velocity;
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+      const NodeRef& node = tissue.nodes[i];
+      if (node.bone >= 0) continue;
+      y.segment<3>(layout.node_x(node.block)) = tissue.X.col(static_cast<Eigen::Index>(i));
+      y.segment<3>(layout.velocities() + 3 * node.block) = velocity;
+    }
+  }
+  for (int r = 0; r < layout.num_rigid; ++r) {
+    const Bone& bone = model.bones[static_cast<std::size_t>(r)];
+    y.segment<3>(layout.bone_p(r)) = bone.rest.p;
+    y[layout.bone_q(r)] = 1;
+    y.segment<3>(layout.velocities() + 3 * bone.block) = bone.start.linear;
+    y.segment<3>(layout.velocities() + 3 * bone.block + 3) = bone.start.angular;
+  }
+  for (int m = 0; m < layout.num_muscles; ++m) {
+    const Curve& excitation = model.muscles[static_cast<std::size_t>(m)].given.excitation;
+    y[layout.activations() + m] = excitation.time.empty() ? 0 : value_at(excitation, 0);
+  }
+  return y;
+}
+
+}  // namespace articular::sim

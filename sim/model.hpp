@@ -1,0 +1,154 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collision/surface.hpp"
+#include "fem/elasticity.hpp"
+#include "sim/rigid_body.hpp"
+#include "sim/scenario.hpp"
+
+/// The scenario made ready to compute: immutable, holding only what the scene requires.
+///
+/// Unknown velocities come in blocks of three: one block a free tissue node, then two a rigid bone
+/// (velocity of its centre of mass, angular velocity). Bones that are fixed or driven have two blocks
+/// too, after all unknown ones: forces on them are reactions.
+namespace articular::sim {
+
+/// A point of a body by what moves it: a free tissue node's block, or a bone's two blocks and the
+/// point's place in the bone's frame.
+struct NodeRef {
+  int block = 0;       // first block
+  int bone = -1;       // index into Model::bones, or -1 for a free node
+  Vec3 local = Vec3::Zero();  // in the bone's frame [m]
+};
+
+struct Bone {
+  int body = 0;          // index into Model::bodies
+  int block = 0;         // translation; rotation is the next
+  bool unknown = false;  // rigid: its motion is solved for
+  Pose rest;             // p: centre of mass (rigid) or origin of the mesh's box (fixed); R = I
+  RigidVelocity start;   // at t = 0
+  MassProperties mass;   // with the tissue that it carries
+  std::optional<Motion> motion;  // driven
+};
+
+/// What of a body can touch: tetrahedra with their surface. Tissue: its own mesh. Bone: its mesh, or
+/// a shell of tetrahedra under its surfaces.
+struct Collider {
+  Positions X;      // at the start, world [m]
+  Tetrahedra tets;
+  collision::Surface surface;
+  std::vector<NodeRef> nodes;      // what moves each node
+  std::vector<char> outer;         // per face: takes part (inner faces of a shell do not)
+  std::vector<double> face_area;   // at the start [m²]
+  std::vector<int> nearby_begin, nearby;  // per tetrahedron: outer faces around it
+  double stiffness = 0;  // contact stiffness of this side [Pa/m]
+  double reach = 0;      // [m] depth up to which a crossed face is found
+  double size = 0;       // [m] mean height of the elements at the surface
+};
+
+struct Tissue {
+  int body = 0;
+  fem::Elasticity elasticity;
+  Eigen::VectorXd lumped_mass;   // [kg], one a node
+  std::vector<NodeRef> nodes;    // what moves each node
+  Positions X;                   // at the start, world [m]
+};
+
+struct BodyModel {
+  std::string name;
+  Body::Kind kind = Body::Kind::Fixed;
+  int tissue = -1;  // index into Model::tissues
+  int bone = -1;    // index into Model::bones
+  Positions X;      // bones: what is drawn, in the bone's frame [m]
+  Triangles triangles;
+  std::optional<Collider> collider;
+};
+
+/// A point of a line or a load: a bone's point, or a mean over tissue nodes.
+struct WeightedPoint {
+  std::vector<NodeRef> nodes;
+  std::vector<double> weights;  // sum 1
+};
+
+struct Line {
+  std::string name;
+  std::vector<WeightedPoint> path;
+  double start_length = 0;  // [m]
+  int muscle = -1;          // index into Model::muscles
+  int ligament = -1;        // index into Model::ligaments
+};
+
+struct MuscleModel {
+  Muscle given;
+  double optimal_length = 0;  // [m]
+  int line = 0;
+};
+
+struct LigamentModel {
+  Ligament given;
+  double slack_length = 0;  // [m]
+  int line = 0;
+};
+
+struct ForceModel {
+  WeightedPoint point;
+  Vec3 force = Vec3::Zero();
+  Curve profile;
+};
+
+struct ContactModel {
+  int a = 0, b = 0;      // bodies; a == b: with itself
+  double stiffness = 0;  // [Pa/m]
+};
+
+struct ProbeModel {
+  Probe given;
+  WeightedPoint point;  // Point
+  int body = -1, other = -1, line = -1;
+};
+
+/// Where everything stands in the state vector y:
+/// [free tissue x | per rigid bone: p, quaternion (w x y z) | free tissue v | per rigid bone: v, ω | activations]
+struct Layout {
+  int num_free_nodes = 0, num_rigid = 0, num_muscles = 0;
+
+  int num_unknown_blocks() const { return num_free_nodes + 2 * num_rigid; }
+  int node_x(int block) const { return 3 * block; }
+  int bone_p(int r) const { return 3 * num_free_nodes + 7 * r; }
+  int bone_q(int r) const { return bone_p(r) + 3; }
+  int velocities() const { return 3 * num_free_nodes + 7 * num_rigid; }  // in the order of the blocks
+  int activations() const { return velocities() + 3 * num_unknown_blocks(); }
+  int size() const { return activations() + num_muscles; }
+};
+
+struct Model {
+  Scenario scenario;
+  std::vector<BodyModel> bodies;
+  std::vector<Tissue> tissues;
+  std::vector<Bone> bones;  // rigid ones first: bone r < layout.num_rigid is unknown
+  std::vector<Line> lines;
+  std::vector<MuscleModel> muscles;
+  std::vector<LigamentModel> ligaments;
+  std::vector<ForceModel> forces;
+  std::vector<ContactModel> contacts;
+  std::vector<ProbeModel> probes;
+  Vec3 gravity = Vec3::Zero();  // [m/s²]
+  Layout layout;
+  int num_blocks = 0;  // with the blocks of fixed and driven bones
+  std::vector<std::string> warnings;
+};
+
+/// Reads the meshes, resolves names and checks what only the geometry can tell.
+/// @throws InputError
+Model build_model(Scenario scenario);
+
+/// y at t = 0.
+Eigen::VectorXd initial_state(const Model& model);
+
+/// A curve's value at a time; 1 for the empty curve.
+double value_at(const Curve& curve, double t);
+
+}  // namespace articular::sim

@@ -1,0 +1,97 @@
+#include "sim/rigid_body.hpp"
+
+#include <algorithm>
+
+namespace articular::sim {
+
+Mat3 rotation_matrix(const Vec3& rotation_vector) {
+  const double angle = rotation_vector.norm();
+  if (angle == 0) return Mat3::Identity();
+  return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
+}
+
+MassProperties solid_mass_properties(const Positions& X, const Triangles& surface, double density) {
+  // Sum over the tetrahedra (origin, a, b, c); moments of a tetrahedron with one corner at the
+  // origin: ∫x dV = V/4 Σx, ∫x xᵀ dV = V/20 (Σ x xᵀ + (Σx)(Σx)ᵀ).
+  const Vec3 origin = X.rowwise().mean();  // near the body: less cancellation
+  double volume = 0;
+  Vec3 first = Vec3::Zero();
+  Mat3 second = Mat3::Zero();
+  for (Eigen::Index f = 0; f < surface.cols(); ++f) {
+    Mat3 corner;
+    for (int k = 0; k < 3; ++k) corner.col(k) = X.col(surface(k, f)) - origin;
+    const double v = corner.determinant() / 6;
+    const Vec3 sum = corner.rowwise().sum();
+    volume += v;
+    first += v / 4 * sum;
+    second += v / 20 * (corner * corner.transpose() + sum * sum.transpose());
+  }
+  MassProperties result;
+  result.mass = density * volume;
+  const Vec3 center = first / volume;
+  const Mat3 central = density * (second - volume * center * center.transpose());
+  result.center = origin + center;
+  result.inertia = central.trace() * Mat3::Identity() - central;
+  return result;
+}
+
+MassProperties join(const MassProperties& a, const MassProperties& b) {
+  MassProperties result;
+  result.mass = a.mass + b.mass;
+  if (result.mass == 0) return a;
+  result.center = (a.mass * a.center + b.mass * b.center) / result.mass;
+  result.inertia = Mat3::Zero();
+  for (const MassProperties* part : {&a, &b}) {
+    const Vec3 r = part->center - result.center;  // parallel axes
+    result.inertia += part->inertia +
+                      part->mass * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+  }
+  return result;
+}
+
+namespace {
+
+struct PathPoint {
+  Vec3 value = Vec3::Zero(), rate = Vec3::Zero();
+};
+
+/// A vector along the motion's times, and its derivative.
+PathPoint along(const Motion& motion, const std::vector<Vec3>& values, double t) {
+  if (values.empty()) return {};
+  if (t <= motion.time.front()) return {values.front(), Vec3::Zero()};
+  if (t >= motion.time.back()) return {values.back(), Vec3::Zero()};
+  const auto next = std::upper_bound(motion.time.begin(), motion.time.end(), t);
+  const auto i = static_cast<std::size_t>(next - motion.time.begin());
+  const double duration = motion.time[i] - motion.time[i - 1];
+  const double s = (t - motion.time[i - 1]) / duration;
+  const double blend = motion.smooth ? s * s * (3 - 2 * s) : s;
+  const double rate = (motion.smooth ? 6 * s * (1 - s) : 1) / duration;
+  const Vec3 change = values[i] - values[i - 1];
+  return {values[i - 1] + blend * change, rate * change};
+}
+
+}  // namespace
+
+Pose driven_pose(const Motion& motion, const Pose& rest, double t) {
+  const Mat3 R = rotation_matrix(along(motion, motion.rotation, t).value);
+  const Vec3 shift = along(motion, motion.translation, t).value;
+  return {motion.about + R * (rest.p - motion.about) + shift, R * rest.R};
+}
+
+RigidVelocity driven_velocity(const Motion& motion, const Pose& rest, double t) {
+  const PathPoint rotation = along(motion, motion.rotation, t);
+  // ω of a rotation vector θ(t): with a = |θ|, n = θ/a:
+  // ω = n (n·θ̇) + sin a / a (θ̇ - n (n·θ̇)) + (1 - cos a)/a n × θ̇
+  const double a = rotation.value.norm();
+  Vec3 omega = rotation.rate;
+  if (a > 1e-9) {
+    const Vec3 n = rotation.value / a;
+    const Vec3 parallel = n * n.dot(rotation.rate);
+    omega = parallel + std::sin(a) / a * (rotation.rate - parallel) +
+            (1 - std::cos(a)) / a * n.cross(rotation.rate);
+  }
+  const Vec3 lever = rotation_matrix(rotation.value) * (rest.p - motion.about);
+  return {along(motion, motion.translation, t).rate + omega.cross(lever), omega};
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "sim/mesh_io.hpp"
+#include "sim/scenario.hpp"
+
+namespace articular::sim {
+
+/// The built-in geometries as tetrahedra, six a hexahedral cell, all positive.
+MeshData box_mesh(const BoxGeometry& box);
+MeshData sphere_mesh(const SphereGeometry& sphere);
+MeshData v_shape_mesh(const VShapeGeometry& v);
+
+/// x -> scale R (x - about) + about + translation, for every column.
+void place(const Placement& placement, Positions& X);
+
+}  // namespace articular::sim

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "fem/block_matrix.hpp"
+#include "sim/configuration.hpp"
+
+namespace articular::sim {
+
+/// Blocks of unknowns that a set of nodes moves with; fixed and driven bones have none.
+void append_blocks(const Model& model, const NodeRef& node, std::vector<int>& blocks);
+
+/// Lists of blocks that are coupled, from which a pattern is built.
+struct Stencils {
+  std::vector<int> blocks, offsets{0};
+  void close() { offsets.push_back(static_cast<int>(blocks.size())); }
+};
+
+/// A += stiffness between two nodes, carried over to bones by their levers. Adds block (i, j) only:
+/// call it for (j, i) with the transpose too.
+void add_stiffness(const Model& model, const Configuration& configuration, const NodeRef& i,
+                   const NodeRef& j, const Mat3& stiffness, fem::BlockMatrix& A);
+
+}  // namespace articular::sim
