@@ -1,0 +1,251 @@
+#include "sim/dynamics.hpp"
+
+#include <algorithm>
+
+#include "sim/stopwatch.hpp"
+
+namespace articular::sim {
+
+Dynamics::Dynamics(const Model& model) : model_(model) {
+  f_.resize(3 * model.num_blocks);
+  mass_nodes_.resize(static_cast<std::size_t>(model.layout.num_free_nodes));
+  for (std::size_t t = 0; t < model.tissues.size(); ++t) {
+    const Tissue& tissue = model.tissues[t];
+    tissues_.push_back({Positions(3, tissue.X.cols()), Positions(3, tissue.X.cols()),
+                        tissue.elasticity.make_matrix(), {}});
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+      if (tissue.nodes[i].bone < 0)
+        mass_nodes_[static_cast<std::size_t>(tissue.nodes[i].block)] = {static_cast<int>(t),
+                                                                        static_cast<int>(i)};
+    const Tetrahedra& tets = tissue.elasticity.tets();
+    for (Eigen::Index e = 0; e < tets.cols(); ++e) {
+      for (int k = 0; k < 4; ++k)
+        append_blocks(model, tissue.nodes[static_cast<std::size_t>(tets(k, e))], base_.blocks);
+      base_.close();
+    }
+  }
+  for (int r = 0; r < model.layout.num_rigid; ++r) {
+    const int block = model.bones[static_cast<std::size_t>(r)].block;
+    base_.blocks.insert(base_.blocks.end(), {block, block + 1});
+    base_.close();
+  }
+  for (const Line& line : model.lines) append_stencil(model, line, base_);
+  build_pattern();
+}
+
+void Dynamics::forget() {
+  if (contact_couplings_.blocks.empty()) return;
+  contact_couplings_ = {};
+  build_pattern();
+}
+
+void Dynamics::set_candidates(const std::vector<CandidateList>& candidates) {
+  candidates_ = &candidates;
+  const std::size_t known = contact_couplings_.blocks.size();
+  append_missing_stencils(model_, candidates, A_, contact_couplings_);
+  if (contact_couplings_.blocks.size() > known) build_pattern();
+}
+
+void Dynamics::build_pattern() {
+  Stencils all = base_;
+  for (std::size_t s = 0; s + 1 < contact_couplings_.offsets.size(); ++s) {
+    all.blocks.insert(all.blocks.end(),
+                      contact_couplings_.blocks.begin() + contact_couplings_.offsets[s],
+                      contact_couplings_.blocks.begin() + contact_couplings_.offsets[s + 1]);
+    all.close();
+  }
+  A_ = fem::BlockMatrix(model_.layout.num_unknown_blocks(), all.blocks, all.offsets);
+  for (std::size_t t = 0; t < tissues_.size(); ++t) {
+    TissueWork& work = tissues_[t];
+    const auto& nodes = model_.tissues[t].nodes;
+    work.slot.assign(static_cast<std::size_t>(work.K.num_nonzero_blocks()), -1);
+    for (int i = 0; i < work.K.num_blocks(); ++i)
+      for (int s = work.K.row_begin()[static_cast<std::size_t>(i)];
+           s < work.K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
+        const int j = work.K.column()[static_cast<std::size_t>(s)];
+        const NodeRef &p = nodes[static_cast<std::size_t>(i)],
+                      &q = nodes[static_cast<std::size_t>(j)];
+        if (p.bone < 0 && q.bone < 0)
+          work.slot[static_cast<std::size_t>(s)] = A_.slot(p.block, q.block);
+      }
+  }
+}
+
+void Dynamics::evaluate(const double* y, double t) {
+  read_state(model_, y, t, configuration_);
+  f_.setZero();
+  {
+    const Stopwatch watch(times_.elastic_force);
+    for (std::size_t k = 0; k < tissues_.size(); ++k) {
+      const Tissue& tissue = model_.tissues[k];
+      TissueWork& work = tissues_[k];
+      positions_of(configuration_, tissue.nodes, work.x);
+      work.f.setZero();
+      tissue.elasticity.add_internal_force(work.x, work.f);
+      for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+        const auto column = static_cast<Eigen::Index>(i);
+        Vec3 force = -work.f.col(column);
+        if (tissue.nodes[i].bone < 0) force += tissue.lumped_mass[column] * model_.gravity;
+        add_force(configuration_, tissue.nodes[i], force, f_);
+      }
+    }
+  }
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
+    f_.segment<3>(3 * bone.block) += bone.mass.mass * model_.gravity;
+  }
+  for (const ForceModel& force : model_.forces)
+    add_force(configuration_, force.point, value_at(force.profile, t) * force.force, f_);
+  lines_.resize(model_.lines.size());
+  for (std::size_t l = 0; l < model_.lines.size(); ++l) {
+    lines_[l] = line_state(model_, model_.lines[l], configuration_);
+    add_line_force(model_.lines[l], configuration_, lines_[l].tension, f_);
+  }
+  if (candidates_ != nullptr) {
+    const Stopwatch watch(times_.contact_force);
+    add_contact_force(model_, configuration_, *candidates_, f_, contacts_);
+  }
+}
+
+Mat3 Dynamics::world_inertia(int bone) const {
+  const Mat3& R = configuration_.poses[static_cast<std::size_t>(bone)].R;
+  return R * model_.bones[static_cast<std::size_t>(bone)].mass.inertia * R.transpose();
+}
+
+double Dynamics::activation_time(const double* y, double t, int muscle) const {
+  const Muscle& m = model_.muscles[static_cast<std::size_t>(muscle)].given;
+  const double u = m.excitation.time.empty() ? 0 : value_at(m.excitation, t);
+  return u >= y[model_.layout.activations() + muscle] ? m.activation_time : m.deactivation_time;
+}
+
+void Dynamics::rate(const double* y, double* y_dot) const {
+  const Layout& layout = model_.layout;
+  const auto velocity = [&](int block) {
+    return Eigen::Map<const Vec3>(y + layout.velocities() + 3 * block);
+  };
+  const auto acceleration = [&](int block) {
+    return Eigen::Map<Vec3>(y_dot + layout.velocities() + 3 * block);
+  };
+  for (int block = 0; block < layout.num_free_nodes; ++block) {
+    const auto [t, node] = mass_nodes_[static_cast<std::size_t>(block)];
+    Eigen::Map<Vec3>(y_dot + layout.node_x(block)) = velocity(block);
+    acceleration(block) =
+        f_.segment<3>(3 * block) / model_.tissues[static_cast<std::size_t>(t)].lumped_mass[node];
+  }
+  for (int r = 0; r < layout.num_rigid; ++r) {
+    const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
+    const Vec3 omega = velocity(bone.block + 1);
+    Eigen::Map<Vec3>(y_dot + layout.bone_p(r)) = velocity(bone.block);
+    // q̇ = ½ ω ⊗ q, q = (w, x, y, z).
+    const double* q = y + layout.bone_q(r);
+    const Eigen::Quaterniond turned =
+        Eigen::Quaterniond(0, omega.x(), omega.y(), omega.z()) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+    double* q_dot = y_dot + layout.bone_q(r);
+    q_dot[0] = 0.5 * turned.w();
+    q_dot[1] = 0.5 * turned.x();
+    q_dot[2] = 0.5 * turned.y();
+    q_dot[3] = 0.5 * turned.z();
+    const Mat3 inertia = world_inertia(r);
+    acceleration(bone.block) = f_.segment<3>(3 * bone.block) / bone.mass.mass;
+    acceleration(bone.block + 1) =
+        inertia.llt().solve(f_.segment<3>(3 * bone.block + 3) - omega.cross(inertia * omega));
+  }
+  for (int m = 0; m < layout.num_muscles; ++m) {
+    const Curve& excitation = model_.muscles[static_cast<std::size_t>(m)].given.excitation;
+    const double u = excitation.time.empty() ? 0 : value_at(excitation, configuration_.t);
+    const int i = layout.activations() + m;
+    y_dot[i] = (u - y[i]) / activation_time(y, configuration_.t, m);
+  }
+}
+
+void Dynamics::multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const {
+  r.resize(b.size());
+  for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
+    const auto [t, node] = mass_nodes_[static_cast<std::size_t>(block)];
+    r.segment<3>(3 * block) =
+        model_.tissues[static_cast<std::size_t>(t)].lumped_mass[node] * b.segment<3>(3 * block);
+  }
+  for (int k = 0; k < model_.layout.num_rigid; ++k) {
+    const Bone& bone = model_.bones[static_cast<std::size_t>(k)];
+    r.segment<3>(3 * bone.block) = bone.mass.mass * b.segment<3>(3 * bone.block);
+    r.segment<3>(3 * bone.block + 3) = world_inertia(k) * b.segment<3>(3 * bone.block + 3);
+  }
+}
+
+void Dynamics::add_tissue_stiffness(std::size_t t, double gamma, fem::Tangent tangent) {
+  const Tissue& tissue = model_.tissues[t];
+  TissueWork& work = tissues_[t];
+  work.K.set_zero();
+  tissue.elasticity.add_stiffness(work.x, tangent, gamma * gamma, work.K);
+  for (int i = 0; i < work.K.num_blocks(); ++i)
+    for (int s = work.K.row_begin()[static_cast<std::size_t>(i)];
+         s < work.K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
+      const int slot = work.slot[static_cast<std::size_t>(s)];
+      if (slot >= 0) {
+        A_.block(slot) += work.K.block(s);
+        continue;
+      }
+      const int j = work.K.column()[static_cast<std::size_t>(s)];
+      add_stiffness(model_, configuration_, tissue.nodes[static_cast<std::size_t>(i)],
+                    tissue.nodes[static_cast<std::size_t>(j)], work.K.block(s), A_);
+    }
+}
+
+const fem::BlockMatrix& Dynamics::matrix(double gamma, fem::Tangent tangent) {
+  const Stopwatch watch(times_.assembly);
+  A_.set_zero();
+  for (std::size_t t = 0; t < tissues_.size(); ++t) add_tissue_stiffness(t, gamma, tangent);
+  for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
+    const auto [t, node] = mass_nodes_[static_cast<std::size_t>(block)];
+    A_.block(A_.slot(block, block)) +=
+        model_.tissues[static_cast<std::size_t>(t)].lumped_mass[node] * Mat3::Identity();
+  }
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
+    A_.block(A_.slot(bone.block, bone.block)) += bone.mass.mass * Mat3::Identity();
+    A_.block(A_.slot(bone.block + 1, bone.block + 1)) += world_inertia(r);
+  }
+  for (std::size_t l = 0; l < model_.lines.size(); ++l)
+    add_line_stiffness(model_, model_.lines[l], configuration_, lines_[l], gamma, A_);
+  if (candidates_ != nullptr)
+    add_contact_stiffness(model_, configuration_, *candidates_, gamma, A_);
+  return A_;
+}
+
+double Dynamics::kinetic_energy() const {
+  double energy = 0;
+  for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
+    const auto [t, node] = mass_nodes_[static_cast<std::size_t>(block)];
+    energy += 0.5 * model_.tissues[static_cast<std::size_t>(t)].lumped_mass[node] *
+              configuration_.v.col(block).squaredNorm();
+  }
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const auto& velocity = configuration_.velocities[static_cast<std::size_t>(r)];
+    energy += 0.5 * model_.bones[static_cast<std::size_t>(r)].mass.mass *
+              velocity.linear.squaredNorm();
+    energy += 0.5 * velocity.angular.dot(world_inertia(r) * velocity.angular);
+  }
+  return energy;
+}
+
+double Dynamics::elastic_energy() const {
+  double energy = 0;
+  for (std::size_t t = 0; t < tissues_.size(); ++t)
+    energy += model_.tissues[t].elasticity.energy(tissues_[t].x);
+  return energy;
+}
+
+double Dynamics::gravity_energy() const {
+  double energy = 0;
+  for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
+    const auto [t, node] = mass_nodes_[static_cast<std::size_t>(block)];
+    energy -= model_.tissues[static_cast<std::size_t>(t)].lumped_mass[node] *
+              model_.gravity.dot(configuration_.x.col(block));
+  }
+  for (int r = 0; r < model_.layout.num_rigid; ++r)
+    energy -= model_.bones[static_cast<std::size_t>(r)].mass.mass *
+              model_.gravity.dot(configuration_.poses[static_cast<std::size_t>(r)].p);
+  return energy;
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "sim/contact_force.hpp"
+#include "sim/line_force.hpp"
+
+/// Forces, rates and the Newton matrix of the whole scene.
+namespace articular::sim {
+
+/// Wall time by phase [s].
+struct DynamicsTimes {
+  double elastic_force = 0, contact_force = 0, assembly = 0;
+};
+
+class Dynamics {
+ public:
+  explicit Dynamics(const Model& model);
+
+  /// The candidates for the coming step; their couplings enter the pattern.
+  void set_candidates(const std::vector<CandidateList>& candidates);
+  /// Drops what depends on the past (couplings of earlier candidates).
+  void forget();
+
+  /// Reads y and computes all forces there. Block forces: 3 entries a block, reactions included.
+  void evaluate(const double* y, double t);
+  const Configuration& configuration() const { return configuration_; }
+  const Eigen::VectorXd& forces() const { return f_; }
+  const std::vector<LineState>& lines() const { return lines_; }
+  const std::vector<ContactSummary>& contacts() const { return contacts_; }
+
+  /// ẏ from the forces of the last evaluate().
+  void rate(const double* y, double* y_dot) const;
+
+  /// M + gamma D + gamma² K at the last evaluate(), over the unknown blocks.
+  const fem::BlockMatrix& matrix(double gamma, fem::Tangent tangent);
+
+  /// r = M b for block velocities b.
+  void multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const;
+
+  /// Time constant of a muscle's activation now [s].
+  double activation_time(const double* y, double t, int muscle) const;
+
+  double kinetic_energy() const;   // at the last evaluate() [J]
+  double elastic_energy() const;   // of the tissues [J]
+  double gravity_energy() const;   // [J], of all unknown masses
+  DynamicsTimes& times() { return times_; }
+
+ private:
+  struct TissueWork {
+    Positions x, f;
+    fem::BlockMatrix K;
+    std::vector<int> slot;  // of each block of K in the matrix; -1: a bone is involved
+  };
+  void build_pattern();
+  void add_tissue_stiffness(std::size_t t, double gamma, fem::Tangent tangent);
+  Mat3 world_inertia(int bone) const;
+
+  const Model& model_;
+  const std::vector<CandidateList>* candidates_ = nullptr;
+  Configuration configuration_;
+  Eigen::VectorXd f_;
+  std::vector<LineState> lines_;
+  std::vector<ContactSummary> contacts_;
+  std::vector<TissueWork> tissues_;
+  std::vector<std::pair<int, int>> mass_nodes_;  // tissue, node of each free block
+  Stencils base_, contact_couplings_;
+  fem::BlockMatrix A_;
+  DynamicsTimes times_;
+};
+
+}  // namespace articular::sim
