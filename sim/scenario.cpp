@@ -1,0 +1,33 @@
+#include "sim/scenario.hpp"
+
+#include "sim/scenario_reader.hpp"
+#include "sim/toml_override.hpp"
+
+namespace articular::sim {
+
+Scenario read_scenario(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides) {
+  Node root = read_toml(file);
+  for (const std::string& text : overrides) apply_override(root, text);
+  const TableReader document(
+      root, "scenario",
+      {"title", "duration", "accuracy", "contact", "integrator", "detection", "output", "body",
+       "attach", "muscle", "muscle_table", "ligament", "load", "probe"});
+  Scenario scenario;
+  scenario.file = file;
+  scenario.name = file.stem().string();
+  const std::filesystem::path folder = file.parent_path();
+  read_settings(document, scenario);
+  scenario.bodies = read_bodies(document, folder);
+  const Context context{folder, scenario.bodies};
+  scenario.attachments = read_attachments(document, context);
+  scenario.muscles = read_muscles(document, context);
+  scenario.ligaments = read_ligaments(document, context, scenario.muscles);
+  scenario.loads = read_loads(document, context);
+  read_contacts(document, context, scenario);
+  scenario.probes = read_probes(document, context, scenario.muscles, scenario.ligaments);
+  scenario.settings_json = settings_as_json(scenario);
+  return scenario;
+}
+
+}  // namespace articular::sim

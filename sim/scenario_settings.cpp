@@ -1,0 +1,132 @@
+// Title, times, presets, integrator, detection and output of a scenario, and the record of them.
+#include <nlohmann/json.hpp>
+
+#include "sim/scenario_reader.hpp"
+
+namespace articular::sim {
+namespace {
+
+using Accuracy = Scenario::Accuracy;
+
+/// The presets; [integrator] overrides each setting.
+Integrator preset(Accuracy accuracy) {
+  Integrator integrator;
+  switch (accuracy) {
+    case Accuracy::Fast:
+      integrator.step = 2e-3;
+      break;
+    case Accuracy::Balanced:
+      break;
+    case Accuracy::Accurate:
+      integrator.step = 0.5e-3;
+      integrator.position_tolerance = 0.02e-6;
+      break;
+  }
+  return integrator;
+}
+
+void read_integrator(const Node& node, Integrator& integrator) {
+  constexpr int kMostIterations = 1000;
+  const TableReader table(
+      node, "[integrator]",
+      {"scheme", "step", "solver", "position_tolerance", "max_iterations", "min_step"});
+  table.may("scheme", integrator.scheme, [](const Node& n) {
+    return read_choice<Integrator::Scheme>(n,
+                                           {{"implicit-euler", Integrator::Scheme::ImplicitEuler},
+                                            {"tr-bdf2", Integrator::Scheme::TrBdf2}});
+  });
+  table.may("solver", integrator.solver, [](const Node& n) {
+    return read_choice<Integrator::Solver>(
+        n, {{"cholesky", Integrator::Solver::Cholesky},
+            {"conjugate-gradients", Integrator::Solver::ConjugateGradients}});
+  });
+  table.may("step", integrator.step, quantity(kTime, kPositive));
+  table.may("position_tolerance", integrator.position_tolerance, quantity(kLength, kPositive));
+  table.may("max_iterations", integrator.max_iterations,
+            [](const Node& n) { return read_integer(n, 1, kMostIterations); });
+  table.may("min_step", integrator.min_step, quantity(kTime, kPositive));
+  if (integrator.min_step > integrator.step)
+    throw InputError(node.where,
+                     fmt::format("[integrator]: `min_step` ({} s) must not exceed `step` ({} s)",
+                                 integrator.min_step, integrator.step));
+}
+
+void read_detection(const Node& node, Detection& detection) {
+  const TableReader table(node, "[detection]", {"narrow", "margin", "bucket_ratio"});
+  // The only choice so far, so that nothing is kept of it.
+  if (const Node* narrow = table.find("narrow"))
+    read_choice<Detection::Narrow>(*narrow, {{"gjk", Detection::Narrow::Gjk}});
+  table.may("margin", detection.margin, quantity(kLength, kNotNegative));
+  table.may("bucket_ratio", detection.bucket_ratio, number(kPositive));
+}
+
+void read_output(const Node& node, Output& output) {
+  const TableReader table(node, "[output]",
+                          {"interval", "length_unit", "directory", "checkpoint_interval"});
+  table.may("interval", output.interval, quantity(kTime, kPositive));
+  if (const Node* unit = table.find("length_unit")) {
+    output.length_unit = read_choice<double>(*unit, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
+    output.length_unit_name = *unit->text();
+  }
+  table.may("directory", output.directory, read_text);
+  table.may("checkpoint_interval", output.checkpoint_interval, quantity(kTime, kPositive));
+}
+
+nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
+  if (!scenario.contact) return false;
+  if (scenario.contacts.empty()) return "every pair";
+  auto pairs = nlohmann::ordered_json::array();
+  for (const ContactPair& pair : scenario.contacts) {
+    nlohmann::ordered_json entry{{"bodies", {pair.a, pair.b}}};
+    if (pair.stiffness) entry["stiffness_Pa_per_m"] = *pair.stiffness;
+    pairs.push_back(std::move(entry));
+  }
+  return pairs;
+}
+
+}  // namespace
+
+void read_settings(const TableReader& document, Scenario& scenario) {
+  scenario.title = scenario.name;
+  document.may("title", scenario.title, read_text);
+  scenario.duration = read_quantity(document.at("duration"), kTime, kPositive);
+  document.may("accuracy", scenario.accuracy, [](const Node& n) {
+    return read_choice<Accuracy>(n, {{"fast", Accuracy::Fast},
+                                     {"balanced", Accuracy::Balanced},
+                                     {"accurate", Accuracy::Accurate}});
+  });
+  scenario.integrator = preset(scenario.accuracy);
+  if (const Node* node = document.find("integrator")) read_integrator(*node, scenario.integrator);
+  if (const Node* node = document.find("detection")) read_detection(*node, scenario.detection);
+  if (const Node* node = document.find("output")) read_output(*node, scenario.output);
+}
+
+std::string settings_as_json(const Scenario& scenario) {
+  const Integrator& integrator = scenario.integrator;
+  const Output& output = scenario.output;
+  constexpr const char* kAccuracies[] = {"fast", "balanced", "accurate"};
+  nlohmann::ordered_json json;
+  json["title"] = scenario.title;
+  json["duration_s"] = scenario.duration;
+  json["accuracy"] = kAccuracies[static_cast<int>(scenario.accuracy)];
+  json["contact"] = contact_as_json(scenario);
+  json["integrator"] = {
+      {"scheme",
+       integrator.scheme == Integrator::Scheme::ImplicitEuler ? "implicit-euler" : "tr-bdf2"},
+      {"step_s", integrator.step},
+      {"solver",
+       integrator.solver == Integrator::Solver::Cholesky ? "cholesky" : "conjugate-gradients"},
+      {"position_tolerance_m", integrator.position_tolerance},
+      {"max_iterations", integrator.max_iterations},
+      {"min_step_s", integrator.min_step}};
+  json["detection"] = {{"narrow", "gjk"},
+                       {"margin_m", scenario.detection.margin},
+                       {"bucket_ratio", scenario.detection.bucket_ratio}};
+  json["output"] = {{"interval_s", output.interval}, {"length_unit", output.length_unit_name}};
+  if (output.directory) json["output"]["directory"] = output.directory->string();
+  if (output.checkpoint_interval)
+    json["output"]["checkpoint_interval_s"] = *output.checkpoint_interval;
+  return json.dump(2);
+}
+
+}  // namespace articular::sim
