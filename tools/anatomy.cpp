@@ -1,0 +1,85 @@
+#include "tools/anatomy.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+#include "sim/error.hpp"
+#include "sim/mesh_io.hpp"
+
+namespace articular::anatomy {
+namespace {
+
+constexpr double kMillimetre = 1e-3;  // [m]
+
+/// Beside the file, then renamed: it appears whole or not at all.
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::filesystem::path part = file;
+  part += ".part";
+  std::ofstream stream(part, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw sim::SystemError(fmt::format("{}: cannot be written", file.string()));
+  std::filesystem::rename(part, file);
+}
+
+int run_mandible(double size_mm, const std::filesystem::path& folder) {
+  try {
+    const Anatomy anatomy = mandible_anatomy(size_mm);
+    write_anatomy(anatomy, folder);
+    for (const auto& [name, mesh] : anatomy.meshes)
+      fmt::print("{}: {} nodes, {} {}\n", (folder / name).string(), mesh.X_mm.cols(),
+                 mesh.tets.cols() > 0 ? mesh.tets.cols() : mesh.triangles.cols(),
+                 mesh.tets.cols() > 0 ? "tetrahedra" : "triangles");
+    fmt::print("{}: {} muscles\n", (folder / "muscles.csv").string(), anatomy.muscles.size());
+    fmt::print("{}: {} points\n", (folder / "landmarks.csv").string(), anatomy.landmarks.size());
+    return 0;
+  } catch (const std::invalid_argument& error) {
+    fmt::print(stderr, "--size: {}\n", error.what());
+    return 2;
+  } catch (const std::filesystem::filesystem_error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 4;
+  } catch (const sim::SystemError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 4;
+  }
+}
+
+}  // namespace
+
+void write_anatomy(const Anatomy& anatomy, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  for (const auto& [name, mesh] : anatomy.meshes) {
+    sim::MeshData data;
+    data.X = mesh.X_mm * kMillimetre;
+    data.tets = mesh.tets;
+    data.triangles = mesh.triangles;
+    sim::write_mesh(folder / name, data, kMillimetre);
+  }
+  write_text(folder / "muscles.csv", muscles_csv(anatomy.muscles));
+  write_text(folder / "landmarks.csv", landmarks_csv(anatomy.landmarks));
+}
+
+void add_anatomy_command(CLI::App& app, int& exit_code) {
+  CLI::App* anatomy =
+      app.add_subcommand("anatomy", "Builds joint geometry from published dimensions");
+  anatomy->require_subcommand(1);
+  CLI::App* mandible = anatomy->add_subcommand(
+      "mandible", "Jaw: mandible, skull parts, joint surfaces, discs, muscle attachments");
+  struct Options {
+    double size_mm = 1.2;
+    std::filesystem::path folder;
+  };
+  const auto options = std::make_shared<Options>();
+  mandible->add_option("--size", options->size_mm, "Element size of the discs in mm (0.3 to 2.5)")
+      ->capture_default_str();
+  mandible->add_option("--out", options->folder, "Folder for the files, made if it is not there")
+      ->required();
+  mandible->callback(
+      [options, &exit_code] { exit_code = run_mandible(options->size_mm, options->folder); });
+}
+
+}  // namespace articular::anatomy

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "tools/anatomy_mandible.hpp"
+
+namespace articular::anatomy {
+
+/// Writes every mesh and table of an anatomy into a folder, which is made if need be.
+/// @throws sim::SystemError when that fails
+void write_anatomy(const Anatomy& anatomy, const std::filesystem::path& folder);
+
+/// `articular anatomy mandible [--size H] --out DIR`.
+/// @param[out] exit_code  0 done, 2 bad arguments, 4 not writable; set when the command ran
+void add_anatomy_command(CLI::App& app, int& exit_code);
+
+}  // namespace articular::anatomy

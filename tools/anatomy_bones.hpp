@@ -1,0 +1,31 @@
+#pragma once
+
+#include "tools/anatomy_joint.hpp"
+
+/// Mandible and skull parts to look at, with teeth. Each is a union of simple solids given by
+/// signed distances (thick triangles, superellipsoids) and contoured; symmetric about x = 0. mm.
+namespace articular::anatomy {
+
+/// Closed surface, outward normals: body with chin, both rami with coronoid and condyle, lower
+/// teeth.
+/// @param h  spacing of the contoured grid
+Mesh mandible_surface(double h);
+
+/// Closed surface: upper teeth and maxilla, zygomatic arches, temporal bones with fossa and
+/// eminence.
+Mesh skull_surface(double h);
+
+/// Occlusal strips that meet at closed mouth with a gap of kOcclusalGap; normals up (lower), down
+/// (upper).
+Mesh lower_teeth_sheet(double h);
+Mesh upper_teeth_sheet(double h);
+constexpr double kOcclusalGap = 0.3;
+
+/// Middle of the lower dental arch at the distance |x| from the midline: occlusal level. x in
+/// 0..27.
+Vec3 arch_point(double x);
+
+/// Volume of a closed surface [mm^3] and its centre of volume.
+std::pair<double, Vec3> volume_and_center(const Mesh& surface);
+
+}  // namespace articular::anatomy
