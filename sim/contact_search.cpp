@@ -52,9 +52,10 @@ ContactSearch::ContactSearch(const Model& model)
       const Collider& collider = *model.bodies[static_cast<std::size_t>(body)].collider;
       Moving moving;
       moving.body = body;
-      moving.tree = std::make_unique<collision::BucketTree>(
-          collider.tets, collider.surface, collider.X,
-          collision::BucketTreeOptions{.bucket_ratio = model.scenario.detection.bucket_ratio});
+      collision::BucketTreeOptions options;
+      options.bucket_ratio = model.scenario.detection.bucket_ratio;
+      moving.tree = std::make_unique<collision::BucketTree>(collider.tets, collider.surface,
+                                                            collider.X, options);
       moving_.push_back(std::move(moving));
       seen_.resize(std::max(seen_.size(), collider.outer.size()));
     }

@@ -49,7 +49,7 @@ constexpr double kActivationTolerance = 1e-4;
 
 }  // namespace
 
-struct Integrator::Memory {
+struct ImplicitIntegrator::Memory {
   Memory(const Model& m, Dynamics& d) : model(m), dynamics(d), newton(m, d) {}
 
   const Model& model;
@@ -146,8 +146,8 @@ SUNLinearSolver make_solver(State& state) {
   return solver;
 }
 
-void set_scheme(void* arkode, decltype(Scenario{}.integrator.scheme) scheme) {
-  if (scheme == decltype(scheme)::TrBdf2) {
+void set_scheme(void* arkode, Integrator::Scheme scheme) {
+  if (scheme == Integrator::Scheme::TrBdf2) {
     check(ARKStepSetTableNum(arkode, ARKODE_TRBDF2_3_3_2, ARKODE_ERK_NONE), "ARKStepSetTableNum");
     return;
   }
@@ -159,7 +159,7 @@ void set_scheme(void* arkode, decltype(Scenario{}.integrator.scheme) scheme) {
 
 }  // namespace
 
-Integrator::Integrator(const Model& model, Dynamics& dynamics)
+ImplicitIntegrator::ImplicitIntegrator(const Model& model, Dynamics& dynamics)
     : memory_(std::make_unique<Memory>(model, dynamics)) {
   Memory& m = *memory_;
   SUNContext context = nullptr;
@@ -187,11 +187,11 @@ Integrator::Integrator(const Model& model, Dynamics& dynamics)
   check(ARKStepSetInterpolantType(arkode, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
 }
 
-Integrator::~Integrator() = default;
+ImplicitIntegrator::~ImplicitIntegrator() = default;
 
-const IntegratorCounts& Integrator::counts() const { return memory_->counts; }
+const IntegratorCounts& ImplicitIntegrator::counts() const { return memory_->counts; }
 
-bool Integrator::advance(Eigen::VectorXd& y, double t, double h) {
+bool ImplicitIntegrator::advance(Eigen::VectorXd& y, double t, double h) {
   Memory& m = *memory_;
   void* arkode = m.arkode.get();
   m.step = h;

@@ -25,12 +25,12 @@ struct IntegratorCounts {
 /// (rotations: δθ in place of quaternions) and w = δv + b_x/γ,
 ///   (M + γ D + γ² K) w = M (b_v + b_x/γ) + γ ∂f/∂a δa,   δx = γ w.
 /// Gyroscopic and moment terms are left out of the matrix, never out of the residual.
-class Integrator {
+class ImplicitIntegrator {
  public:
-  Integrator(const Model& model, Dynamics& dynamics);
-  ~Integrator();
-  Integrator(const Integrator&) = delete;
-  Integrator& operator=(const Integrator&) = delete;
+  ImplicitIntegrator(const Model& model, Dynamics& dynamics);
+  ~ImplicitIntegrator();
+  ImplicitIntegrator(const ImplicitIntegrator&) = delete;
+  ImplicitIntegrator& operator=(const ImplicitIntegrator&) = delete;
 
   /// Advances y from t to t + h. @return false when Newton's iteration did not converge; y is as before
   [[nodiscard]] bool advance(Eigen::VectorXd& y, double t, double h);

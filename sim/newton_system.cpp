@@ -10,8 +10,7 @@ constexpr double kLinearTolerance = 1e-6;
 constexpr int kMostLinearIterations = 2000;
 
 std::unique_ptr<fem::LinearSolver> make_solver(const Model& model) {
-  using Solver = decltype(model.scenario.integrator.solver);
-  if (model.scenario.integrator.solver == Solver::Cholesky) return fem::make_cholesky();
+  if (model.scenario.integrator.solver == Integrator::Solver::Cholesky) return fem::make_cholesky();
   return fem::make_conjugate_gradients(kLinearTolerance, kMostLinearIterations);
 }
 

@@ -1,0 +1,115 @@
+#include "sim/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "sim/error.hpp"
+#include "sim/output.hpp"
+
+namespace articular::sim {
+namespace {
+
+constexpr char kMagic[] = "articular checkpoint 1\n";
+
+/// FNV-1a: a plain hash is enough to notice damage and mix-ups.
+std::uint64_t hash_bytes(const char* data, std::size_t size) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (std::size_t i = 0; i < size; ++i)
+    hash = (hash ^ static_cast<unsigned char>(data[i])) * 1099511628211ULL;
+  return hash;
+}
+
+template <class T>
+void put(const T& value, std::string& bytes) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
+}
+
+/// Takes values off the front of a file's bytes.
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : rest_(bytes) {}
+  template <class T>
+  void get(T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
+  }
+  std::string_view take(std::size_t size) {
+    if (rest_.size() < size) throw InputError("");
+    const std::string_view part = rest_.substr(0, size);
+    rest_.remove_prefix(size);
+    return part;
+  }
+
+ private:
+  std::string_view rest_;
+};
+
+}  // namespace
+
+std::string fingerprint(const std::string& settings, const Eigen::VectorXd& initial_y) {
+  return fmt::format(
+      "{:016x}-{:016x}", hash_bytes(settings.data(), settings.size()),
+      hash_bytes(reinterpret_cast<const char*>(initial_y.data()),
+                 static_cast<std::size_t>(initial_y.size()) * sizeof(double)));
+}
+
+void write_checkpoint(const std::filesystem::path& file, const State& state,
+                      const std::string& fingerprint) {
+  std::string bytes = kMagic;
+  bytes += fingerprint;
+  put(state.t, bytes);
+  put(state.next_step, bytes);
+  put(state.max_penetration, bytes);
+  put(state.frames, bytes);
+  put(state.energy, bytes);
+  put(state.counts, bytes);
+  put(state.y.size(), bytes);
+  bytes.append(reinterpret_cast<const char*>(state.y.data()),
+               static_cast<std::size_t>(state.y.size()) * sizeof(double));
+  put(hash_bytes(bytes.data(), bytes.size()), bytes);
+  write_text_file(file, bytes);
+}
+
+std::optional<State> read_checkpoint(const std::filesystem::path& file,
+                                     const std::string& fingerprint) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return {};
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  const std::string damaged =
+      fmt::format("{} is not a whole checkpoint; remove it to start afresh", file.string());
+  State state;
+  try {
+    if (bytes.size() < sizeof(std::uint64_t)) throw InputError("");
+    const std::size_t body = bytes.size() - sizeof(std::uint64_t);
+    std::uint64_t stored = 0;
+    std::memcpy(&stored, bytes.data() + body, sizeof(stored));
+    if (stored != hash_bytes(bytes.data(), body)) throw InputError("");
+    Reader reader(std::string_view(bytes).substr(0, body));
+    if (reader.take(std::strlen(kMagic)) != kMagic) throw InputError("");
+    if (reader.take(fingerprint.size()) != fingerprint)
+      throw InputError(fmt::format("{} belongs to another scenario, mesh or setting; run without "
+                                   "--resume or choose another --out",
+                                   file.string()));
+    reader.get(state.t);
+    reader.get(state.next_step);
+    reader.get(state.max_penetration);
+    reader.get(state.frames);
+    reader.get(state.energy);
+    reader.get(state.counts);
+    Eigen::Index size = 0;
+    reader.get(size);
+    state.y.resize(size);
+    const auto doubles = reader.take(static_cast<std::size_t>(size) * sizeof(double));
+    std::memcpy(state.y.data(), doubles.data(), doubles.size());
+  } catch (const InputError& error) {
+    if (*error.what() != '\0') throw;
+    throw InputError(damaged);
+  }
+  return state;
+}
+
+}  // namespace articular::sim

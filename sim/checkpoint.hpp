@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "sim/state.hpp"
+
+namespace articular::sim {
+
+/// What a checkpoint belongs to: a run of another scenario must not resume from it.
+std::string fingerprint(const std::string& settings, const Eigen::VectorXd& initial_y);
+
+/// Writes the state in full precision, whole or not at all. @throws SystemError
+void write_checkpoint(const std::filesystem::path& file, const State& state,
+                      const std::string& fingerprint);
+
+/// @return nothing when there is no such file
+/// @throws InputError when it is damaged or belongs to another scenario
+std::optional<State> read_checkpoint(const std::filesystem::path& file,
+                                     const std::string& fingerprint);
+
+}  // namespace articular::sim

@@ -1,0 +1,169 @@
+#include "sim/run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "sim/checkpoint.hpp"
+#include "sim/frames.hpp"
+#include "sim/history.hpp"
+#include "sim/stopwatch.hpp"
+#include "sim/summary.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Frames between two checkpoints where the scenario gives no interval.
+constexpr int kFramesPerCheckpoint = 10;
+
+/// Multiples of an interval are computed, not summed: a resumed run has the same ones.
+struct Schedule {
+  double interval = 0;
+  /// The first multiple after t.
+  double next(double t) const { return interval * (std::floor(t / interval * (1 + 1e-12) + 1e-9) + 1); }
+  bool due(double t) const {
+    const double count = t / interval;
+    return std::abs(count - std::round(count)) < 1e-9 * std::max(1.0, count);
+  }
+};
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class Run {
+ public:
+  Run(const Model& model, const RunOptions& options)
+      : model_(model),
+        options_(options),
+        writer_(options.directory, model.scenario.name, model.scenario.output.length_unit,
+                model.scenario.output.length_unit_name),
+        stepper_(model),
+        history_(model),
+        kinks_(kink_times(model)),
+        frames_{model.scenario.output.interval},
+        checkpoints_{model.scenario.output.checkpoint_interval.value_or(
+            kFramesPerCheckpoint * model.scenario.output.interval)} {}
+
+  RunOutcome go() {
+    const auto start = std::chrono::steady_clock::now();
+    begin();
+    const double duration = model_.scenario.duration;
+    RunOutcome outcome = RunOutcome::Finished;
+    std::string how = "finished";
+    const auto finish = [&] {
+      WallTimes wall;
+      wall.output = output_seconds_;
+      wall.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      write_history();
+      write_text_file(options_.directory / "summary.json",
+                      summary_json(model_, state_, stepper_, stepper_.times(), wall, how));
+    };
+    try {
+      while (state_.t < duration) {
+        stepper_.step(state_, next_event());
+        observe();
+        if (options_.after_step && options_.after_step(state_, duration) && state_.t < duration) {
+          outcome = RunOutcome::Interrupted;
+          how = "interrupted";
+          break;
+        }
+      }
+    } catch (const SimulationError& error) {
+      how = error.what();
+      finish();
+      throw;
+    }
+    finish();
+    return outcome;
+  }
+
+ private:
+  std::filesystem::path checkpoint_file() const {
+    return options_.directory / "checkpoint" / "state.bin";
+  }
+
+  void begin() {
+    state_ = stepper_.initial();
+    fingerprint_ = fingerprint(model_.scenario.settings_json, state_.y);
+    if (options_.resume) {
+      if (auto stored = read_checkpoint(checkpoint_file(), fingerprint_)) {
+        state_ = std::move(*stored);
+        stepper_.restart(state_);
+        writer_.resume_at(state_.t);
+        history_.resume(read_text(options_.directory / "history.csv"), state_.t);
+        return;
+      }
+    }
+    std::error_code ignored;
+    std::filesystem::remove(checkpoint_file(), ignored);
+    history_.record(state_, stepper_);
+    output_frame();
+  }
+
+  double next_event() const {
+    double next = std::min({model_.scenario.duration, frames_.next(state_.t),
+                            checkpoints_.next(state_.t)});
+    const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), state_.t * (1 + 1e-12));
+    if (kink != kinks_.end()) next = std::min(next, *kink);
+    return next;
+  }
+
+  void observe() {
+    history_.record(state_, stepper_);
+    const bool end = state_.t >= model_.scenario.duration;
+    if (frames_.due(state_.t) || end) output_frame();
+    if (checkpoints_.due(state_.t) && !end) {
+      const Stopwatch watch(output_seconds_);
+      write_history();
+      write_checkpoint(checkpoint_file(), state_, fingerprint_);
+      stepper_.restart(state_);
+    }
+  }
+
+  void output_frame() {
+    const Stopwatch watch(output_seconds_);
+    write_frame(model_, stepper_, state_.frames, state_.t, writer_);
+    write_history();
+    ++state_.frames;
+  }
+
+  void write_history() const {
+    write_text_file(options_.directory / "history.csv", history_.text());
+  }
+
+  const Model& model_;
+  const RunOptions& options_;
+  FrameWriter writer_;
+  Stepper stepper_;
+  History history_;
+  std::vector<double> kinks_;
+  Schedule frames_, checkpoints_;
+  State state_;
+  std::string fingerprint_;
+  double output_seconds_ = 0;
+};
+
+}  // namespace
+
+std::vector<double> kink_times(const Model& model) {
+  std::vector<double> times;
+  const auto add = [&](const std::vector<double>& more) {
+    times.insert(times.end(), more.begin(), more.end());
+  };
+  for (const MuscleModel& muscle : model.muscles) add(muscle.given.excitation.time);
+  for (const ForceModel& force : model.forces) add(force.profile.time);
+  for (const Bone& bone : model.bones)
+    if (bone.motion) add(bone.motion->time);
+  std::erase_if(times, [&](double t) { return t <= 0 || t >= model.scenario.duration; });
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+RunOutcome run(const Model& model, const RunOptions& options) { return Run(model, options).go(); }
+
+}  // namespace articular::sim

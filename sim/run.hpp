@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "sim/model.hpp"
+#include "sim/state.hpp"
+
+namespace articular::sim {
+
+struct RunOptions {
+  std::filesystem::path directory;  // of the results
+  bool resume = false;
+  /// Called after every step; true stops the run (as after Ctrl-C).
+  std::function<bool(const State&, double duration)> after_step;
+};
+
+enum class RunOutcome { Finished, Interrupted };
+
+/// Runs a model from the start (or its checkpoint) to its duration and writes frames, history,
+/// checkpoints and the summary.
+/// @throws SimulationError when it can't go on; what was written stays valid, the summary says until when
+/// @throws SystemError when results can't be written
+RunOutcome run(const Model& model, const RunOptions& options);
+
+/// Times at which a step must end: kinks of curves and motions, within (0, duration).
+std::vector<double> kink_times(const Model& model);
+
+}  // namespace articular::sim

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace articular::sim {
+
+/// Work done and energy lost since the start [J].
+struct EnergyLedger {
+  double muscle_work = 0;    // by active muscle force
+  double load_work = 0;      // by forces of the scenario (gravity is a stored energy)
+  double motion_work = 0;    // by what drives prescribed motions
+  double ligament_loss = 0;  // in ligaments' dampers
+  double start = 0;          // stored and kinetic energy at t = 0
+};
+
+struct Counts {
+  std::int64_t steps = 0;              // taken by SUNDIALS
+  std::int64_t rejected_newton = 0;    // Newton's iteration did not converge: step halved
+  std::int64_t rejected_motion = 0;    // something moved farther than the detection covered
+  std::int64_t newton_iterations = 0;
+  std::int64_t factorizations = 0;
+  std::int64_t projected_tangents = 0;
+  std::int64_t linear_iterations = 0;
+  std::int64_t force_evaluations = 0;
+  std::int64_t tree_updates = 0;
+  std::int64_t narrow_tests = 0;
+  std::int64_t reported_pairs = 0;
+};
+
+/// All that changes: a copy of it at a checkpoint is a restart point.
+struct State {
+  double t = 0;       // [s]
+  Eigen::VectorXd y;  // in the order of Layout
+  double next_step = 0;  // [s]
+  double max_penetration = 0;  // [m] largest so far
+  int frames = 0;     // written
+  EnergyLedger energy;
+  Counts counts;
+};
+
+}  // namespace articular::sim

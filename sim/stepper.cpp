@@ -1,0 +1,213 @@
+#include "sim/stepper.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace articular::sim {
+namespace {
+
+/// The detection covers twice what the fastest node will probably move in the step.
+constexpr double kMarginPerMotion = 3;
+/// A step that moved something farther than half the margin is done again with this times the motion.
+constexpr double kMarginRetry = 2.5;
+
+Counts operator+(Counts c, const IntegratorCounts& i) {
+  c.steps += i.steps;
+  c.newton_iterations += i.newton_iterations;
+  c.factorizations += i.factorizations;
+  c.projected_tangents += i.projected_tangents;
+  c.linear_iterations += i.linear_iterations;
+  c.force_evaluations += i.force_evaluations;
+  return c;
+}
+
+}  // namespace
+
+double numerical_loss(const State& state, const StoredEnergy& now) {
+  const EnergyLedger& l = state.energy;
+  return l.start + l.muscle_work + l.load_work + l.motion_work - l.ligament_loss - now.total();
+}
+
+Stepper::Stepper(const Model& model) : model_(model) {
+  dynamics_ = std::make_unique<Dynamics>(model);
+  integrator_ = std::make_unique<ImplicitIntegrator>(model, *dynamics_);
+  if (!model.contacts.empty()) search_ = std::make_unique<ContactSearch>(model);
+}
+
+State Stepper::initial() {
+  State state;
+  state.y = initial_state(model_);
+  state.next_step = model_.scenario.integrator.step;
+  restart(state);
+  state.energy.start = stored_energy().total();
+  return state;
+}
+
+void Stepper::restart(const State& state) {
+  dynamics_->forget();
+  find_contacts(state, model_.scenario.detection.margin);
+  dynamics_->evaluate(state.y.data(), state.t);
+}
+
+void Stepper::find_contacts(const State& state, double margin) {
+  if (!search_) return;
+  Configuration now;
+  read_state(model_, state.y.data(), state.t, now);
+  search_->find(now, margin);
+  dynamics_->set_candidates(search_->candidates());
+}
+
+void Stepper::step(State& state, double t_target) {
+  const double nominal = model_.scenario.integrator.step;
+  const double remaining = t_target - state.t;
+  double h = std::min(state.next_step, nominal);
+  h = remaining / std::ceil(remaining / h - 1e-9);
+  const bool last = h >= remaining * (1 - 1e-12);
+
+  const SearchCounts search_before = search_ ? search_->counts() : SearchCounts{};
+  const IntegratorCounts integrator_before = integrator_->counts();
+  double margin = model_.scenario.detection.margin;
+  if (search_)
+    margin = std::max(
+        margin, kMarginPerMotion * h * search_->largest_speed(dynamics_->configuration()));
+
+  double tried = h;
+  for (;;) {
+    if (try_step(state, tried, margin)) break;
+    tried *= 0.5;
+    if (tried < model_.scenario.integrator.min_step) fail(state, tried);
+  }
+  if (last && tried == h) state.t = t_target;
+  state.next_step = tried < h ? tried : std::min(nominal, 2 * state.next_step);
+
+  IntegratorCounts done = integrator_->counts();
+  done.steps -= integrator_before.steps;
+  done.newton_iterations -= integrator_before.newton_iterations;
+  done.factorizations -= integrator_before.factorizations;
+  done.projected_tangents -= integrator_before.projected_tangents;
+  done.linear_iterations -= integrator_before.linear_iterations;
+  done.force_evaluations -= integrator_before.force_evaluations;
+  state.counts = state.counts + done;
+  state.counts.rejected_newton += done.failed - integrator_before.failed;
+  if (search_) {
+    state.counts.tree_updates += search_->counts().tree_updates - search_before.tree_updates;
+    state.counts.narrow_tests += search_->counts().narrow_tests - search_before.narrow_tests;
+    state.counts.reported_pairs += search_->counts().reported_pairs - search_before.reported_pairs;
+  }
+}
+
+bool Stepper::try_step(State& state, double h, double& margin) {
+  find_contacts(state, margin);
+  // What the ledger needs of the start: forces there, with the candidates of this step.
+  dynamics_->evaluate(state.y.data(), state.t);
+  lines_before_ = dynamics_->lines();
+  poses_before_ = dynamics_->configuration().poses;
+  forces_before_ = dynamics_->forces();
+  t_before_ = state.t;
+  loads_before_.clear();
+  for (const ForceModel& force : model_.forces)
+    loads_before_.push_back(dynamics_->configuration().position(force.point));
+
+  y_ = state.y;
+  if (!integrator_->advance(y_, state.t, h)) return false;
+  for (int r = 0; r < model_.layout.num_rigid; ++r)
+    y_.segment<4>(model_.layout.bone_q(r)).normalize();
+  dynamics_->evaluate(y_.data(), state.t + h);
+  if (search_) {
+    const double motion = search_->motion_since(dynamics_->configuration());
+    if (motion > 0.5 * margin) {
+      ++state.counts.rejected_motion;
+      margin = kMarginRetry * motion;
+      return try_step(state, h, margin);
+    }
+  }
+  state.y = y_;
+  state.t += h;
+  account(state);
+  return true;
+}
+
+void Stepper::account(State& after) {
+  const Configuration& now = dynamics_->configuration();
+  EnergyLedger& ledger = after.energy;
+  for (std::size_t l = 0; l < model_.lines.size(); ++l) {
+    const LineState &a = lines_before_[l], &b = dynamics_->lines()[l];
+    const double stretch = b.length - a.length;
+    ledger.muscle_work -= 0.5 * (a.active + b.active) * stretch;
+    ledger.ligament_loss += 0.5 * (a.damping + b.damping) * stretch;
+  }
+  for (std::size_t i = 0; i < model_.forces.size(); ++i) {
+    const ForceModel& force = model_.forces[i];
+    const double factor =
+        0.5 * (value_at(force.profile, t_before_) + value_at(force.profile, after.t));
+    ledger.load_work += factor * force.force.dot(now.position(force.point) - loads_before_[i]);
+  }
+  for (std::size_t b = 0; b < model_.bones.size(); ++b) {
+    const Bone& bone = model_.bones[b];
+    if (!bone.motion) continue;
+    const Eigen::AngleAxisd turn(now.poses[b].R * poses_before_[b].R.transpose());
+    const Eigen::VectorXd& f = dynamics_->forces();
+    const Vec3 force = 0.5 * (forces_before_.segment<3>(3 * bone.block) + f.segment<3>(3 * bone.block));
+    const Vec3 moment =
+        0.5 * (forces_before_.segment<3>(3 * bone.block + 3) + f.segment<3>(3 * bone.block + 3));
+    ledger.motion_work -=
+        force.dot(now.poses[b].p - poses_before_[b].p) + moment.dot(turn.angle() * turn.axis());
+  }
+  for (const ContactSummary& contact : dynamics_->contacts())
+    after.max_penetration = std::max(after.max_penetration, contact.max_depth);
+}
+
+void Stepper::fail(const State& state, double h) const {
+  // The likely cause: the element that is squeezed most where the step was tried.
+  std::string cause;
+  double least = 1;
+  for (const Tissue& tissue : model_.tissues) {
+    Positions x;
+    positions_of(dynamics_->configuration(), tissue.nodes, x);
+    const Eigen::VectorXd J = tissue.elasticity.volume_ratio(x);
+    Eigen::Index worst = 0;
+    const double lowest = J.minCoeff(&worst);
+    if (!(lowest < least)) continue;
+    least = lowest;
+    cause = fmt::format("; the most squeezed element is {} of tissue `{}` (volume ratio {:.3g})",
+                        worst, model_.bodies[static_cast<std::size_t>(tissue.body)].name, lowest);
+  }
+  throw SimulationError(fmt::format(
+      "the simulation cannot go on at t = {:.6g} s: Newton's iteration did not converge with a step "
+      "of {:.3g} s{}; results are valid until then",
+      state.t, h, cause));
+}
+
+StoredEnergy Stepper::stored_energy() const {
+  StoredEnergy energy;
+  energy.kinetic = dynamics_->kinetic_energy();
+  energy.elastic = dynamics_->elastic_energy();
+  energy.gravity = dynamics_->gravity_energy();
+  for (const ContactSummary& contact : dynamics_->contacts()) energy.contact += contact.energy;
+  for (const LineState& line : dynamics_->lines()) energy.lines += line.stored;
+  return energy;
+}
+
+std::vector<Positions> Stepper::contact_forces() const {
+  if (!search_) return std::vector<Positions>(model_.bodies.size());
+  return nodal_contact_forces(model_, dynamics_->configuration(), search_->candidates());
+}
+
+PhaseTimes Stepper::times() {
+  PhaseTimes times;
+  if (search_) {
+    times.collision_update = search_->counts().update_seconds;
+    times.collision_traversal = search_->counts().traversal_seconds;
+    times.collision_narrow = search_->counts().narrow_seconds;
+  }
+  times.elastic_force = dynamics_->times().elastic_force;
+  times.contact_force = dynamics_->times().contact_force;
+  times.assembly = dynamics_->times().assembly;
+  times.solve = integrator_->counts().solve_seconds;
+  return times;
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,7 @@
+#pragma once
+
+namespace articular::sim {
+
+inline constexpr char kVersion[] = "0.1.0";
+
+}  // namespace articular::sim
