@@ -1,0 +1,60 @@
+#include "tools/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace articular::tools {
+
+Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void Progress::update(const sim::State& state, double duration) {
+  if (quiet_) return;
+  if (first_time_ < 0) {
+    first_time_ = state.t;
+    first_step_ = state.counts.steps;
+    tenth_ = static_cast<int>(10 * state.t / duration);
+    return;
+  }
+  if (terminal_) {
+    constexpr std::chrono::milliseconds kBarInterval(100);
+    if (Clock::now() - shown_ < kBarInterval && state.t < duration) return;
+    shown_ = Clock::now();
+    bar_shown_ = true;
+    print(state, duration);
+  } else if (const int tenth = static_cast<int>(10 * state.t / duration); tenth > tenth_) {
+    tenth_ = tenth;
+    print(state, duration);
+  }
+}
+
+void Progress::print(const sim::State& state, double duration) const {
+  const double wall = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double done = state.t / duration;
+  const double rate = static_cast<double>(state.counts.steps - first_step_) / wall;
+  const double left = wall * (duration - state.t) / std::max(state.t - first_time_, 1e-12);
+  std::string line = fmt::format("{:3.0f} %  t = {:.1f} ms  {:.1f} steps/s  {:.0f} s left  largest "
+                                 "penetration {:.1f} um",
+                                 100 * done, 1e3 * state.t, rate, left, 1e6 * state.max_penetration);
+  if (terminal_) {
+    constexpr int kWidth = 24;
+    const auto filled = static_cast<std::size_t>(std::lround(kWidth * done));
+    line = "\r[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "] " + line +
+           "\x1b[K";
+  } else {
+    line += '\n';
+  }
+  std::fputs(line.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+void Progress::finish() {
+  if (bar_shown_) std::fputc('\n', stderr);
+  bar_shown_ = false;
+}
+
+}  // namespace articular::tools

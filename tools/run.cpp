@@ -1,0 +1,83 @@
+#include "sim/run.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <memory>
+
+#include "tools/commands.hpp"
+#include "tools/progress.hpp"
+
+namespace articular::tools {
+namespace {
+
+constexpr int kInterrupted = 130;
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+struct RunArguments {
+  std::filesystem::path scenario, out;
+  std::vector<std::string> overrides;
+  bool resume = false, quiet = false;
+};
+
+int run_scenario(const RunArguments& arguments) {
+  const sim::Scenario scenario = sim::read_scenario(arguments.scenario, arguments.overrides);
+  const sim::Model model = sim::build_model(scenario);
+  for (const std::string& warning : model.warnings)
+    fmt::print(stderr, "articular: warning: {}\n", warning);
+
+  sim::RunOptions options;
+  options.directory = arguments.out;
+  if (options.directory.empty())
+    options.directory =
+        scenario.output.directory.value_or(std::filesystem::path("out") / scenario.name);
+  options.resume = arguments.resume;
+  Progress progress(arguments.quiet);
+  options.after_step = [&](const sim::State& state, double duration) {
+    progress.update(state, duration);
+    return interrupted.load();
+  };
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+  sim::RunOutcome outcome = sim::RunOutcome::Finished;
+  try {
+    outcome = sim::run(model, options);
+  } catch (...) {
+    progress.finish();
+    throw;
+  }
+  progress.finish();
+  fmt::print("{}\n{}\n{}\n", (options.directory / (scenario.name + ".pvd")).string(),
+             (options.directory / "history.csv").string(),
+             (options.directory / "summary.json").string());
+  if (outcome == sim::RunOutcome::Finished) return 0;
+  fmt::print(stderr, "articular: interrupted; go on with --resume\n");
+  return kInterrupted;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command = app.add_subcommand("run", "Run a scenario and write its results");
+  command->add_option("scenario", arguments->scenario, "Scenario file (.toml)")->required();
+  command->add_option("--out", arguments->out,
+                      "Folder of the results (default: output.directory, else out/NAME)");
+  command->add_option("--set", arguments->overrides,
+                      "Override a value by its path, e.g. --set duration='0.1 s' "
+                      "--set body.disc_left.material.young_modulus='3 MPa'")
+      ->allow_extra_args(false);
+  command->add_flag("--resume", arguments->resume,
+                    "Go on from the folder's last checkpoint, if there is one");
+  command->add_flag("--quiet", arguments->quiet, "No progress on stderr");
+  command->footer(
+      "Writes DIR/NAME.pvd (open it in ParaView), DIR/frames/, DIR/history.csv (probes over time),\n"
+      "DIR/summary.json (settings, counts, wall time by phase, energy balance) and DIR/checkpoint/.\n"
+      "Prints the names of these files.");
+  command->callback([arguments, &exit_code] { exit_code = run_scenario(*arguments); });
+}
+
+}  // namespace articular::tools
