@@ -24,6 +24,9 @@ constexpr double kMinRootEdge = 1e-290;
 // involved.
 constexpr double kMappingRoundOff = 8;
 
+// A refitted root is at most this times as large as the mesh, however small the mesh became.
+constexpr double kMaxRootSlack = 4;
+
 template <class... Parts>
 [[noreturn]] void bad_input(const Parts&... parts) {
   std::ostringstream message;
@@ -144,13 +147,15 @@ void BucketTree::update_boxes() {
   }
 }
 
-/// Eq. 1.5.9-1.5.10 for a cube (erratum 2): one with the body's own proportions has flat buckets.
-/// What leaves a fixed root is not pushed back into it (erratum 4); the root follows.
+/// Eq. 1.5.9-1.5.10 for a cube (erratum 2): one with the body's own proportions has flat buckets. A
+/// body that is folded up keeps its elements' size, so the root keeps the edge that Eq. 1.5.2 asks
+/// for (within kMaxRootSlack): in buckets smaller than elements every element is many times. What
+/// leaves a fixed root is not pushed back into it (erratum 4); the root follows.
 void BucketTree::update_root() {
   if (tets_.cols() == 0) return;
   const double extent = bounds_.longest_edge();
   Eigen::Vector3d origin = bounds_.min;
-  root_edge_ = extent;
+  root_edge_ = std::max(extent, std::min(smallest_root_edge_, kMaxRootSlack * extent));
   if (options_.fixed_root) {
     root_edge_ = options_.fixed_root->longest_edge();
     origin = options_.fixed_root->min;

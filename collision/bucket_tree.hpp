@@ -20,7 +20,9 @@ enum class Mapping {
 };
 
 struct BucketTreeOptions {
-  double bucket_ratio = 1.5;       // n of Eq. 1.5.6: bucket edge / mean tetrahedron diameter
+  // n of Eq. 1.5.6: bucket edge / mean tetrahedron diameter. Eq. 1.5.6 leaves buckets of n to 2n
+  // diameters; on bars of 10 000 and 40 000 elements smaller ones made queries 1.5 to 2 times slower.
+  double bucket_ratio = 2;
   std::optional<Aabb> fixed_root;  // size of the root [m]; without one it is refitted every update
   Mapping mapping = Mapping::Direct;
 };
@@ -178,6 +180,7 @@ class BucketTree {
   Surface surface_;
   BucketTreeOptions options_;
   int num_levels_ = 1;
+  double smallest_root_edge_ = 0;  // with buckets of edge s n (Eq. 1.5.2) [m]
 
   // Of the last update.
   int now_ = 0;

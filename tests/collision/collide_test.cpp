@@ -27,8 +27,8 @@ std::vector<Setting> settings() {
   std::vector<Setting> all;
   for (Mapping mapping : {Mapping::Direct, Mapping::CoordinateSorting})
     for (bool fixed_root : {false, true})
-      for (double edge : {1e-5, 1e-3, 1.0, 1e3}) all.push_back({mapping, fixed_root, edge, 1.5});
-  for (double ratio : {0.4, 1.0, 4.0, 1000.0}) all.push_back({Mapping::Direct, false, 1e-3, ratio});
+      for (double edge : {1e-5, 1e-3, 1.0, 1e3}) all.push_back({mapping, fixed_root, edge, 1.0});
+  for (double ratio : {0.4, 2.0, 4.0, 1000.0}) all.push_back({Mapping::Direct, false, 1e-3, ratio});
   return all;
 }
 
