@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -24,14 +26,17 @@ class BlockMatrix {
   std::span<const int> column() const { return column_; }        // sorted within a row
   /// Slot of block (i, j), or -1 where the pattern has none.
   int slot(int i, int j) const;
-  Eigen::Map<Mat3> block(int slot) { return Eigen::Map<Mat3>(values_.data() + 9 * slot); }
+  Eigen::Map<Mat3> block(int slot) {
+    return Eigen::Map<Mat3>(values_.data() + std::ptrdiff_t{9} * slot);
+  }
   Eigen::Map<const Mat3> block(int slot) const {
-    return Eigen::Map<const Mat3>(values_.data() + 9 * slot);
+    return Eigen::Map<const Mat3>(values_.data() + std::ptrdiff_t{9} * slot);
   }
   void set_zero();
   /// y = A x
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
-  /// Changes with the pattern; equal for copies of one pattern. For solvers that keep an analysis.
+  /// A hash of the pattern: equal for equal patterns, so that a pattern built anew with the same
+  /// blocks still meets the analysis that a solver keeps.
   std::uint64_t pattern_id() const { return pattern_id_; }
 
  private:

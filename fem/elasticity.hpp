@@ -40,17 +40,20 @@ class Elasticity {
 
   /// Per element, for output. cauchy_stress: 6 x M (xx yy zz xy yz xz) [Pa].
   Eigen::MatrixXd cauchy_stress(const Positions& x) const;
-  Eigen::VectorXd von_mises(const Positions& x) const;               // [Pa]
-  Eigen::VectorXd volume_ratio(const Positions& x) const;            // J
-  Eigen::VectorXd strain_energy_density(const Positions& x) const;   // [J/m³]
+  Eigen::VectorXd von_mises(const Positions& x) const;              // [Pa]
+  Eigen::VectorXd volume_ratio(const Positions& x) const;           // J
+  Eigen::VectorXd strain_energy_density(const Positions& x) const;  // [J/m³]
 
  private:
+  template <class Function>
+  void for_each_element(const Positions& x, Function function) const;
+
   int num_nodes_ = 0;
   Tetrahedra tets_;
   Material material_;
   std::vector<Mat3> inverse_edges_;  // (X1-X0, X2-X0, X3-X0)⁻¹ [1/m]
   std::vector<double> volume_;       // [m³]
-  std::vector<int> slots_;           // 16 an element, into the matrix of make_matrix()
+  std::vector<int> slots_;           // 16 an element, 4b + a, into the matrix of make_matrix()
 };
 
 /// One entry a node: a quarter of the mass of each of its elements [kg].

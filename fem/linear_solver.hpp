@@ -9,7 +9,7 @@ namespace articular::fem {
 enum class FactorStatus { Ready, NotPositiveDefinite };
 
 struct SolveReport {
-  int iterations = 0;          // 0 for a direct solver
+  int iterations = 0;            // 0 for a direct solver
   double relative_residual = 0;  // of the last residual known, |b - A x| / |b|
   bool converged = true;
 };

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+
+#include "fem/material.hpp"
+#include "fem/rotation_svd.hpp"
+
+namespace articular::fem {
+
+/// Corotated linear elasticity [Kim 2022, ch. 3 and 5]: Hooke's law behind the polar rotation R,
+/// the rotation nearest to F (det R = +1 where F is inverted, too):
+///
+///   Ψ(F) = μ |F − R|² + λ/2 tr²(RᵀF − I)
+///   P(F) = 2μ (F − R) + λ tr(RᵀF − I) R                 (∂Ψ/∂R vanishes along rotations)
+///   ∂P/∂F = 2μ 1 + λ R⊗R + (λ tr(RᵀF − I) − 2μ) ∂R/∂F
+///   ∂R/∂F = Σ_k 2/(σi + σj) T_k⊗T_k,   T_k = U [e_k]× Vᵀ/√2,   F = U diag(σ) Vᵀ
+///
+/// [Kim 2022] Kim, Eberle. Dynamic Deformables: Implementation and Production Practicalities.
+///            SIGGRAPH 2022 Courses.
+class Corotated {
+ public:
+  /// @param E   Young's modulus [Pa], > 0
+  /// @param nu  Poisson's ratio [-], in (-1, 0.5)
+  /// @throws std::invalid_argument outside those ranges
+  Corotated(double E, double nu) : lame_(lame_parameters(E, nu)) {}
+
+  double energy_density(const Mat3& F) const {
+    const Vec3 strain = rotation_svd(F).sigma - Vec3::Ones();
+    return lame_.mu * strain.squaredNorm() + 0.5 * lame_.lambda * strain.sum() * strain.sum();
+  }
+
+  Mat3 first_piola(const Mat3& F) const {
+    const RotationSvd svd = rotation_svd(F);
+    const Mat3 R = svd.U * svd.V.transpose();
+    return 2 * lame_.mu * (F - R) + lame_.lambda * (svd.sigma.sum() - 3) * R;
+  }
+
+  Mat9 tangent(const Mat3& F) const {
+    return tangent(F, [](double eigenvalue) { return eigenvalue; });
+  }
+
+  /// The nearest positive semidefinite matrix to the tangent: only the twists T_k can be negative.
+  Mat9 projected_tangent(const Mat3& F) const {
+    return tangent(F, [](double eigenvalue) { return std::max(eigenvalue, 0.0); });
+  }
+
+ private:
+  // Where σi + σj = 0 (an element turned inside out just so far) R jumps, and the tangent has no
+  // bound. A smaller sum [-] counts as this one, which leaves a stiffness that still can be
+  // factored.
+  static constexpr double kSmallestSum = 1e-6;
+
+  /// The tangent, with `twist_stiffness` applied to its eigenvalues of the twists T_k.
+  template <class Function>
+  Mat9 tangent(const Mat3& F, Function twist_stiffness) const {
+    const RotationSvd svd = rotation_svd(F);
+    const Mat3 R = svd.U * svd.V.transpose();
+    const Vec9 r = R.reshaped();
+    const double of_rotation = lame_.lambda * (svd.sigma.sum() - 3) - 2 * lame_.mu;
+    Mat9 C = lame_.lambda * r * r.transpose();
+    C.diagonal().array() += 2 * lame_.mu;
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      const double sum = std::max(svd.sigma[i] + svd.sigma[j], kSmallestSum);
+      const double eigenvalue = 2 * lame_.mu + of_rotation * 2 / sum;
+      // √2 T_k = u_j v_iᵀ − u_i v_jᵀ
+      const Mat3 T =
+          svd.U.col(j) * svd.V.col(i).transpose() - svd.U.col(i) * svd.V.col(j).transpose();
+      const Vec9 t = T.reshaped();
+      C += 0.5 * (twist_stiffness(eigenvalue) - 2 * lame_.mu) * t * t.transpose();
+    }
+    return C;
+  }
+
+  Lame lame_;
+};
+static_assert(Hyperelastic<Corotated>);
+
+}  // namespace articular::fem

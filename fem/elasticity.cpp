@@ -1,0 +1,217 @@
+#include "fem/elasticity.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "fem/tetrahedron.hpp"
+
+namespace articular::fem {
+namespace {
+
+// An element counts as flat below this volume relative to its longest edge cubed (a regular one has
+// 0.12). Rounding of the coordinates alone puts about 1e-16 there; 1e-12 leaves four digits of the
+// volume, and a stiffness that is no more than about 1e12 times that of its neighbours.
+constexpr double kFlat = 1e-12;  // [-]
+
+// A tangent whose lowest eigenvalue lies above minus this part of its norm is positive semidefinite
+// up to round-off: rigid rotations put zeros there.
+constexpr double kRoundOff = 1e-13;  // [-]
+
+Mat34 gather(const Positions& x, const Tetrahedra& tets, Eigen::Index e) {
+  Mat34 x_e;
+  for (int a = 0; a < 4; ++a) x_e.col(a) = x.col(tets(a, e));
+  return x_e;
+}
+
+std::string name_of(const Tetrahedra& tets, Eigen::Index e) {
+  std::ostringstream name;
+  name << "tetrahedron " << e << " (nodes " << tets(0, e) << ' ' << tets(1, e) << ' ' << tets(2, e)
+       << ' ' << tets(3, e) << ')';
+  return name.str();
+}
+
+/// Volume of element e [m³]. @throws std::invalid_argument unless it is positive and not flat
+double checked_volume(const Positions& X, const Tetrahedra& tets, Eigen::Index e) {
+  for (int a = 0; a < 4; ++a) {
+    if (tets(a, e) < 0 || tets(a, e) >= X.cols()) {
+      std::ostringstream message;
+      message << name_of(tets, e) << " has a node out of range: there are " << X.cols() << " nodes";
+      throw std::invalid_argument(message.str());
+    }
+  }
+  const Mat34 X_e = gather(X, tets, e);
+  const double volume = edge_matrix(X_e).determinant() / 6;
+  double longest2 = 0;
+  for (int a = 0; a < 4; ++a) {
+    for (int b = a + 1; b < 4; ++b) {
+      longest2 = std::max(longest2, (X_e.col(a) - X_e.col(b)).squaredNorm());
+    }
+  }
+  const double smallest = kFlat * longest2 * std::sqrt(longest2);
+  if (volume > smallest && std::isfinite(volume)) return volume;  // false for NaN
+  std::ostringstream message;
+  message << name_of(tets, e) << " is " << (volume < -smallest ? "inverted" : "flat")
+          << ": its volume is " << volume << " m^3, must be above " << smallest
+          << " m^3 (1e-12 of its longest edge cubed)";
+  throw std::invalid_argument(message.str());
+}
+
+/// The nearest positive semidefinite matrix (in the Frobenius norm): eigenvalues below 0 become 0.
+Mat9 projected(const Mat9& tangent) {
+  const double round_off = kRoundOff * tangent.norm();
+  const Eigen::LLT<Mat9> shifted(tangent + round_off * Mat9::Identity());
+  if (shifted.info() == Eigen::Success) return tangent;
+  const Eigen::SelfAdjointEigenSolver<Mat9> eigen(tangent);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
+template <Hyperelastic M>
+Mat9 projected_tangent(const M& material, const Mat3& F) {
+  if constexpr (requires { material.projected_tangent(F); }) {
+    return material.projected_tangent(F);
+  } else {
+    return projected(material.tangent(F));
+  }
+}
+
+/// Cauchy stress σ = P Fᵀ/J [Pa]; not finite where J = 0.
+template <Hyperelastic M>
+Mat3 cauchy(const M& material, const Mat3& F) {
+  if constexpr (requires { material.cauchy_stress(F); }) {
+    return material.cauchy_stress(F);
+  } else {
+    return material.first_piola(F) * F.transpose() / F.determinant();
+  }
+}
+
+}  // namespace
+
+Elasticity::Elasticity(const Positions& X, const Tetrahedra& tets, Material material)
+    : num_nodes_(static_cast<int>(X.cols())), tets_(tets), material_(std::move(material)) {
+  volume_.reserve(static_cast<std::size_t>(tets.cols()));
+  inverse_edges_.reserve(static_cast<std::size_t>(tets.cols()));
+  for (Eigen::Index e = 0; e < tets.cols(); ++e) {
+    volume_.push_back(checked_volume(X, tets, e));
+    inverse_edges_.push_back(edge_matrix(gather(X, tets, e)).inverse());
+  }
+  const BlockMatrix K = make_matrix();
+  slots_.reserve(16 * volume_.size());
+  for (Eigen::Index e = 0; e < tets.cols(); ++e) {
+    for (int b = 0; b < 4; ++b) {
+      for (int a = 0; a < 4; ++a) slots_.push_back(K.slot(tets(a, e), tets(b, e)));
+    }
+  }
+}
+
+/// Calls function(material, e, F) for the elements in their order; the material is chosen once.
+template <class Function>
+void Elasticity::for_each_element(const Positions& x, Function function) const {
+  assert(x.cols() == num_nodes_);
+  std::visit(
+      [&](const auto& material) {
+        for (int e = 0; e < num_elements(); ++e) {
+          function(material, e, deformation_gradient(gather(x, tets_, e), inverse_edges_[e]));
+        }
+      },
+      material_);
+}
+
+double Elasticity::energy(const Positions& x) const {
+  double W = 0;
+  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+    W += volume_[e] * material.energy_density(F);
+  });
+  return W;
+}
+
+void Elasticity::add_internal_force(const Positions& x, Positions& f) const {
+  assert(f.cols() == num_nodes_);
+  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+    const Mat34 f_e =
+        nodal_force(material.first_piola(F), shape_gradients(inverse_edges_[e]), volume_[e]);
+    for (int a = 0; a < 4; ++a) f.col(tets_(a, e)) += f_e.col(a);
+  });
+}
+
+BlockMatrix Elasticity::make_matrix() const {
+  std::vector<int> offsets(volume_.size() + 1);
+  for (std::size_t e = 0; e < offsets.size(); ++e) offsets[e] = static_cast<int>(4 * e);
+  return {num_nodes_, {tets_.data(), 4 * volume_.size()}, offsets};
+}
+
+void Elasticity::add_stiffness(const Positions& x, Tangent tangent, double scale,
+                               BlockMatrix& K) const {
+  assert(K.num_blocks() == num_nodes_);
+  const auto scatter = [&](int e, const Mat9& C) {
+    const Mat12 K_e = stiffness(C, shape_gradients(inverse_edges_[e]), scale * volume_[e]);
+    const int* slot = &slots_[16 * static_cast<std::size_t>(e)];
+    for (int b = 0; b < 4; ++b) {
+      for (int a = 0; a < 4; ++a) K.block(*slot++) += K_e.block<3, 3>(3 * a, 3 * b);
+    }
+  };
+  if (tangent == Tangent::Projected) {
+    for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+      scatter(e, projected_tangent(material, F));
+    });
+  } else {
+    for_each_element(
+        x, [&](const auto& material, int e, const Mat3& F) { scatter(e, material.tangent(F)); });
+  }
+}
+
+Eigen::MatrixXd Elasticity::cauchy_stress(const Positions& x) const {
+  Eigen::MatrixXd stress(6, num_elements());
+  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+    const Mat3 s = cauchy(material, F);
+    stress.col(e) << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2);
+  });
+  return stress;
+}
+
+Eigen::VectorXd Elasticity::von_mises(const Positions& x) const {
+  Eigen::VectorXd result(num_elements());
+  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+    const Mat3 sigma = cauchy(material, F);
+    const Mat3 deviator = sigma - sigma.trace() / 3 * Mat3::Identity();
+    result[e] = std::sqrt(1.5) * deviator.norm();
+  });
+  return result;
+}
+
+Eigen::VectorXd Elasticity::volume_ratio(const Positions& x) const {
+  Eigen::VectorXd result(num_elements());
+  for_each_element(x, [&](const auto&, int e, const Mat3& F) { result[e] = F.determinant(); });
+  return result;
+}
+
+Eigen::VectorXd Elasticity::strain_energy_density(const Positions& x) const {
+  Eigen::VectorXd result(num_elements());
+  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+    result[e] = material.energy_density(F);
+  });
+  return result;
+}
+
+Eigen::VectorXd lumped_mass(const Positions& X, const Tetrahedra& tets, double density) {
+  if (!(density > 0) || !std::isfinite(density)) {
+    std::ostringstream message;
+    message << "density is " << density << " kg/m^3, must be positive and finite";
+    throw std::invalid_argument(message.str());
+  }
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(X.cols());
+  for (Eigen::Index e = 0; e < tets.cols(); ++e) {
+    const double quarter = density * checked_volume(X, tets, e) / 4;
+    for (int a = 0; a < 4; ++a) mass[tets(a, e)] += quarter;
+  }
+  return mass;
+}
+
+}  // namespace articular::fem
