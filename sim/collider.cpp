@@ -81,29 +81,54 @@ Tetrahedra shell_under(Positions& X, const Triangles& triangles, double thicknes
   throw InputError("a contact surface folds back onto itself at a vertex; expected a smooth surface");
 }
 
+namespace {
+
+/// Keeps the faces whose nodes are all outer ones.
+void keep_outer_faces(const std::vector<char>& is_outer, collision::Surface& surface) {
+  std::vector<int> kept;
+  for (Eigen::Index f = 0; f < surface.faces.cols(); ++f) {
+    bool outer = true;
+    for (const int node : surface.faces.col(f))
+      outer = outer && is_outer[static_cast<std::size_t>(node)] != 0;
+    if (outer) kept.push_back(static_cast<int>(f));
+  }
+  const Eigen::Matrix3Xi faces = surface.faces(Eigen::all, kept);
+  surface.faces = faces;
+  std::vector<int> face_tet;
+  for (const int f : kept) face_tet.push_back(surface.face_tet[static_cast<std::size_t>(f)]);
+  surface.face_tet = std::move(face_tet);
+  std::vector<std::vector<int>> by_tet(static_cast<std::size_t>(surface.neighbours.cols()));
+  for (std::size_t f = 0; f < surface.face_tet.size(); ++f)
+    by_tet[static_cast<std::size_t>(surface.face_tet[f])].push_back(static_cast<int>(f));
+  surface.tet_face_begin.assign(1, 0);
+  surface.tet_faces.clear();
+  for (const auto& list : by_tet) {
+    surface.tet_faces.insert(surface.tet_faces.end(), list.begin(), list.end());
+    surface.tet_face_begin.push_back(static_cast<int>(surface.tet_faces.size()));
+  }
+}
+
+}  // namespace
+
 void complete_collider(Collider& collider, const std::vector<char>& is_outer) {
   const auto num_nodes = static_cast<int>(collider.X.cols());
   collider.surface = collision::build_surface(collider.tets, num_nodes);
+  if (!is_outer.empty()) keep_outer_faces(is_outer, collider.surface);
   const auto& faces = collider.surface.faces;
   const auto num_faces = static_cast<std::size_t>(faces.cols());
-  collider.outer.assign(num_faces, 1);
   collider.face_area.resize(num_faces);
   for (std::size_t f = 0; f < num_faces; ++f) {
     const auto face = faces.col(static_cast<Eigen::Index>(f));
     const Vec3 a = collider.X.col(face[0]);
     collider.face_area[f] =
         0.5 * (collider.X.col(face[1]) - a).cross(collider.X.col(face[2]) - a).norm();
-    if (!is_outer.empty())
-      for (int k = 0; k < 3; ++k)
-        if (is_outer[static_cast<std::size_t>(face[k])] == 0) collider.outer[f] = 0;
   }
 
-  // Mean height of the elements that have an outer face, over that face.
+  // Mean height of the elements that have a face on the surface, over that face.
   double height_sum = 0;
   int heights = 0;
   std::vector<std::vector<int>> faces_of_node(static_cast<std::size_t>(num_nodes));
   for (std::size_t f = 0; f < num_faces; ++f) {
-    if (collider.outer[f] == 0) continue;
     for (int k = 0; k < 3; ++k)
       faces_of_node[static_cast<std::size_t>(faces(k, static_cast<Eigen::Index>(f)))].push_back(
           static_cast<int>(f));
@@ -114,7 +139,7 @@ void complete_collider(Collider& collider, const std::vector<char>& is_outer) {
   }
   collider.size = heights > 0 ? height_sum / heights : 0;
 
-  // Outer faces that share a node with a tetrahedron; deeper ones inherit from their neighbours.
+  // Faces that share a node with a tetrahedron; deeper ones inherit from their neighbours.
   const auto num_tets = static_cast<std::size_t>(collider.tets.cols());
   std::vector<std::vector<int>> nearby(num_tets);
   std::vector<int> ring_of(num_tets, -1), ring;

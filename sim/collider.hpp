@@ -11,7 +11,8 @@ namespace articular::sim {
 Tetrahedra shell_under(Positions& X, const Triangles& triangles, double thickness);
 
 /// Faces and areas, nearby faces and sizes of a collider whose X, tets and nodes are set.
-/// @param is_outer  per node: surface node of a shell; empty = every face is outer
+/// @param is_outer  per node: on the surface that a shell lies under, the only one that touches; empty =
+///                  every face touches
 void complete_collider(Collider& collider, const std::vector<char>& is_outer);
 
 }  // namespace articular::sim

@@ -22,9 +22,28 @@ Mat3 corners(const Positions& x, const Eigen::Matrix3Xi& faces, int f) {
   return result;
 }
 
-bool boxes_apart(const Mat3& a, const Mat3& b, double distance) {
-  return (a.rowwise().minCoeff() - b.rowwise().maxCoeff()).maxCoeff() > distance ||
-         (b.rowwise().minCoeff() - a.rowwise().maxCoeff()).maxCoeff() > distance;
+/// Extent of a triangle along a direction.
+struct Extent {
+  double low, high;
+};
+Extent extent(const Mat3& triangle, const Vec3& direction) {
+  const Vec3 along = triangle.transpose() * direction;
+  return {along.minCoeff(), along.maxCoeff()};
+}
+
+/// The face F can't come to lie opposite the triangle s within a distance: it is too far in front of
+/// it, deeper behind it than `reach`, or beside it when seen along the triangle's normal n (unit).
+bool cannot_meet(const Mat3& s, const Vec3& n, const Mat3& F, double reach, double distance) {
+  const double plane = n.dot(s.col(0));
+  const Extent height = extent(F, n);
+  if (height.low - plane > distance || plane - height.high > reach + distance) return true;
+  for (const Mat3* triangle : {&s, &F})
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 side = (triangle->col((k + 1) % 3) - triangle->col(k)).cross(n).normalized();
+      const Extent a = extent(s, side), b = extent(F, side);
+      if (a.low - b.high > distance || b.low - a.high > distance) return true;
+    }
+  return false;
 }
 
 /// A triangle and a face that move with the same bone, or share a node, do not touch: tissue tied to a
@@ -57,7 +76,7 @@ ContactSearch::ContactSearch(const Model& model)
       moving.tree = std::make_unique<collision::BucketTree>(collider.tets, collider.surface,
                                                             collider.X, options);
       moving_.push_back(std::move(moving));
-      seen_.resize(std::max(seen_.size(), collider.outer.size()));
+      seen_.resize(std::max(seen_.size(), collider.face_area.size()));
     }
     candidates_.push_back({static_cast<int>(c), false, {}});
     if (contact.a != contact.b) candidates_.push_back({static_cast<int>(c), true, {}});
@@ -125,9 +144,8 @@ void ContactSearch::collect(const std::vector<collision::Penetration>& found, co
   const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
   std::fill(seen_.begin(), seen_.end(), -1);
   for (const collision::Penetration& p : found) {
-    if (A.outer[static_cast<std::size_t>(p.face)] == 0) continue;
     const Mat3 s = corners(a.x, A.surface.faces, p.face);
-    const Vec3 n = (s.col(1) - s.col(0)).cross(s.col(2) - s.col(0));
+    const Vec3 n = (s.col(1) - s.col(0)).cross(s.col(2) - s.col(0)).normalized();
     const int begin = B.nearby_begin[static_cast<std::size_t>(p.tetrahedron)];
     const int end = B.nearby_begin[static_cast<std::size_t>(p.tetrahedron) + 1];
     for (int k = begin; k < end; ++k) {
@@ -137,8 +155,8 @@ void ContactSearch::collect(const std::vector<collision::Penetration>& found, co
       const Mat3 face = corners(b.x, B.surface.faces, f);
       const Vec3 n_F = (face.col(1) - face.col(0)).cross(face.col(2) - face.col(0));
       // Not yet facing, but it may turn until the step's end.
-      if (n.dot(n_F) > -0.5 * kFacingCosine * n.norm() * n_F.norm()) continue;
-      if (boxes_apart(s, face, B.reach + margin)) continue;
+      if (n.dot(n_F) > -0.5 * kFacingCosine * n_F.norm()) continue;
+      if (cannot_meet(s, n, face, B.reach, margin)) continue;
       if (tied(A, p.face, B, f)) continue;
       pairs.push_back({p.face, f});
     }

@@ -6,7 +6,7 @@ namespace {
 /// Area of the collider's outer surface that belongs to each node [m²].
 Eigen::VectorXd nodal_area(const Collider& collider) {
   Eigen::VectorXd area = Eigen::VectorXd::Zero(collider.X.cols());
-  for (std::size_t f = 0; f < collider.outer.size(); ++f)
+  for (std::size_t f = 0; f < collider.face_area.size(); ++f)
     for (int k = 0; k < 3; ++k)
       area[collider.surface.faces(k, static_cast<Eigen::Index>(f))] += collider.face_area[f] / 3;
   return area;

@@ -20,7 +20,7 @@ constexpr double kContactFactor = 10;
 /// Cortical bone, where a bone meets a bone without a layer between: E [Pa], nu.
 constexpr double kBoneModulus = 15e9, kBonePoisson = 0.3;
 /// Depth of the collision elements under a bone's surface where the scenario names none [m].
-constexpr double kDefaultShell = 2e-3;
+constexpr double kDefaultShell = 1e-3;
 /// Faces of a contact mesh within 80 degrees of `facing` take part.
 const double kFacingLimit = std::cos(80 * M_PI / 180);
 /// A muscle that gives less than this part of its maximal force at rest and full activation is

@@ -39,11 +39,10 @@ struct Bone {
 struct Collider {
   Positions X;      // at the start, world [m]
   Tetrahedra tets;
-  collision::Surface surface;
+  collision::Surface surface;      // of a shell: without its inner and lateral faces
   std::vector<NodeRef> nodes;      // what moves each node
-  std::vector<char> outer;         // per face: takes part (inner faces of a shell do not)
   std::vector<double> face_area;   // at the start [m²]
-  std::vector<int> nearby_begin, nearby;  // per tetrahedron: outer faces around it
+  std::vector<int> nearby_begin, nearby;  // per tetrahedron: faces around it
   double stiffness = 0;  // contact stiffness of this side [Pa/m]
   double reach = 0;      // [m] depth up to which a crossed face is found
   double size = 0;       // [m] mean height of the elements at the surface

@@ -119,6 +119,8 @@ class Run {
     if (checkpoints_.due(state_.t) && !end) {
       const Stopwatch watch(output_seconds_);
       write_history();
+      std::error_code existing;
+      std::filesystem::create_directories(checkpoint_file().parent_path(), existing);
       write_checkpoint(checkpoint_file(), state_, fingerprint_);
       stepper_.restart(state_);
     }

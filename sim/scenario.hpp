@@ -205,14 +205,14 @@ struct Integrator {
   Scheme scheme = Scheme::ImplicitEuler;
   Solver solver = Solver::Cholesky;
   double step = 1e-3;               // [s]
-  double position_tolerance = 1e-7;  // [m], of the Newton iteration
+  double position_tolerance = 1e-6;  // [m], of the Newton iteration
   int max_iterations = 12;          // Newton iterations before the step is halved
   double min_step = 1e-7;           // [s], below which the run stops
 };
 
 struct Detection {
   enum class Narrow { Gjk };
-  double margin = 0.2e-3;  // [m], least distance at which pairs are kept as candidates
+  double margin = 0.05e-3;  // [m], least distance at which pairs are kept as candidates
   double bucket_ratio = 1.5;  // n of Eq. 1.5.6, edge lengths a bucket
 };
 

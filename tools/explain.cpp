@@ -33,8 +33,7 @@ Json explain_body(const sim::Model& model, const sim::BodyModel& body) {
   }
   if (body.collider) {
     json["collision_tetrahedra"] = body.collider->tets.cols();
-    json["surface_triangles"] =
-        std::count(body.collider->outer.begin(), body.collider->outer.end(), 1);
+    json["surface_triangles"] = body.collider->surface.faces.cols();
   } else {
     json["collision_tetrahedra"] = 0;
   }
