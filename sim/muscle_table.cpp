@@ -113,7 +113,8 @@ MuscleRow read_row(const Row& row, const Location& where) {
   muscle.max_length_ratio = row.number(
       "max_over_opt_length", [](double r) { return r > 1; }, "must be greater than 1");
   muscle.tendon_ratio = row.number(
-      "tendon_ratio", [](double r) { return r >= 0 && r < 1; }, "must lie between 0 and 1");
+      "tendon_ratio", [](double r) { return r >= 0 && r < 1; },
+      "must be at least 0 and less than 1");
   return muscle;
 }
 

@@ -47,7 +47,7 @@ BoxGeometry read_box(const Node& node) {
   if (!(box.size.minCoeff() > 0))
     fail(table.at("size"), "the three edges must be positive, found " + found(table.at("size")));
   box.cells = read_cells<3>(table.at("cells"));
-  table.may("center", box.center, vector(kLength));
+  table.may("center", box.center, as_vector(kLength));
   return box;
 }
 
@@ -59,7 +59,7 @@ SphereGeometry read_sphere(const Node& node) {
   if (sphere.element_size > sphere.radius)
     fail(table.at("element_size"),
          "must not exceed the radius, found " + found(table.at("element_size")));
-  table.may("center", sphere.center, vector(kLength));
+  table.may("center", sphere.center, as_vector(kLength));
   return sphere;
 }
 
@@ -181,14 +181,14 @@ Body read_body(const Node& node, const std::filesystem::path& folder) {
   if (const Node* geometry = table.find("geometry")) read_geometry(*geometry, body);
   table.may("contact_meshes", body.contact_meshes, contact_meshes);
   table.may("layer", body.layer, read_layer);
-  table.may("shell_thickness", body.shell_thickness, quantity(kLength, kPositive));
+  table.may("shell_thickness", body.shell_thickness, as_quantity(kLength, kPositive));
   table.may("collides", body.collides, read_boolean);
-  table.may("mass", body.mass, quantity(kMass, kPositive));
-  table.may("density", body.density, quantity(kDensity, kPositive));
-  table.may("center_of_mass", body.center_of_mass, vector(kLength));
+  table.may("mass", body.mass, as_quantity(kMass, kPositive));
+  table.may("density", body.density, as_quantity(kDensity, kPositive));
+  table.may("center_of_mass", body.center_of_mass, as_vector(kLength));
   table.may("inertia", body.inertia, read_inertia);
-  table.may("velocity", body.velocity, vector(kVelocity));
-  table.may("angular_velocity", body.angular_velocity, vector(kAngularVelocity));
+  table.may("velocity", body.velocity, as_vector(kVelocity));
+  table.may("angular_velocity", body.angular_velocity, as_vector(kAngularVelocity));
   table.may("material", body.material, read_material);
   check_kind(table, body);
   return body;

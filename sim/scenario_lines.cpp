@@ -39,10 +39,10 @@ std::vector<Anchor> read_path(const TableReader& line, const Context& context) {
 
 /// The parameters that a muscle and a table of muscles share.
 void read_dynamics(const TableReader& table, Muscle& muscle) {
-  table.may("passive_fraction", muscle.passive_fraction, number(kNotNegative));
-  table.may("max_velocity", muscle.max_velocity, quantity(kRate, kPositive));
-  table.may("activation_time", muscle.activation_time, quantity(kTime, kPositive));
-  table.may("deactivation_time", muscle.deactivation_time, quantity(kTime, kPositive));
+  table.may("passive_fraction", muscle.passive_fraction, as_number(kNotNegative));
+  table.may("max_velocity", muscle.max_velocity, as_quantity(kRate, kPositive));
+  table.may("activation_time", muscle.activation_time, as_quantity(kTime, kPositive));
+  table.may("deactivation_time", muscle.deactivation_time, as_quantity(kTime, kPositive));
 }
 
 Curve read_excitation(const Node& node) { return read_curve(node, kFraction); }
@@ -53,8 +53,8 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
   muscle.name = read_name(table.at("name")) + side_suffix(table, context.side);
   muscle.path = read_path(table, context);
   muscle.max_force = read_quantity(table.at("max_force"), kForce, kPositive);
-  table.may("optimal_length", muscle.optimal_length, quantity(kLength, kPositive));
-  table.may("max_length_ratio", muscle.max_length_ratio, number(kMoreThanOne));
+  table.may("optimal_length", muscle.optimal_length, as_quantity(kLength, kPositive));
+  table.may("max_length_ratio", muscle.max_length_ratio, as_number(kMoreThanOne));
   table.may("tendon_ratio", muscle.tendon_ratio, read_tendon_ratio);
   table.may("excitation", muscle.excitation, read_excitation);
   read_dynamics(table, muscle);
@@ -115,8 +115,8 @@ class TableBodies {
       names.push_back(body.name);
     }
     throw InputError(
-        row, fmt::format("the scenario has no body `{0}`{1}; `bodies = {{ {0} = \"...\" }}` "
-                         "of the [[muscle_table]] renames it",
+        row, fmt::format("the scenario has no body `{0}` (`bodies = {{ {0} = \"...\" }}` of the "
+                         "[[muscle_table]] can rename it){1}",
                          name, suggestion(name, names)));
   }
 
@@ -165,9 +165,9 @@ void append_table(const Node& node, const Context& context, std::vector<Muscle>&
 
 void read_slack(const TableReader& table, Ligament& ligament) {
   table.at_most_one({"slack_length", "slack_extension", "reference_strain"});
-  table.may("slack_length", ligament.slack_length, quantity(kLength, kPositive));
-  table.may("slack_extension", ligament.slack_extension, quantity(kLength, kAny));
-  table.may("reference_strain", ligament.reference_strain, number(kMoreThanMinusOne));
+  table.may("slack_length", ligament.slack_length, as_quantity(kLength, kPositive));
+  table.may("slack_extension", ligament.slack_extension, as_quantity(kLength, kAny));
+  table.may("reference_strain", ligament.reference_strain, as_number(kMoreThanMinusOne));
 }
 
 Ligament read_ligament(const TableReader& table, const Context& context) {
@@ -176,16 +176,16 @@ Ligament read_ligament(const TableReader& table, const Context& context) {
   ligament.name = read_name(table.at("name")) + side_suffix(table, context.side);
   ligament.path = read_path(table, context);
   table.exactly_one({"stiffness", "stiffness_per_strain"});
-  table.may("stiffness", ligament.stiffness, quantity(kStiffness, kPositive));
+  table.may("stiffness", ligament.stiffness, as_quantity(kStiffness, kPositive));
   if (table.find("stiffness_per_strain") != nullptr) {
     ligament.law = Ligament::Law::Blankevoort;
-    table.may("stiffness_per_strain", ligament.stiffness, quantity(kForce, kPositive));
-    table.may("toe_strain", ligament.toe_strain, number(kPositive));
+    table.may("stiffness_per_strain", ligament.stiffness, as_quantity(kForce, kPositive));
+    table.may("toe_strain", ligament.toe_strain, as_number(kPositive));
   } else {
     table.refuse({"toe_strain"},
                  "a ligament with `stiffness` is linear; `stiffness_per_strain` has a toe");
   }
-  table.may("damping", ligament.damping, quantity(kDamping, kNotNegative));
+  table.may("damping", ligament.damping, as_quantity(kDamping, kNotNegative));
   read_slack(table, ligament);
   return ligament;
 }

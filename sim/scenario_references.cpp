@@ -35,6 +35,10 @@ std::string label(const Node& entry, std::string_view list) {
   return fmt::format("{} `{}`", list, one_line(*name->text()));
 }
 
+std::string place(const Location& where) {
+  return where.line > 0 ? fmt::format("{}:{}", where.file, where.line) : where.file;
+}
+
 std::string read_name(const Node& node) {
   std::string name = read_text(node);
   if (!std::all_of(name.begin(), name.end(), is_name_character) || name.front() == ' ' ||
@@ -76,10 +80,10 @@ bool has_surface(const Body& body) {
 Placement read_placement(const Node& node) {
   const TableReader table(node, "place", {"rotation", "about", "translation", "scale"});
   Placement placement;
-  table.may("rotation", placement.rotation, vector(kAngle));
-  table.may("about", placement.about, vector(kLength));
-  table.may("translation", placement.translation, vector(kLength));
-  table.may("scale", placement.scale, number(kPositive));
+  table.may("rotation", placement.rotation, as_vector(kAngle));
+  table.may("about", placement.about, as_vector(kLength));
+  table.may("translation", placement.translation, as_vector(kLength));
+  table.may("scale", placement.scale, as_number(kPositive));
   return placement;
 }
 
@@ -129,7 +133,7 @@ Anchor read_anchor(const TableReader& table, const Context& context) {
   const Body& body = read_body_reference(table.at("body"), context);
   anchor.body = body.name;
   anchor.point = context.point(read_vector(table.at("point"), kLength));
-  table.may("radius", anchor.radius, quantity(kLength, kNotNegative));
+  table.may("radius", anchor.radius, as_quantity(kLength, kNotNegative));
   if (anchor.radius > 0 && body.kind != Body::Kind::Tissue)
     fail(table.at("radius"),
          fmt::format("a radius spreads a point over tissue, and body `{}` is none", body.name));

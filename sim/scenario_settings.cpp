@@ -40,11 +40,11 @@ void read_integrator(const Node& node, Integrator& integrator) {
         n, {{"cholesky", Integrator::Solver::Cholesky},
             {"conjugate-gradients", Integrator::Solver::ConjugateGradients}});
   });
-  table.may("step", integrator.step, quantity(kTime, kPositive));
-  table.may("position_tolerance", integrator.position_tolerance, quantity(kLength, kPositive));
+  table.may("step", integrator.step, as_quantity(kTime, kPositive));
+  table.may("position_tolerance", integrator.position_tolerance, as_quantity(kLength, kPositive));
   table.may("max_iterations", integrator.max_iterations,
             [](const Node& n) { return read_integer(n, 1, kMostIterations); });
-  table.may("min_step", integrator.min_step, quantity(kTime, kPositive));
+  table.may("min_step", integrator.min_step, as_quantity(kTime, kPositive));
   if (integrator.min_step > integrator.step)
     throw InputError(node.where,
                      fmt::format("[integrator]: `min_step` ({} s) must not exceed `step` ({} s)",
@@ -56,20 +56,20 @@ void read_detection(const Node& node, Detection& detection) {
   // The only choice so far, so that nothing is kept of it.
   if (const Node* narrow = table.find("narrow"))
     read_choice<Detection::Narrow>(*narrow, {{"gjk", Detection::Narrow::Gjk}});
-  table.may("margin", detection.margin, quantity(kLength, kNotNegative));
-  table.may("bucket_ratio", detection.bucket_ratio, number(kPositive));
+  table.may("margin", detection.margin, as_quantity(kLength, kNotNegative));
+  table.may("bucket_ratio", detection.bucket_ratio, as_number(kPositive));
 }
 
 void read_output(const Node& node, Output& output) {
   const TableReader table(node, "[output]",
                           {"interval", "length_unit", "directory", "checkpoint_interval"});
-  table.may("interval", output.interval, quantity(kTime, kPositive));
+  table.may("interval", output.interval, as_quantity(kTime, kPositive));
   if (const Node* unit = table.find("length_unit")) {
     output.length_unit = read_choice<double>(*unit, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
     output.length_unit_name = *unit->text();
   }
   table.may("directory", output.directory, read_text);
-  table.may("checkpoint_interval", output.checkpoint_interval, quantity(kTime, kPositive));
+  table.may("checkpoint_interval", output.checkpoint_interval, as_quantity(kTime, kPositive));
 }
 
 nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
@@ -126,7 +126,8 @@ std::string settings_as_json(const Scenario& scenario) {
   if (output.directory) json["output"]["directory"] = output.directory->string();
   if (output.checkpoint_interval)
     json["output"]["checkpoint_interval_s"] = *output.checkpoint_interval;
-  return json.dump(2);
+  // Text that is not UTF-8 (a file name may be anything) is replaced rather than refused.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace articular::sim

@@ -110,13 +110,13 @@ class TableReader {
 };
 
 // Readers to pass to TableReader::may().
-inline auto quantity(const QuantityKind& kind, const Range& range) {
+inline auto as_quantity(const QuantityKind& kind, const Range& range) {
   return [&kind, &range](const Node& node) { return read_quantity(node, kind, range); };
 }
-inline auto vector(const QuantityKind& kind) {
+inline auto as_vector(const QuantityKind& kind) {
   return [&kind](const Node& node) { return read_vector(node, kind); };
 }
-inline auto number(const Range& range) {
+inline auto as_number(const Range& range) {
   return [&range](const Node& node) { return read_number(node, range); };
 }
 

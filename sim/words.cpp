@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numeric>
 
 namespace articular::sim {
 namespace {
@@ -87,7 +86,7 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& na
   for (std::size_t i = 0; i < std::min(names.size(), kLongestList); ++i)
     list += fmt::format("{}`{}`", i == 0 ? "" : ", ", names[i]);
   if (names.size() > kLongestList) list += ", ...";
-  return "; expected one of " + list;
+  return (names.size() == 1 ? "; expected " : "; expected one of ") + list;
 }
 
 }  // namespace articular::sim

@@ -1,0 +1,154 @@
+// Which bodies can meet, and what is recorded.
+#include <algorithm>
+
+#include "sim/scenario_reader.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// A body that can touch something.
+const Body& read_touching_body(const Node& node, const Context& context) {
+  const Body& body = read_body_reference(node, context);
+  if (!has_surface(body))
+    fail(node, fmt::format("body `{}` has no surface that could touch", body.name));
+  if (!body.collides) fail(node, fmt::format("body `{}` has collides = false", body.name));
+  return body;
+}
+
+ContactPair read_contact(const Node& node, const Context& context) {
+  const TableReader table(node, "[[contact]]", {"bodies", "self", "stiffness"});
+  ContactPair pair;
+  pair.where = node.where;
+  const Node& which = table.exactly_one({"bodies", "self"});
+  const bool is_self = table.find("self") != nullptr;
+  const Node& first = is_self ? which : read_list(which, "the names of two bodies", 2)[0];
+  const Node& second = is_self ? which : (*which.list())[1];
+  const Body& a = read_touching_body(first, context);
+  const Body& b = read_touching_body(second, context);
+  if (&a == &b && a.kind != Body::Kind::Tissue)
+    fail(second, fmt::format("only tissue can touch itself, body `{}` is rigid", a.name));
+  pair.a = a.name;
+  pair.b = b.name;
+  table.may("stiffness", pair.stiffness, as_quantity(kContactStiffness, kPositive));
+  return pair;
+}
+
+/// Of muscles and ligaments, which probes may name.
+using Names = std::vector<std::string>;
+
+std::string read_body_of_kind(const Node& node, const Context& context, Body::Kind kind,
+                              std::string_view expected) {
+  const Body& body = read_body_reference(node, context);
+  if (body.kind != kind)
+    fail(node, fmt::format("expected a {} body, body `{}` is none", expected, body.name));
+  return body.name;
+}
+
+std::string read_line_reference(const Node& node, const Context& context, const Names& lines) {
+  const std::string line = context.name(read_text(node));
+  if (std::find(lines.begin(), lines.end(), line) == lines.end())
+    fail(node, fmt::format("no muscle or ligament is called `{}`{}", one_line(line),
+                           suggestion(line, lines)));
+  return line;
+}
+
+/// Refuses keys of other kinds of probe.
+void keep_only(const TableReader& table, std::initializer_list<std::string_view> keys) {
+  for (const std::string_view key : {"body", "point", "axis", "bodies", "line"})
+    if (std::find(keys.begin(), keys.end(), key) == keys.end())
+      table.refuse({key}, fmt::format("the probe is of kind {}", found(table.at("kind"))));
+}
+
+/// What a probe of its kind observes.
+void read_target(const TableReader& table, const Context& context, const Names& lines,
+                 Probe& probe) {
+  switch (probe.kind) {
+    case Probe::Kind::Point:
+      keep_only(table, {"body", "point"});
+      probe.anchor = read_anchor(table, context);
+      break;
+    case Probe::Kind::Angle:
+      keep_only(table, {"body", "axis"});
+      probe.body = read_body_of_kind(table.at("body"), context, Body::Kind::Rigid, "rigid");
+      table.may("axis", probe.axis, read_direction);
+      break;
+    case Probe::Kind::Contact: {
+      keep_only(table, {"bodies"});
+      const Node::List& bodies = read_list(table.at("bodies"), "the names of two bodies", 2);
+      probe.body = read_touching_body(bodies[0], context).name;
+      probe.other = read_touching_body(bodies[1], context).name;
+      break;
+    }
+    case Probe::Kind::Line:
+      keep_only(table, {"line"});
+      probe.line = read_line_reference(table.at("line"), context, lines);
+      break;
+    case Probe::Kind::Energy:
+      keep_only(table, {});
+      break;
+    case Probe::Kind::Reaction:
+      keep_only(table, {"body"});
+      probe.body = read_body_of_kind(table.at("body"), context, Body::Kind::Fixed, "fixed");
+      break;
+  }
+}
+
+Probe read_probe(const TableReader& table, const Context& context, const Names& lines) {
+  Probe probe;
+  probe.where = table.node().where;
+  probe.name = read_name(table.at("name")) + side_suffix(table, context.side);
+  probe.kind = read_choice<Probe::Kind>(table.at("kind"), {{"point", Probe::Kind::Point},
+                                                           {"angle", Probe::Kind::Angle},
+                                                           {"contact", Probe::Kind::Contact},
+                                                           {"line", Probe::Kind::Line},
+                                                           {"energy", Probe::Kind::Energy},
+                                                           {"reaction", Probe::Kind::Reaction}});
+  read_target(table, context, lines, probe);
+  return probe;
+}
+
+}  // namespace
+
+void read_contacts(const TableReader& document, const Context& context, Scenario& scenario) {
+  const Node* node = document.find("contact");
+  if (node == nullptr) return;
+  if (std::holds_alternative<bool>(node->value)) {
+    scenario.contact = read_boolean(*node);
+    return;
+  }
+  if (node->list() == nullptr)
+    fail(*node, fmt::format("expected false or entries that start with [[contact]], found {}",
+                            found(*node)));
+  for (const Node& element : *node->list()) {
+    ContactPair pair = read_contact(element, context);
+    for (const ContactPair& other : scenario.contacts)
+      if (std::minmax(pair.a, pair.b) == std::minmax(other.a, other.b))
+        throw InputError(element.where,
+                         fmt::format("[[contact]]: the pair `{}`, `{}` is given twice, first at {}",
+                                     pair.a, pair.b, place(other.where)));
+    scenario.contacts.push_back(std::move(pair));
+  }
+}
+
+std::vector<Probe> read_probes(const TableReader& document, const Context& context,
+                               const std::vector<Muscle>& muscles,
+                               const std::vector<Ligament>& ligaments) {
+  Names lines;
+  for (const Muscle& muscle : muscles) lines.push_back(muscle.name);
+  for (const Ligament& ligament : ligaments) lines.push_back(ligament.name);
+  std::vector<Probe> probes;
+  for (const Node& node : entries(document, "probe")) {
+    const TableReader table(node, label(node, "probe"),
+                            {"name", "kind", "body", "point", "axis", "bodies", "line", "mirror"});
+    for (const Side side : read_sides(table)) {
+      Context here = context;
+      here.side = side;
+      Probe probe = read_probe(table, here, lines);
+      check_new_name(table.at("name"), "probe", probe.name, probes);
+      probes.push_back(std::move(probe));
+    }
+  }
+  return probes;
+}
+
+}  // namespace articular::sim
