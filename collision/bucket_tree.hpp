@@ -20,8 +20,8 @@ enum class Mapping {
 };
 
 struct BucketTreeOptions {
-  // n of Eq. 1.5.6: bucket edge / mean tetrahedron diameter. Eq. 1.5.6 leaves buckets of n to 2n
-  // diameters; on bars of 10 000 and 40 000 elements smaller ones made queries 1.5 to 2 times slower.
+  // n of Eq. 1.5.6: bucket edge / mean tetrahedron diameter. The floor leaves buckets of n to 2n
+  // diameters. Smaller ones cost more pairs of buckets, larger ones more box tests.
   double bucket_ratio = 2;
   std::optional<Aabb> fixed_root;  // size of the root [m]; without one it is refitted every update
   Mapping mapping = Mapping::Direct;
