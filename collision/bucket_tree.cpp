@@ -84,6 +84,8 @@ BucketTree::BucketTree(const Eigen::Matrix4Xi& tets, const Surface& surface,
     bad_input("bucket ratio ", options_.bucket_ratio, ", must be positive and finite");
   if (tets.size() > 0 && (tets.minCoeff() < 0 || tets.maxCoeff() >= X_rest.cols()))
     bad_input("node index outside [0, ", X_rest.cols(), ") in a tetrahedron");
+  if (surface.tet_face_begin.size() != static_cast<std::size_t>(tets.cols()) + 1)
+    bad_input("the surface belongs to a mesh of another number of tetrahedra");
   check_positions(X_rest, X_rest.cols(), "rest position");
 
   Aabb rest_bounds;

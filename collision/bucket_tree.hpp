@@ -42,8 +42,8 @@ double mean_tetrahedron_radius(const Eigen::Matrix4Xi& tets, const Eigen::Matrix
 /// positions of the last update, so that it stays valid by itself; copies are independent.
 class BucketTree {
  public:
-  // 8^6 = 262 144 buckets, about 7 MB a tree; each further level takes eight times as much.
-  // With three tetrahedra a bucket edge it is enough for meshes of some millions.
+  // 8^6 = 262 144 buckets, about 6 MB a tree; each further level takes eight times as much. Enough
+  // for compact meshes of a few million elements; buckets of larger meshes are just fuller.
   static constexpr int kMaxLevels = 7;
 
   /// A node by level (1..num_levels) and place in the grid of that level.

@@ -298,6 +298,8 @@ TEST(BucketTree, BadArgumentsAreRefused) {
   EXPECT_THROW(tree_of(mesh, options), std::invalid_argument);
   options.fixed_root->include(Eigen::Vector3d(1, 2, 3));  // a point
   EXPECT_THROW(tree_of(mesh, options), std::invalid_argument);
+  EXPECT_THROW(BucketTree(mesh.tets.leftCols(3), mesh.surface, mesh.X), std::invalid_argument);
+  EXPECT_THROW(BucketTree(mesh.tets, mesh.surface, mesh.X.leftCols(3)), std::invalid_argument);
   Mesh bad = mesh;
   bad.X(2, 3) = nan;
   EXPECT_EQ(message_of([&] { tree_of(bad); }).find("rest position of node 3 is"), 0u);
