@@ -2,7 +2,9 @@
 
 #include <vector>
 
-#include "collision/narrow_test.hpp"
+#include "collision/aabb.hpp"
+#include "collision/element_pair.hpp"
+#include "collision/gjk.hpp"
 #include "collision/penetrations.hpp"
 #include "collision/surface.hpp"
 

@@ -84,6 +84,8 @@ BucketTree::BucketTree(const Eigen::Matrix4Xi& tets, const Surface& surface,
     bad_input("bucket ratio ", options_.bucket_ratio, ", must be positive and finite");
   if (tets.size() > 0 && (tets.minCoeff() < 0 || tets.maxCoeff() >= X_rest.cols()))
     bad_input("node index outside [0, ", X_rest.cols(), ") in a tetrahedron");
+  if (surface.tet_face_begin.size() != static_cast<std::size_t>(tets.cols()) + 1)
+    bad_input("the surface belongs to a mesh of another number of tetrahedra");
   check_positions(X_rest, X_rest.cols(), "rest position");
 
   Aabb rest_bounds;
@@ -96,8 +98,9 @@ BucketTree::BucketTree(const Eigen::Matrix4Xi& tets, const Surface& surface,
         (options_.fixed_root->max.array() < options_.fixed_root->min.array()).any())
       bad_input("fixed root with a longest edge of ", root_edge, " m, must be positive and finite");
   }
-  num_levels_ =
-      choose_num_levels(root_edge, mean_tetrahedron_radius(tets, X_rest), options_.bucket_ratio);
+  const double mean_radius = mean_tetrahedron_radius(tets, X_rest);
+  num_levels_ = choose_num_levels(root_edge, mean_radius, options_.bucket_ratio);
+  smallest_root_edge_ = 2 * mean_radius * options_.bucket_ratio * (1 << (num_levels_ - 1));
   if (options_.mapping == Mapping::CoordinateSorting) sort_.emplace();
 
   const std::size_t num_buckets = std::size_t{1} << (3 * (num_levels_ - 1));

@@ -20,8 +20,8 @@ enum class Mapping {
 };
 
 struct BucketTreeOptions {
-  // n of Eq. 1.5.6: bucket edge / mean tetrahedron diameter. Eq. 1.5.6 leaves buckets of n to 2n
-  // diameters; on bars of 10 000 and 40 000 elements smaller ones made queries 1.5 to 2 times slower.
+  // n of Eq. 1.5.6: bucket edge / mean tetrahedron diameter. The floor leaves buckets of n to 2n
+  // diameters. Smaller ones cost more pairs of buckets, larger ones more box tests.
   double bucket_ratio = 2;
   std::optional<Aabb> fixed_root;  // size of the root [m]; without one it is refitted every update
   Mapping mapping = Mapping::Direct;
@@ -42,8 +42,8 @@ double mean_tetrahedron_radius(const Eigen::Matrix4Xi& tets, const Eigen::Matrix
 /// positions of the last update, so that it stays valid by itself; copies are independent.
 class BucketTree {
  public:
-  // 8^6 = 262 144 buckets, about 7 MB a tree; each further level takes eight times as much.
-  // With three tetrahedra a bucket edge it is enough for meshes of some millions.
+  // 8^6 = 262 144 buckets, about 6 MB a tree; each further level takes eight times as much. Enough
+  // for compact meshes of a few million elements; buckets of larger meshes are just fuller.
   static constexpr int kMaxLevels = 7;
 
   /// A node by level (1..num_levels) and place in the grid of that level.

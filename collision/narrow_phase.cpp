@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "collision/narrow_test.hpp"
+#include "collision/element_pair.hpp"
+#include "collision/gjk.hpp"
 
 namespace articular::collision {
 

@@ -1,7 +1,7 @@
 #include "collision/self_intersection.hpp"
 
+#include "collision/element_pair.hpp"
 #include "collision/narrow_phase.hpp"
-#include "collision/narrow_test.hpp"
 
 namespace articular::collision {
 

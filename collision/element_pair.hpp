@@ -2,9 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "collision/aabb.hpp"
-#include "collision/gjk.hpp"
-
 namespace articular::collision {
 
 /// Corners of an element, one a column.
