@@ -3,6 +3,7 @@
 #include <vtkCellArray.h>
 #include <vtkDataSetReader.h>
 #include <vtkIdTypeArray.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
 #include <vtkPLYReader.h>
@@ -120,11 +121,17 @@ class QuietVtk::Window : public vtkOutputWindow {
 };
 
 QuietVtk::QuietVtk()
-    : previous_(vtkOutputWindow::GetInstance()), window_(vtkSmartPointer<Window>::New()) {
+    : previous_(vtkOutputWindow::GetInstance()),
+      window_(vtkSmartPointer<Window>::New()),
+      previous_verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
   vtkOutputWindow::SetInstance(window_);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // it prints beside the window
 }
 
-QuietVtk::~QuietVtk() { vtkOutputWindow::SetInstance(previous_); }
+QuietVtk::~QuietVtk() {
+  vtkOutputWindow::SetInstance(previous_);
+  vtkLogger::SetStderrVerbosity(static_cast<vtkLogger::Verbosity>(previous_verbosity_));
+}
 
 bool QuietVtk::failed() const { return !window_->first_error.empty(); }
 

@@ -28,6 +28,7 @@ class QuietVtk {
   class Window;
   vtkSmartPointer<vtkOutputWindow> previous_;
   vtkSmartPointer<Window> window_;
+  int previous_verbosity_;
 };
 
 /// .vtu .vtp .vtk .stl .ply, in lower case.
