@@ -7,7 +7,7 @@
 namespace articular::anatomy {
 namespace {
 
-constexpr double kMandibleGrid = 1.3;  // contouring grids of the bones that are looked at
+constexpr double kMandibleGrid = 1.2;  // contouring grids of the bones that are looked at
 constexpr double kSkullGrid = 1.7;
 constexpr double kSheetEdge = 0.9;  // contact surfaces of the joint
 constexpr double kTeethEdge = 2.5;  // occlusal strips
