@@ -151,7 +151,7 @@ std::vector<Crown> crowns(bool up) {
     const double half = size.height / 2 + 1.5;  // the root side is sunk into the bone
     Vec3 center = outward(x);
     center.z() += up ? kOcclusalGap + half : -half;
-    result.push_back({center, along, {0.5 * size.width * 1.03, 0.5 * size.depth, half}});
+    result.push_back({center, along, {0.5 * size.width * 0.99, 0.5 * size.depth, half}});
     while (walked < s + size.width) {
       walked += (outward(x + kStep) - outward(x)).norm();
       x += kStep;
@@ -317,7 +317,7 @@ Mesh contour(const Distance& distance, const Vec3& low, const Vec3& high, double
   edges->ComputeScalarsOff();
   vtkNew<vtkWindowedSincPolyDataFilter> smooth;
   smooth->SetInputConnection(edges->GetOutputPort());
-  smooth->SetNumberOfIterations(12);
+  smooth->SetNumberOfIterations(15);
   smooth->SetPassBand(0.25);
   smooth->NormalizeCoordinatesOn();
   smooth->Update();
@@ -393,8 +393,8 @@ Mesh arch_strip(double h, double dz, bool normal_up) {
 
 Vec3 arch_point(double x) {
   // Flat at the incisors, nearly straight at the molars; the occlusal level rises backwards.
-  const double y = -44 + 46 * std::pow(std::abs(x) / 27, 2.3);
-  return {x, y, kIncisor.z() + 0.085 * (y + 44)};
+  const double y = -45 + 47 * std::pow(std::abs(x) / 27, 2.3);
+  return {x, y, kIncisor.z() + 0.085 * (y + 45)};
 }
 
 std::pair<double, Vec3> volume_and_center(const Mesh& surface) {
@@ -419,7 +419,7 @@ Mesh mandible_surface(double h) {
     for (const ThickTriangle& t : sheet) bone = std::min(bone, distance(t, p));
     bone = smooth_min(bone, head_distance(p), 2.5);
     for (const Crown& crown : teeth) enamel = std::min(enamel, distance(crown, p));
-    return smooth_min(bone, enamel, 0.8);
+    return smooth_min(bone, enamel, 0.5);
   };
   return contour(distance_to, {-62, -56, 0}, {62, 44, 92}, h);
 }
@@ -432,7 +432,7 @@ Mesh skull_surface(double h) {
     for (const ThickTriangle& t : sheet) bone = std::min(bone, distance(t, p));
     bone = smooth_min(bone, temporal_block_distance(p), 2.0);
     for (const Crown& crown : teeth) enamel = std::min(enamel, distance(crown, p));
-    const double solid = smooth_min(bone, enamel, 0.8);
+    const double solid = smooth_min(bone, enamel, 0.5);
     const Vec3 d = p - kCondyle;  // nothing may stand in the joint
     const bool joint =
         std::abs(d.x()) < 12 && d.y() < 9 && d.y() > -26 && d.z() > -12 && d.z() < 14;

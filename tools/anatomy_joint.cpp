@@ -20,7 +20,7 @@ constexpr double kSlopeDistance = 6.3;  // condyle centre to slope: head + 1.3 m
 constexpr double kRoofShift = 2.35;     // end of the roof arc above the point nearest to the head
 constexpr double kWallDeg = 75;         // postglenoid wall to the horizontal
 constexpr double kWallLength = 4;
-constexpr double kAnteriorDeg = 8;  // rise of the preglenoid plane before the crest
+constexpr double kAnteriorDeg = 3;  // rise of the preglenoid plane before the crest
 constexpr double kAnteriorLength = 15;
 constexpr double kHeadExponent = 2.5;       // superellipse of the head in the frontal plane
 constexpr double kTroughCurvature = 0.018;  // [1/mm] fossa_drop = this * x²
@@ -119,7 +119,7 @@ std::pair<double, double> disc_radii(double angle, double x, double rim) {
   }
   // Bands: 3 mm behind, 2 mm in front, less at the rim. Where the gap is narrower, the gap decides.
   const double forward = 0.5 * (1 + std::tanh((angle - 20 * kDeg) / (12 * kDeg)));
-  const double band = 3.3 + forward * (2.1 - 3.3), edge = 1.5 + forward * (1.1 - 1.5);
+  const double band = 3.3 + forward * (2.3 - 3.3), edge = 1.5 + forward * (1.4 - 1.5);
   const double thickness = edge + (band - edge) * std::sqrt(1 - std::pow(std::min(rim, 1.0), 4));
   return {inner, inner + smooth_min(low - inner, thickness, 0.15)};
 }
@@ -235,11 +235,11 @@ Mesh disc(double h) {
   if (!(h >= 0.3 && h <= 2.5))
     throw std::invalid_argument("element size " + std::to_string(h) +
                                 " mm: expected 0.3 to 2.5 mm");
-  constexpr double kMiddle = 16 * kDeg,
-                   kHalfAngle = 64 * kDeg;  // -48 to 80 degrees around the head
-  constexpr double kArc = 13.2;             // length of that along the mid-surface [mm]
-  constexpr double kThickness = 2.4;        // that gives two layers at 1.2 mm
-  constexpr double kRound = 0.7;            // outline: 0 rectangle, 1 ellipse
+  constexpr double kMiddle = 23 * kDeg;  // -46 to 92 degrees about the head
+  constexpr double kHalfAngle = 69 * kDeg;
+  constexpr double kArc = 14.3;       // length of that along the mid-surface [mm]
+  constexpr double kThickness = 2.4;  // that gives two layers at 1.2 mm
+  constexpr double kRound = 0.7;      // outline: 0 rectangle, 1 ellipse
   const auto half = [h](double l) { return std::max(2, static_cast<int>(std::lround(l / h / 2))); };
   const int nx = 2 * half(2 * kDiscHalfWidth), ny = 2 * half(kArc);
   const int nz = std::max(1, static_cast<int>(std::lround(kThickness / h)));

@@ -7,7 +7,7 @@
 namespace articular::anatomy {
 namespace {
 
-constexpr double kMandibleGrid = 1.3;  // contouring grids of the bones that are looked at
+constexpr double kMandibleGrid = 1.2;  // contouring grids of the bones that are looked at
 constexpr double kSkullGrid = 1.7;
 constexpr double kSheetEdge = 0.9;  // contact surfaces of the joint
 constexpr double kTeethEdge = 2.5;  // occlusal strips
@@ -103,7 +103,7 @@ std::vector<MuscleRow> left_muscles() {
        mandible,
        {6, -37, 9},
        hyoid,
-       {11, 4, 1},
+       {11, 10, -7},
        40.0,
        35.1,
        1.2849,
@@ -113,7 +113,7 @@ std::vector<MuscleRow> left_muscles() {
        skull,
        {51, 53, 70},
        hyoid,
-       {11, 4, 1},
+       {11, 10, -7},
        40.0,
        35.1,
        1.2849,
@@ -123,7 +123,7 @@ std::vector<MuscleRow> left_muscles() {
        mandible,
        {16, -24, 19},
        hyoid,
-       {2, -2, 1},
+       {2, 4, -8},
        35.4,
        35.1,
        1.2849,
@@ -133,13 +133,13 @@ std::vector<MuscleRow> left_muscles() {
        mandible,
        {28, -4, 29},
        hyoid,
-       {6, 0, 1},
+       {6, 6, -8},
        35.4,
        35.1,
        1.2849,
        0.0},
-      {"gh", "geniohyoid", mandible, {2, -35, 15}, hyoid, {2, 0, 3}, 32.0, 35.1, 1.2849, 0.0},
-      {"sh", "stylohyoid", skull, {38, 44, 68}, hyoid, {11, 4, 2}, 15.6, 35.1, 1.2849, 0.0},
+      {"gh", "geniohyoid", mandible, {2, -35, 15}, hyoid, {2, 6, -6}, 32.0, 35.1, 1.2849, 0.0},
+      {"sh", "stylohyoid", skull, {38, 44, 68}, hyoid, {11, 10, -6}, 15.6, 35.1, 1.2849, 0.0},
   };
 }
 
