@@ -19,7 +19,7 @@ Integrator preset(Accuracy accuracy) {
       break;
     case Accuracy::Accurate:
       integrator.step = 0.5e-3;
-      integrator.position_tolerance = 0.02e-6;
+      integrator.position_tolerance = 0.1e-6;
       break;
   }
   return integrator;
