@@ -33,6 +33,8 @@ class Dynamics {
   /// M + gamma D + gamma² K at the last evaluate(), over the unknown blocks.
   const fem::BlockMatrix& matrix(double gamma, fem::Tangent tangent);
 
+  std::uint64_t pattern_id() const { return A_.pattern_id(); }
+
   /// r = M b for block velocities b.
   void multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const;
 

@@ -57,6 +57,7 @@ struct ImplicitIntegrator::Memory {
   NewtonSystem newton;
   IntegratorCounts counts;
   double step = 0;                   // [s] being tried
+  bool keep_matrix = false;
   std::exception_ptr error;          // thrown below a C callback; rethrown above it
   Owned<SUNContext, FreeContext> context;
   Owned<N_Vector, FreeVector> y;
@@ -189,12 +190,16 @@ ImplicitIntegrator::ImplicitIntegrator(const Model& model, Dynamics& dynamics)
 
 ImplicitIntegrator::~ImplicitIntegrator() = default;
 
+void ImplicitIntegrator::forget() { memory_->keep_matrix = false; }
+
 const IntegratorCounts& ImplicitIntegrator::counts() const { return memory_->counts; }
 
 bool ImplicitIntegrator::advance(Eigen::VectorXd& y, double t, double h) {
   Memory& m = *memory_;
   void* arkode = m.arkode.get();
   m.step = h;
+  m.newton.begin_step(m.keep_matrix);
+  m.keep_matrix = false;  // after a failure
   Eigen::Map<Eigen::VectorXd> vector(N_VGetArrayPointer(m.y.get()), y.size());
   vector = y;
   check(ARKStepReset(arkode, t, m.y.get()), "ARKStepReset");
@@ -208,6 +213,7 @@ bool ImplicitIntegrator::advance(Eigen::VectorXd& y, double t, double h) {
     return false;
   }
   ++m.counts.steps;
+  m.keep_matrix = true;
   y = vector;
   return true;
 }

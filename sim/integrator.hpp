@@ -19,7 +19,7 @@ struct IntegratorCounts {
 };
 
 /// One implicit step of SUNDIALS' ARKODE (DIRK at fixed step) on y' = rate(t, y). Each step starts
-/// afresh from (t, y): nothing of the past enters but the matrix pattern.
+/// afresh from (t, y): nothing of the past enters but the last matrix and its pattern.
 ///
 /// Newton's linear system is reduced to block velocities: with δx = b_x + γ δv for the kinematic rows
 /// (rotations: δθ in place of quaternions) and w = δv + b_x/γ,
@@ -34,6 +34,9 @@ class ImplicitIntegrator {
 
   /// Advances y from t to t + h. @return false when Newton's iteration did not converge; y is as before
   [[nodiscard]] bool advance(Eigen::VectorXd& y, double t, double h);
+
+  /// Drops the matrix of the last step.
+  void forget();
 
   const IntegratorCounts& counts() const;
 

@@ -48,6 +48,7 @@ State Stepper::initial() {
 
 void Stepper::restart(const State& state) {
   dynamics_->forget();
+  integrator_->forget();
   find_contacts(state, model_.scenario.detection.margin);
   dynamics_->evaluate(state.y.data(), state.t);
 }
