@@ -46,7 +46,7 @@ vtkSmartPointer<vtkPointSet> make_lines(const std::vector<Positions>& paths, dou
       lines->InsertCellPoint(point++);
     }
   }
-  const vtkSmartPointer<vtkPointSet> set = make_surface(x, unit, Triangles(3, 0));
+  vtkSmartPointer<vtkPointSet> set = make_surface(x, unit, Triangles(3, 0));
   vtkPolyData::SafeDownCast(set)->SetLines(lines);
   return set;
 }
