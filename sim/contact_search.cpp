@@ -125,7 +125,7 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
     }
     const bool apart = (a.low - b.high).maxCoeff() > margin || (b.low - a.high).maxCoeff() > margin;
     if (!apart) {
-      collision::collide(*a.tree, *b.tree, faces_of_a_, faces_of_b_, query);
+      collision::collide(*a.tree, *b.tree, faces_of_a_, faces_of_b_, query, scratch_);
       collect(faces_of_a_, a, b, margin, list.pairs);
       CandidateList& reverse = candidates_[i + 1];
       collect(faces_of_b_, b, a, margin, reverse.pairs);

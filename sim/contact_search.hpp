@@ -66,6 +66,7 @@ class ContactSearch {
   std::vector<int> moving_of_body_;       // -1: none
   std::vector<CandidateList> candidates_;
   std::vector<collision::Penetration> faces_of_a_, faces_of_b_;
+  collision::QueryScratch scratch_;
   std::vector<int> seen_;                 // per face: last triangle that it was paired with
   SearchCounts counts_;
 };

@@ -42,9 +42,16 @@ std::vector<Field> tissue_cell_fields(const Tissue& tissue, const Positions& x) 
           {"strain_energy_density", "J/m^3", e.strain_energy_density(x).transpose()}};
 }
 
+/// A fixed bone is written once.
+bool stands_still(const Bone& bone) { return !bone.unknown && !bone.motion; }
+
 void write_bone(const Model& model, const Configuration& now, const BodyModel& body, int index,
                 double time, FrameWriter& writer) {
   const auto b = static_cast<std::size_t>(body.bone);
+  if (index > 0 && stands_still(model.bones[b])) {
+    writer.repeat_bone(body.name, 0, index, time);
+    return;
+  }
   const Pose& pose = now.poses[b];
   const Positions x = (pose.R * body.X).colwise() + pose.p;
   const Positions start = body.X.colwise() + model.bones[b].rest.p;

@@ -145,6 +145,11 @@ void FrameWriter::write_bone(const BoneFrame& frame, int index, double time) {
   write_part(frame.body, ".vtp", *set, index, time);
 }
 
+void FrameWriter::repeat_bone(const std::string& body, int first, int index, double time) {
+  pending_.push_back(
+      {time, index, body, std::string(kFrames) + "/" + frame_file_name(body, first, ".vtp")});
+}
+
 void FrameWriter::write_lines(const LinesFrame& frame, int index, double time) {
   const auto set = make_lines(frame.paths, length_unit_);
   vtkNew<vtkStringArray> names;
