@@ -63,6 +63,7 @@ void write_checkpoint(const std::filesystem::path& file, const State& state,
   bytes += fingerprint;
   put(state.t, bytes);
   put(state.next_step, bytes);
+  put(state.next_margin, bytes);
   put(state.max_penetration, bytes);
   put(state.frames, bytes);
   put(state.energy, bytes);
@@ -96,6 +97,7 @@ std::optional<State> read_checkpoint(const std::filesystem::path& file,
                                    file.string()));
     reader.get(state.t);
     reader.get(state.next_step);
+    reader.get(state.next_margin);
     reader.get(state.max_penetration);
     reader.get(state.frames);
     reader.get(state.energy);

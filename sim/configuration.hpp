@@ -32,6 +32,9 @@ struct Configuration {
 /// @param y  in the order of Layout; quaternions need not be of unit length
 void read_state(const Model& model, const double* y, double t, Configuration& configuration);
 
+/// Everything moved on with its velocity of now for a time h [s].
+Configuration predicted(const Model& model, const Configuration& now, double h);
+
 /// Positions of a list of nodes, one a column.
 void positions_of(const Configuration& configuration, const std::vector<NodeRef>& nodes, Positions& x);
 

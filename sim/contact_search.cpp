@@ -175,14 +175,4 @@ double ContactSearch::motion_since(const Configuration& configuration) const {
   return std::sqrt(largest);
 }
 
-double ContactSearch::largest_speed(const Configuration& configuration) const {
-  double largest = 0;
-  for (const Moving& moving : moving_) {
-    const Collider& collider = *model_.bodies[static_cast<std::size_t>(moving.body)].collider;
-    for (const NodeRef& node : collider.nodes)
-      largest = std::max(largest, configuration.velocity(node).squaredNorm());
-  }
-  return std::sqrt(largest);
-}
-
 }  // namespace articular::sim

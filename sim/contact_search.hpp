@@ -42,10 +42,8 @@ class ContactSearch {
   const SearchCounts& counts() const { return counts_; }
   SearchCounts& counts() { return counts_; }
 
-  /// Largest distance that a node of any collider has moved since find() [m].
+  /// Largest distance of a node of any collider from where find() had it [m].
   double motion_since(const Configuration& configuration) const;
-  /// Largest speed of a node of any collider [m/s].
-  double largest_speed(const Configuration& configuration) const;
 
  private:
   struct Moving {

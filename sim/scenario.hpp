@@ -211,9 +211,8 @@ struct Integrator {
 };
 
 struct Detection {
-  enum class Narrow { Gjk };
   double margin = 0.05e-3;  // [m], least distance at which pairs are kept as candidates
-  double bucket_ratio = 1.5;  // n of Eq. 1.5.6, edge lengths a bucket
+  double bucket_ratio = 2;  // n of Eq. 1.5.6, edge lengths a bucket
 };
 
 struct Output {
@@ -241,6 +240,8 @@ struct Scenario {
   std::vector<ContactPair> contacts;
   std::vector<Probe> probes;
   Output output;
+  /// The file's text and the overrides: what a checkpoint belongs to.
+  std::string source;
   /// The settings after presets and overrides, as JSON text, for summary.json.
   std::string settings_json;
 };

@@ -33,6 +33,7 @@ struct State {
   double t = 0;       // [s]
   Eigen::VectorXd y;  // in the order of Layout
   double next_step = 0;  // [s]
+  double next_margin = 0;  // [m] of the next detection
   double max_penetration = 0;  // [m] largest so far
   int frames = 0;     // written
   EnergyLedger energy;
