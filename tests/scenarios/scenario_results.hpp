@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/run.hpp"
+#include "tests/sim/temporary_folder.hpp"
+
+namespace articular {
+
+/// What a run left in history.csv and summary.json.
+class ScenarioResults {
+ public:
+  explicit ScenarioResults(const std::filesystem::path& folder)
+      : summary_(nlohmann::json::parse(content(folder / "summary.json"))) {
+    std::istringstream text(content(folder / "history.csv"));
+    std::vector<std::string> names;
+    std::string line, cell;
+    std::getline(text, line);
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');) names.push_back(cell);
+    while (std::getline(text, line)) {
+      std::size_t column = 0;
+      for (std::istringstream cells(line); std::getline(cells, cell, ',');)
+        columns_[names.at(column++)].push_back(std::stod(cell));
+    }
+  }
+
+  /// A column by its name in the file, such as "end.position.z [mm]".
+  const std::vector<double>& column(const std::string& name) const { return columns_.at(name); }
+  double last(const std::string& name) const { return column(name).back(); }
+  double at(const std::string& name, double time) const {
+    const std::vector<double>& times = column("time [s]");
+    const auto row = std::lower_bound(times.begin(), times.end(), time * (1 - 1e-9));
+    if (row == times.end()) throw std::out_of_range("the history ends earlier");
+    return column(name)[static_cast<std::size_t>(row - times.begin())];
+  }
+  double largest(const std::string& name) const {
+    return *std::max_element(column(name).begin(), column(name).end());
+  }
+  double smallest(const std::string& name) const {
+    return *std::min_element(column(name).begin(), column(name).end());
+  }
+  double count(const std::string& name) const { return summary_.at("counts").at(name); }
+  const nlohmann::json& summary() const { return summary_; }
+
+ private:
+  nlohmann::json summary_;
+  std::map<std::string, std::vector<double>> columns_;
+};
+
+/// Runs scenarios/FILE with overrides as of `--set`.
+inline ScenarioResults run_scenario(const std::string& file,
+                                    const std::vector<std::string>& overrides = {}) {
+  const TemporaryFolder folder;
+  const sim::Model model = sim::build_model(sim::read_scenario(
+      std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios" / file, overrides));
+  sim::RunOptions options;
+  options.directory = folder.path();
+  sim::run(model, options);
+  return ScenarioResults(folder.path());
+}
+
+}  // namespace articular
