@@ -51,10 +51,9 @@ class Reader {
 }  // namespace
 
 std::string fingerprint(const std::string& settings, const Eigen::VectorXd& initial_y) {
-  return fmt::format(
-      "{:016x}-{:016x}", hash_bytes(settings.data(), settings.size()),
-      hash_bytes(reinterpret_cast<const char*>(initial_y.data()),
-                 static_cast<std::size_t>(initial_y.size()) * sizeof(double)));
+  return fmt::format("{:016x}-{:016x}", hash_bytes(settings.data(), settings.size()),
+                     hash_bytes(reinterpret_cast<const char*>(initial_y.data()),
+                                static_cast<std::size_t>(initial_y.size()) * sizeof(double)));
 }
 
 void write_checkpoint(const std::filesystem::path& file, const State& state,
@@ -91,9 +90,10 @@ std::optional<State> read_checkpoint(const std::filesystem::path& file,
     Reader reader(std::string_view(bytes).substr(0, body));
     if (reader.take(std::strlen(kMagic)) != kMagic) throw InputError("");
     if (reader.take(fingerprint.size()) != fingerprint)
-      throw InputError(fmt::format("{} belongs to another scenario, mesh or setting; run without "
-                                   "--resume or choose another --out",
-                                   file.string()));
+      throw InputError(
+          fmt::format("{} belongs to another scenario, mesh or setting; run without "
+                      "--resume or choose another --out",
+                      file.string()));
     reader.get(state.t);
     reader.get(state.next_step);
     reader.get(state.max_penetration);

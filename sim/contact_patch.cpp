@@ -16,7 +16,8 @@ struct Polygon {
   int count = 0;
 };
 
-/// Keeps the part where the affine function with the values `at_nodes` at the triangle's nodes is >= 0.
+/// Keeps the part where the affine function with the values `at_nodes` at the triangle's nodes is
+/// >= 0.
 void clip(const Vec3& at_nodes, Polygon& polygon, Polygon& scratch) {
   bool all_inside = true;
   for (int i = 0; i < polygon.count; ++i) {
@@ -26,7 +27,9 @@ void clip(const Vec3& at_nodes, Polygon& polygon, Polygon& scratch) {
   }
   if (all_inside) return;
   scratch.count = 0;
-  const auto keep = [&](const Vec3& N) { scratch.corner[static_cast<std::size_t>(scratch.count++)] = N; };
+  const auto keep = [&](const Vec3& N) {
+    scratch.corner[static_cast<std::size_t>(scratch.count++)] = N;
+  };
   for (int i = 0; i < polygon.count; ++i) {
     const auto a = static_cast<std::size_t>(i);
     const auto b = static_cast<std::size_t>(i + 1 == polygon.count ? 0 : i + 1);

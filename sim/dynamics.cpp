@@ -11,8 +11,10 @@ Dynamics::Dynamics(const Model& model) : model_(model) {
   mass_nodes_.resize(static_cast<std::size_t>(model.layout.num_free_nodes));
   for (std::size_t t = 0; t < model.tissues.size(); ++t) {
     const Tissue& tissue = model.tissues[t];
-    tissues_.push_back({Positions(3, tissue.X.cols()), Positions(3, tissue.X.cols()),
-                        tissue.elasticity.make_matrix(), {}});
+    tissues_.push_back({Positions(3, tissue.X.cols()),
+                        Positions(3, tissue.X.cols()),
+                        tissue.elasticity.make_matrix(),
+                        {}});
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
       if (tissue.nodes[i].bone < 0)
         mass_nodes_[static_cast<std::size_t>(tissue.nodes[i].block)] = {static_cast<int>(t),
@@ -138,8 +140,8 @@ void Dynamics::rate(const double* y, double* y_dot) const {
     Eigen::Map<Vec3>(y_dot + layout.bone_p(r)) = velocity(bone.block);
     // q̇ = ½ ω ⊗ q, q = (w, x, y, z).
     const double* q = y + layout.bone_q(r);
-    const Eigen::Quaterniond turned =
-        Eigen::Quaterniond(0, omega.x(), omega.y(), omega.z()) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+    const Eigen::Quaterniond turned = Eigen::Quaterniond(0, omega.x(), omega.y(), omega.z()) *
+                                      Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
     double* q_dot = y_dot + layout.bone_q(r);
     q_dot[0] = 0.5 * turned.w();
     q_dot[1] = 0.5 * turned.x();
@@ -221,8 +223,8 @@ double Dynamics::kinetic_energy() const {
   }
   for (int r = 0; r < model_.layout.num_rigid; ++r) {
     const auto& velocity = configuration_.velocities[static_cast<std::size_t>(r)];
-    energy += 0.5 * model_.bones[static_cast<std::size_t>(r)].mass.mass *
-              velocity.linear.squaredNorm();
+    energy +=
+        0.5 * model_.bones[static_cast<std::size_t>(r)].mass.mass * velocity.linear.squaredNorm();
     energy += 0.5 * velocity.angular.dot(world_inertia(r) * velocity.angular);
   }
   return energy;

@@ -39,9 +39,9 @@ class Dynamics {
   /// Time constant of a muscle's activation now [s].
   double activation_time(const double* y, double t, int muscle) const;
 
-  double kinetic_energy() const;   // at the last evaluate() [J]
-  double elastic_energy() const;   // of the tissues [J]
-  double gravity_energy() const;   // [J], of all unknown masses
+  double kinetic_energy() const;  // at the last evaluate() [J]
+  double elastic_energy() const;  // of the tissues [J]
+  double gravity_energy() const;  // [J], of all unknown masses
   DynamicsTimes& times() { return times_; }
 
  private:

@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
-#include <iterator>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace articular::sim {

@@ -146,8 +146,8 @@ class RegionTest {
   }
   bool contains(const Vec3& x, bool on_surface) const {
     if (region_.surface_only && !on_surface) return false;
-    if (region_.box && ((x - region_.box->first).minCoeff() < 0 ||
-                        (region_.box->second - x).minCoeff() < 0))
+    if (region_.box &&
+        ((x - region_.box->first).minCoeff() < 0 || (region_.box->second - x).minCoeff() < 0))
       return false;
     if (region_.sphere && (x - region_.sphere->first).norm() > region_.sphere->second) return false;
     if (region_.near_body)
@@ -238,7 +238,9 @@ class Builder {
       try {
         Tissue tissue{static_cast<int>(b),
                       fem::Elasticity(mesh.X, mesh.tets, make_material(*body.material)),
-                      fem::lumped_mass(mesh.X, mesh.tets, *body.density), {}, mesh.X};
+                      fem::lumped_mass(mesh.X, mesh.tets, *body.density),
+                      {},
+                      mesh.X};
         tissue.nodes.resize(static_cast<std::size_t>(mesh.X.cols()));
         model_.bodies[b].tissue = static_cast<int>(model_.tissues.size());
         model_.tissues.push_back(std::move(tissue));
@@ -294,14 +296,12 @@ class Builder {
     model_.num_blocks = block;
     for (Tissue& tissue : model_.tissues)
       for (NodeRef& node : tissue.nodes)
-        if (node.bone >= 0)
-          node.block = model_.bones[static_cast<std::size_t>(node.bone)].block;
+        if (node.bone >= 0) node.block = model_.bones[static_cast<std::size_t>(node.bone)].block;
     model_.layout.num_muscles = static_cast<int>(scenario().muscles.size());
   }
 
   std::vector<char> surface_nodes(int tissue) const {
-    std::vector<char> on_surface(
-        model_.tissues[static_cast<std::size_t>(tissue)].nodes.size(), 0);
+    std::vector<char> on_surface(model_.tissues[static_cast<std::size_t>(tissue)].nodes.size(), 0);
     for (const int node : surface_[static_cast<std::size_t>(tissue)].faces.reshaped())
       on_surface[static_cast<std::size_t>(node)] = 1;
     return on_surface;
@@ -466,8 +466,7 @@ class Builder {
     line.name = name;
     for (const Anchor& anchor : path) line.path.push_back(resolve(anchor));
     for (std::size_t i = 1; i < line.path.size(); ++i)
-      line.start_length +=
-          (start_position(line.path[i]) - start_position(line.path[i - 1])).norm();
+      line.start_length += (start_position(line.path[i]) - start_position(line.path[i - 1])).norm();
     if (!(line.start_length > 0))
       throw InputError(where, fmt::format("`{}` has no length: its points coincide", name));
     return line;
@@ -584,9 +583,9 @@ class Builder {
   }
 
   Model model_;
-  std::vector<Geometry> geometry_;             // one a body
-  std::vector<collision::Surface> surface_;    // one a tissue
-  mutable Positions free_start_;               // of the free tissue nodes, by block
+  std::vector<Geometry> geometry_;           // one a body
+  std::vector<collision::Surface> surface_;  // one a tissue
+  mutable Positions free_start_;             // of the free tissue nodes, by block
 };
 
 }  // namespace
