@@ -142,7 +142,9 @@ TEST(Collider, NearbyFacesOfATetrahedronContainTheFacesAtItsNodes) {
       bool shares = false;
       for (const int node : collider.surface.faces.col(f))
         shares = shares || (collider.tets.col(t).array() == node).any();
-      if (shares) EXPECT_TRUE(std::binary_search(begin, end, static_cast<int>(f)));
+      if (shares) {
+        EXPECT_TRUE(std::binary_search(begin, end, static_cast<int>(f)));
+      }
     }
   }
 }

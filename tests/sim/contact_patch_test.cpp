@@ -65,12 +65,12 @@ Vec18 gradient(const Pair& pair) {
 double& entry(Pair& pair, int i) { return i < 9 ? pair.s.reshaped()[i] : pair.f.reshaped()[i - 9]; }
 
 /// Central differences in one coordinate of the pair.
-template <class Function>
-auto difference(const Function& function, const Pair& pair, int i, double h) {
+template <class Result>
+Result difference(Result (*function)(const Pair&), const Pair& pair, int i, double h) {
   Pair plus = pair, minus = pair;
   entry(plus, i) += h;
   entry(minus, i) -= h;
-  return ((function(plus) - function(minus)) / (2 * h));
+  return (function(plus) - function(minus)) / (2 * h);
 }
 
 double gradient_error(const Pair& pair) {

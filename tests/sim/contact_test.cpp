@@ -92,9 +92,15 @@ TEST(Contact, ABlockThatRestsOnAnotherCarriesItsWeight) {
   for (std::size_t c = 0; c < run.model.contacts.size(); ++c) {
     const ContactModel& contact = run.model.contacts[c];
     const double force = run.stepper.dynamics().contacts()[c].force.z();  // on the first body
-    if (contact.a == 0 && contact.b == 1) EXPECT_NEAR(force, -(lower + upper), 1e-4 * lower);
-    if (contact.a == 1 && contact.b == 2) EXPECT_NEAR(force, -upper, 1e-4 * upper);
-    if (contact.a == 0 && contact.b == 2) EXPECT_EQ(force, 0);
+    if (contact.a == 0 && contact.b == 1) {
+      EXPECT_NEAR(force, -(lower + upper), 1e-4 * lower);
+    }
+    if (contact.a == 1 && contact.b == 2) {
+      EXPECT_NEAR(force, -upper, 1e-4 * upper);
+    }
+    if (contact.a == 0 && contact.b == 2) {
+      EXPECT_EQ(force, 0);
+    }
   }
   EXPECT_NEAR(run.force_on(0).z(), -(lower + upper), 1e-4 * lower);
 }
@@ -155,7 +161,9 @@ TEST(Contact, TheLegsOfAClosingVMeetAndDoNotPassThroughEachOther) {
   const Tissue& tissue = run.model.tissues[0];
   for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
     const double X = tissue.X(0, static_cast<Eigen::Index>(i));
-    if (X > 1e-9) EXPECT_GT(run.now().position(tissue.nodes[i]).x(), -0.15 * element);
+    if (X > 1e-9) {
+      EXPECT_GT(run.now().position(tissue.nodes[i]).x(), -0.15 * element);
+    }
   }
 }
 

@@ -199,7 +199,9 @@ TEST_P(EachScheme, NumericalLossGoesToZeroWithTheStep) {
       least = std::min(least, run.loss());
       EXPECT_NEAR(run.loss() + run.stepper.stored_energy().total(), run.state.energy.start, 1e-12);
     });
-    if (GetParam() == Scheme::ImplicitEuler) EXPECT_GE(least, -1e-12);
+    if (GetParam() == Scheme::ImplicitEuler) {
+      EXPECT_GE(least, -1e-12);
+    }
     EXPECT_GT(run.loss(), 0);
     return run.loss();
   };
