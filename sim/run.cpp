@@ -90,7 +90,7 @@ class Run {
 
   void begin() {
     state_ = stepper_.initial();
-    fingerprint_ = fingerprint(model_.scenario.settings_json, state_.y);
+    fingerprint_ = fingerprint(model_);
     if (options_.resume) {
       if (auto stored = read_checkpoint(checkpoint_file(), fingerprint_)) {
         state_ = std::move(*stored);
