@@ -73,6 +73,10 @@ void Dynamics::build_pattern() {
   }
 }
 
+bool Dynamics::carries_own_weight(const NodeRef& node) const {
+  return node.bone < 0 || node.bone >= model_.layout.num_rigid;
+}
+
 void Dynamics::evaluate(const double* y, double t) {
   read_state(model_, y, t, configuration_);
   f_.setZero();
@@ -87,7 +91,8 @@ void Dynamics::evaluate(const double* y, double t) {
       for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
         const auto column = static_cast<Eigen::Index>(i);
         Vec3 force = -work.f.col(column);
-        if (tissue.nodes[i].bone < 0) force += tissue.lumped_mass[column] * model_.gravity;
+        if (carries_own_weight(tissue.nodes[i]))
+          force += tissue.lumped_mass[column] * model_.gravity;
         add_force(configuration_, tissue.nodes[i], force, f_);
       }
     }
@@ -239,11 +244,11 @@ double Dynamics::elastic_energy() const {
 
 double Dynamics::gravity_energy() const {
   double energy = 0;
-  for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
-    const auto [t, node] = mass_nodes_[static_cast<std::size_t>(block)];
-    energy -= model_.tissues[static_cast<std::size_t>(t)].lumped_mass[node] *
-              model_.gravity.dot(configuration_.x.col(block));
-  }
+  for (const Tissue& tissue : model_.tissues)
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+      if (carries_own_weight(tissue.nodes[i]))
+        energy -= tissue.lumped_mass[static_cast<Eigen::Index>(i)] *
+                  model_.gravity.dot(configuration_.position(tissue.nodes[i]));
   for (int r = 0; r < model_.layout.num_rigid; ++r)
     energy -= model_.bones[static_cast<std::size_t>(r)].mass.mass *
               model_.gravity.dot(configuration_.poses[static_cast<std::size_t>(r)].p);

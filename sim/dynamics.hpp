@@ -41,7 +41,7 @@ class Dynamics {
 
   double kinetic_energy() const;  // at the last evaluate() [J]
   double elastic_energy() const;  // of the tissues [J]
-  double gravity_energy() const;  // [J], of all unknown masses
+  double gravity_energy() const;  // [J], of all masses but fixed and driven bones' own
   DynamicsTimes& times() { return times_; }
 
  private:
@@ -53,6 +53,8 @@ class Dynamics {
   void build_pattern();
   void add_tissue_stiffness(std::size_t t, double gamma, fem::Tangent tangent);
   Mat3 world_inertia(int bone) const;
+  /// All tissue nodes but those whose mass a rigid bone has taken over.
+  bool carries_own_weight(const NodeRef& node) const;
 
   const Model& model_;
   const std::vector<CandidateList>* candidates_ = nullptr;
