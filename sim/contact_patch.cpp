@@ -9,10 +9,12 @@ namespace articular::sim {
 namespace {
 
 /// A convex polygon in barycentric coordinates of the triangle, one corner a column (N0 N1 N2).
-/// A triangle cut by four half planes has at most seven corners.
+/// A triangle cut by four half planes has at most seven corners; where round-off makes the levels
+/// of corners on a cut change sign more often than twice, each cut adds half as many: 3, 4, 6,
+/// 9, 13.
 struct Polygon {
-  std::array<Vec3, 8> corner;
-  std::array<double, 8> level;
+  std::array<Vec3, 13> corner;
+  std::array<double, 13> level;
   int count = 0;
 };
 
