@@ -195,6 +195,10 @@ const IntegratorCounts& ImplicitIntegrator::counts() const { return memory_->cou
 
 bool ImplicitIntegrator::advance(Eigen::VectorXd& y, double t, double h) {
   Memory& m = *memory_;
+  if (y.size() == 0) {  // nothing to solve for: only driven bones move
+    ++m.counts.steps;
+    return true;
+  }
   void* arkode = m.arkode.get();
   m.step = h;
   Eigen::Map<Eigen::VectorXd> vector(N_VGetArrayPointer(m.y.get()), y.size());
