@@ -227,7 +227,7 @@ struct Output {
   double length_unit = 1e-3;  // [m] per unit in the files
   std::string length_unit_name = "mm";
   std::optional<std::filesystem::path> directory;
-  std::optional<double> checkpoint_interval;  // [s]; none = no checkpoints
+  std::optional<double> checkpoint_interval;  // [s]; none = ten times the interval
 };
 
 struct Scenario {
@@ -249,6 +249,8 @@ struct Scenario {
   Output output;
   /// The settings after presets and overrides, as JSON text, for summary.json.
   std::string settings_json;
+  /// What the file says after overrides, without comments and layout: checkpoints belong to it.
+  std::string content;
 };
 
 /// Reads and checks a scenario file.
