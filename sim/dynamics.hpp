@@ -41,9 +41,9 @@ class Dynamics {
   /// Time constant of a muscle's activation now [s].
   double activation_time(const double* y, double t, int muscle) const;
 
-  double kinetic_energy() const;   // at the last evaluate() [J]
-  double elastic_energy() const;   // of the tissues [J]
-  double gravity_energy() const;   // [J], of all unknown masses
+  double kinetic_energy() const;  // at the last evaluate() [J]
+  double elastic_energy() const;  // of the tissues [J]
+  double gravity_energy() const;  // [J], of all masses but fixed and driven bones' own
   DynamicsTimes& times() { return times_; }
 
  private:
@@ -55,6 +55,8 @@ class Dynamics {
   void build_pattern();
   void add_tissue_stiffness(std::size_t t, double gamma, fem::Tangent tangent);
   Mat3 world_inertia(int bone) const;
+  /// All tissue nodes but those whose mass a rigid bone has taken over.
+  bool carries_own_weight(const NodeRef& node) const;
 
   const Model& model_;
   const std::vector<CandidateList>* candidates_ = nullptr;

@@ -59,8 +59,11 @@ void write_bone(const Model& model, const Configuration& now, const BodyModel& b
   Eigen::MatrixXd v(3, x.cols());
   for (Eigen::Index i = 0; i < x.cols(); ++i)
     v.col(i) = velocity.linear + velocity.angular.cross(x.col(i) - pose.p);
-  writer.write_bone({body.name, x, body.triangles,
-                     {{"displacement", "m", x - start}, {"velocity", "m/s", v}}, {}},
+  writer.write_bone({body.name,
+                     x,
+                     body.triangles,
+                     {{"displacement", "m", x - start}, {"velocity", "m/s", v}},
+                     {}},
                     index, time);
 }
 
@@ -102,11 +105,12 @@ void write_frame(const Model& model, const Stepper& stepper, int index, double t
       const Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
       Positions x;
       positions_of(now, tissue.nodes, x);
-      writer.write_tissue({body.name, x, tissue.elasticity.tets(),
-                           tissue_point_fields(model, tissue, now, x,
-                                               contact_forces[static_cast<std::size_t>(tissue.body)]),
-                           tissue_cell_fields(tissue, x)},
-                          index, time);
+      writer.write_tissue(
+          {body.name, x, tissue.elasticity.tets(),
+           tissue_point_fields(model, tissue, now, x,
+                               contact_forces[static_cast<std::size_t>(tissue.body)]),
+           tissue_cell_fields(tissue, x)},
+          index, time);
     } else if (body.X.cols() > 0) {
       write_bone(model, now, body, index, time, writer);
     }

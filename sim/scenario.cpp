@@ -1,24 +1,9 @@
 #include "sim/scenario.hpp"
 
-#include <fstream>
-#include <iterator>
-
 #include "sim/scenario_reader.hpp"
 #include "sim/toml_override.hpp"
 
 namespace articular::sim {
-
-namespace {
-
-/// The scenario as given: the file's text, then one override a line.
-std::string source_of(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), {});
-  for (const std::string& text_override : overrides) text += "\n" + text_override;
-  return text;
-}
-
-}  // namespace
 
 Scenario read_scenario(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides) {
@@ -41,8 +26,8 @@ Scenario read_scenario(const std::filesystem::path& file,
   scenario.loads = read_loads(document, context);
   read_contacts(document, context, scenario);
   scenario.probes = read_probes(document, context, scenario.muscles, scenario.ligaments);
-  scenario.source = source_of(file, overrides);
   scenario.settings_json = settings_as_json(scenario);
+  scenario.content = plain_text(root);
   return scenario;
 }
 

@@ -65,7 +65,7 @@ void Stepper::step(State& state, double t_target) {
   const double nominal = model_.scenario.integrator.step;
   const double remaining = t_target - state.t;
   double h = std::min(state.next_step, nominal);
-  h = remaining / std::ceil(remaining / h - 1e-9);
+  h = remaining / std::max(1.0, std::ceil(remaining / h - 1e-9));
   const bool last = h >= remaining * (1 - 1e-12);
 
   const SearchCounts search_before = search_ ? search_->counts() : SearchCounts{};

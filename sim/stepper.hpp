@@ -14,8 +14,8 @@ struct StoredEnergy {
   double total() const { return kinetic + elastic + gravity + contact + lines; }
 };
 
-/// What the balance start + work − losses = stored energy leaves: dissipation of the time integration
-/// (positive: lost) [J].
+/// What the balance start + work − losses = stored energy leaves: dissipation of the time
+/// integration (positive: lost) [J].
 double numerical_loss(const State& state, const StoredEnergy& now);
 
 /// Wall time by phase [s].
