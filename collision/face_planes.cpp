@@ -24,8 +24,7 @@ PlaneVerdict face_planes(const Eigen::Matrix3d& triangle,
 
   const Eigen::Vector3d normal =
       (triangle.col(1) - triangle.col(0)).cross(triangle.col(2) - triangle.col(0));
-  const Eigen::RowVector4d heights =
-      normal.transpose() * (tetrahedron.colwise() - triangle.col(0));
+  const Eigen::RowVector4d heights = normal.transpose() * (tetrahedron.colwise() - triangle.col(0));
   const double beyond = apart * normal.norm();
   if (heights.minCoeff() > beyond || heights.maxCoeff() < -beyond) return PlaneVerdict::Apart;
 

@@ -38,8 +38,7 @@ void for_each_patch(const Model& model, const Configuration& configuration,
     if (candidate.triangle != last_triangle) {  // candidates come sorted by triangle
       last_triangle = candidate.triangle;
       for (int i = 0; i < 3; ++i) {
-        const auto node =
-            static_cast<std::size_t>(triangles.surface.faces(i, candidate.triangle));
+        const auto node = static_cast<std::size_t>(triangles.surface.faces(i, candidate.triangle));
         nodes[static_cast<std::size_t>(i)] = &triangles.nodes[node];
         s.col(i) = configuration.position(triangles.nodes[node]);
       }
@@ -62,21 +61,19 @@ void add_contact_force(const Model& model, const Configuration& configuration,
   summaries.assign(model.contacts.size(), {});
   for (const CandidateList& list : candidates) {
     ContactSummary& summary = summaries[static_cast<std::size_t>(list.contact)];
-    for_each_patch(model, configuration, list,
-                   [&](const SixNodes& nodes, const ContactPatch& patch, double k,
-                       const ContactCandidate&) {
-                     const Vec18 g = contact_gradient(patch, k);
-                     for (std::size_t i = 0; i < 6; ++i)
-                       add_force(configuration, *nodes[i],
-                                 -g.segment<3>(3 * static_cast<Eigen::Index>(i)), f);
-                     const Vec3 on_triangles =
-                         -(g.segment<3>(0) + g.segment<3>(3) + g.segment<3>(6));
-                     summary.force += list.reversed ? Vec3(-on_triangles) : on_triangles;
-                     summary.area += 0.5 * patch.area;
-                     summary.max_depth = std::max(summary.max_depth, patch.depth_max);
-                     summary.max_pressure = std::max(summary.max_pressure, 2 * k * patch.depth_max);
-                     summary.energy += contact_energy(patch, k);
-                   });
+    for_each_patch(
+        model, configuration, list,
+        [&](const SixNodes& nodes, const ContactPatch& patch, double k, const ContactCandidate&) {
+          const Vec18 g = contact_gradient(patch, k);
+          for (std::size_t i = 0; i < 6; ++i)
+            add_force(configuration, *nodes[i], -g.segment<3>(3 * static_cast<Eigen::Index>(i)), f);
+          const Vec3 on_triangles = -(g.segment<3>(0) + g.segment<3>(3) + g.segment<3>(6));
+          summary.force += list.reversed ? Vec3(-on_triangles) : on_triangles;
+          summary.area += 0.5 * patch.area;
+          summary.max_depth = std::max(summary.max_depth, patch.depth_max);
+          summary.max_pressure = std::max(summary.max_pressure, 2 * k * patch.depth_max);
+          summary.energy += contact_energy(patch, k);
+        });
   }
 }
 
@@ -84,12 +81,11 @@ void add_contact_stiffness(const Model& model, const Configuration& configuratio
                            const std::vector<CandidateList>& candidates, double gamma,
                            fem::BlockMatrix& A) {
   for (const CandidateList& list : candidates)
-    for_each_patch(model, configuration, list,
-                   [&](const SixNodes& nodes, const ContactPatch& patch, double k,
-                       const ContactCandidate&) {
-                     add_stiffness(model, configuration, nodes,
-                                   contact_hessian(patch, gamma * gamma * k), A);
-                   });
+    for_each_patch(
+        model, configuration, list,
+        [&](const SixNodes& nodes, const ContactPatch& patch, double k, const ContactCandidate&) {
+          add_stiffness(model, configuration, nodes, contact_hessian(patch, gamma * gamma * k), A);
+        });
 }
 
 std::vector<Positions> nodal_contact_forces(const Model& model, const Configuration& configuration,
@@ -129,17 +125,17 @@ void append_missing_stencils(const Model& model, const std::vector<CandidateList
     for (const ContactCandidate& candidate : list.pairs) {
       blocks.clear();
       for (int i = 0; i < 3; ++i) {
-        append_blocks(model,
-                      triangles.nodes[static_cast<std::size_t>(
-                          triangles.surface.faces(i, candidate.triangle))],
-                      blocks);
         append_blocks(
             model,
-            faces.nodes[static_cast<std::size_t>(faces.surface.faces(i, candidate.face))], blocks);
+            triangles
+                .nodes[static_cast<std::size_t>(triangles.surface.faces(i, candidate.triangle))],
+            blocks);
+        append_blocks(model,
+                      faces.nodes[static_cast<std::size_t>(faces.surface.faces(i, candidate.face))],
+                      blocks);
       }
       const bool missing = std::any_of(blocks.begin(), blocks.end(), [&](int i) {
-        return std::any_of(blocks.begin(), blocks.end(),
-                           [&](int j) { return A.slot(i, j) < 0; });
+        return std::any_of(blocks.begin(), blocks.end(), [&](int j) { return A.slot(i, j) < 0; });
       });
       if (!missing) continue;
       stencils.blocks.insert(stencils.blocks.end(), blocks.begin(), blocks.end());

@@ -61,6 +61,18 @@ double integrate(const Polygon& polygon, Mat3& Q) {
   return total;
 }
 
+struct Facing {
+  double weight, slope;
+};
+
+/// Smoothstep from kFacingNone to kFacingFull.
+Facing facing_weight(double opposing) {
+  const double t = (opposing - kFacingNone) / (kFacingFull - kFacingNone);
+  if (t <= 0) return {0, 0};
+  if (t >= 1) return {1, 0};
+  return {t * t * (3 - 2 * t), 6 * t * (1 - t) / (kFacingFull - kFacingNone)};
+}
+
 }  // namespace
 
 bool contact_patch(const Mat3& s, const Mat3& f, double rest_area, double reach,
@@ -74,7 +86,8 @@ bool contact_patch(const Mat3& s, const Mat3& f, double rest_area, double reach,
   const Vec3 n = area_vector / twice_area;
   const Vec3 n_F = face_vector / twice_face_area;
   const double cosine = n_F.dot(n);
-  if (cosine > -kFacingCosine) return false;
+  const Facing facing = facing_weight(-cosine);
+  if (!(facing.weight > 0)) return false;
 
   patch.c = n_F / cosine;
   for (int i = 0; i < 3; ++i) patch.depth[i] = patch.c.dot(s.col(i) - f.col(0));
@@ -106,12 +119,16 @@ bool contact_patch(const Mat3& s, const Mat3& f, double rest_area, double reach,
         std::max(patch.depth_max, patch.depth.dot(polygon.corner[static_cast<std::size_t>(i)]));
   if (patch.depth_max > reach) return false;
 
-  patch.Q *= rest_area;
-  patch.area = fraction * rest_area;
+  patch.Q *= facing.weight * rest_area;
+  patch.area = facing.weight * fraction * rest_area;
   patch.normal = n;
+  patch.cosine = cosine;
+  patch.turning = -0.5 * facing.slope / facing.weight;
   // In-plane gradients of the barycentric coordinates.
   const Vec3 g1 = s2.cross(n) / twice_area, g2 = n.cross(s1) / twice_area;
   patch.e = Vec3(-patch.c.dot(g1 + g2), patch.c.dot(g1), patch.c.dot(g2));
+  for (int m = 0; m < 3; ++m)
+    patch.face_e[m] = n_F.cross(f.col((m + 2) % 3) - f.col((m + 1) % 3)).dot(n) / twice_face_area;
   return true;
 }
 
@@ -120,16 +137,18 @@ double contact_energy(const ContactPatch& patch, double k) {
 }
 
 // δd at N: Σ_i (N_i c + d e_i n)·δx_i − Σ_m β_m c·δf_m, from d = c·(x − Σ β_m f_m) with the
-// triangle's normal turning by δn = −Σ ∇N_i (n·δx_i).
+// triangle's normal turning by δn = −Σ ∇N_i (n·δx_i). With it w changes by
+// δ(n_F·n) = −Σ (n_F·∇N_i) n·δx_i − Σ (n·∇β_m) n_F·δf_m.
 
 Vec18 contact_gradient(const ContactPatch& patch, double k) {
   const Vec3 q = patch.Q * patch.depth;
   const double square = patch.depth.dot(q);
   const Vec3 reaction = patch.beta * q;
+  const double turning = patch.turning * square * patch.cosine;
   Vec18 g;
   for (int i = 0; i < 3; ++i) {
-    g.segment<3>(3 * i) = k * (q[i] * patch.c + square * patch.e[i] * patch.normal);
-    g.segment<3>(9 + 3 * i) = -k * reaction[i] * patch.c;
+    g.segment<3>(3 * i) = k * (q[i] * patch.c + (square - turning) * patch.e[i] * patch.normal);
+    g.segment<3>(9 + 3 * i) = -k * (reaction[i] + turning * patch.face_e[i]) * patch.c;
   }
   return g;
 }

@@ -10,7 +10,11 @@
 /// x_i behind the face is affine in the barycentric coordinates N. With the rest area of the
 /// triangle as measure and Q = ∫ N Nᵀ dA over the part of the polygon with d > 0,
 ///
-///   E = ½ k ∫ d² dA = ½ k dᵀ Q d,  d_i the depth at node i of s.
+///   E = ½ k w ∫ d² dA = ½ k w dᵀ Q d,  d_i the depth at node i of s.
+///
+/// w(n_F·n) is 1 for faces that oppose the triangle and falls smoothly to 0 where they stand
+/// oblique to it: along an oblique normal a shallow overlap reads deep, and a hard limit would make
+/// forces jump.
 ///
 /// The reaction goes to the face's nodes with the weights β_m(N) of the point opposite, so that the
 /// forces are equal and opposite and make no net moment. Everything is integrated exactly. At the
@@ -21,18 +25,22 @@ using Vec18 = Eigen::Matrix<double, 18, 1>;
 using Mat18 = Eigen::Matrix<double, 18, 18>;
 
 struct ContactPatch {
-  double area = 0;             // [m²] rest area with d > 0
+  double area = 0;             // [m²] rest area with d > 0, times w
   double depth_max = 0;        // [m]
-  Mat3 Q = Mat3::Zero();       // ∫ N Nᵀ dA [m²]
+  Mat3 Q = Mat3::Zero();       // w ∫ N Nᵀ dA [m²]
   Mat3 beta = Mat3::Zero();    // beta(m, i): weight of face node m opposite node i of s
   Vec3 depth = Vec3::Zero();   // at the nodes of s [m]
   Vec3 c = Vec3::Zero();       // n_F / (n_F·n)
   Vec3 e = Vec3::Zero();       // e_i = c·∇N_i [1/m]
   Vec3 normal = Vec3::Zero();  // n, unit
+  double cosine = 0;           // n_F·n
+  double turning = 0;          // ½ w'/w, by the cosine
+  Vec3 face_e = Vec3::Zero();  // n·∇β_m on the face [1/m]
 };
 
-/// Faces opposing the triangle's normal by less than this cosine do not face it.
-inline constexpr double kFacingCosine = 0.2;
+/// Of −n_F·n: below the first the face does not face the triangle (w = 0), above the second it does
+/// (w = 1). 60 and 37 degrees: facets of smooth bodies that touch are nearer to parallel.
+inline constexpr double kFacingNone = 0.5, kFacingFull = 0.8;
 
 /// @param s, f   corners of the triangle and the face, one a column, counter-clockwise from outside
 /// [m]

@@ -31,8 +31,9 @@ Extent extent(const Mat3& triangle, const Vec3& direction) {
   return {along.minCoeff(), along.maxCoeff()};
 }
 
-/// The face F can't come to lie opposite the triangle s within a distance: it is too far in front of
-/// it, deeper behind it than `reach`, or beside it when seen along the triangle's normal n (unit).
+/// The face F can't come to lie opposite the triangle s within a distance: it is too far in front
+/// of it, deeper behind it than `reach`, or beside it when seen along the triangle's normal n
+/// (unit).
 bool cannot_meet(const Mat3& s, const Vec3& n, const Mat3& F, double reach, double distance) {
   const double plane = n.dot(s.col(0));
   const Extent height = extent(F, n);
@@ -46,8 +47,8 @@ bool cannot_meet(const Mat3& s, const Vec3& n, const Mat3& F, double reach, doub
   return false;
 }
 
-/// A triangle and a face that move with the same bone, or share a node, do not touch: tissue tied to a
-/// bone, or neighbours in one tissue.
+/// A triangle and a face that move with the same bone, or share a node, do not touch: tissue tied
+/// to a bone, or neighbours in one tissue.
 bool tied(const Collider& a, int triangle, const Collider& b, int face) {
   for (const int i : a.surface.faces.col(triangle))
     for (const int j : b.surface.faces.col(face)) {
@@ -114,10 +115,10 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     CandidateList& list = candidates_[i];
     const ContactModel& contact = model_.contacts[static_cast<std::size_t>(list.contact)];
-    const Moving& a = moving_[static_cast<std::size_t>(
-        moving_of_body_[static_cast<std::size_t>(contact.a)])];
-    const Moving& b = moving_[static_cast<std::size_t>(
-        moving_of_body_[static_cast<std::size_t>(contact.b)])];
+    const Moving& a =
+        moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(contact.a)])];
+    const Moving& b =
+        moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(contact.b)])];
     if (contact.a == contact.b) {
       collision::self_intersections(*a.tree, faces_of_a_, query);
       collect(faces_of_a_, a, a, margin, list.pairs);
@@ -155,7 +156,7 @@ void ContactSearch::collect(const std::vector<collision::Penetration>& found, co
       const Mat3 face = corners(b.x, B.surface.faces, f);
       const Vec3 n_F = (face.col(1) - face.col(0)).cross(face.col(2) - face.col(0));
       // Not yet facing, but it may turn until the step's end.
-      if (n.dot(n_F) > -0.5 * kFacingCosine * n_F.norm()) continue;
+      if (n.dot(n_F) > -0.5 * kFacingNone * n_F.norm()) continue;
       if (cannot_meet(s, n, face, B.reach, margin)) continue;
       if (tied(A, p.face, B, f)) continue;
       pairs.push_back({p.face, f});

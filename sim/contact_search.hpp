@@ -64,7 +64,7 @@ class ContactSearch {
   std::vector<CandidateList> candidates_;
   std::vector<collision::Penetration> faces_of_a_, faces_of_b_;
   collision::QueryScratch scratch_;
-  std::vector<int> seen_;                 // per face: last triangle that it was paired with
+  std::vector<int> seen_;  // per face: last triangle that it was paired with
   SearchCounts counts_;
 };
 

@@ -56,9 +56,9 @@ struct ImplicitIntegrator::Memory {
   Dynamics& dynamics;
   NewtonSystem newton;
   IntegratorCounts counts;
-  double step = 0;                   // [s] being tried
+  double step = 0;  // [s] being tried
   bool keep_matrix = false;
-  std::exception_ptr error;          // thrown below a C callback; rethrown above it
+  std::exception_ptr error;  // thrown below a C callback; rethrown above it
   Owned<SUNContext, FreeContext> context;
   Owned<N_Vector, FreeVector> y;
   Owned<SUNLinearSolver, FreeSolver> solver;

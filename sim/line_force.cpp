@@ -31,8 +31,7 @@ void muscle_tension(const MuscleModel& muscle, double activation, LineState& s) 
   s.active = a * s.tension_per_activation;
   s.tension = s.active + passive * fp.value;
   s.stored = passive * passive_energy_length(s.length, l0, m.max_length_ratio);
-  s.stiffness =
-      std::max(0.0, m.max_force * a * fl.slope * fv.value + passive * fp.slope);
+  s.stiffness = std::max(0.0, m.max_force * a * fl.slope * fv.value + passive * fp.slope);
   s.viscosity = m.max_force * a * fl.value * fv.slope / speed;
 }
 

@@ -5,8 +5,9 @@
 
 namespace articular::sim {
 
-/// The linear solves of Newton's iteration at the state that `dynamics` evaluated last. A matrix is kept
-/// from one iteration, and from one step, to the next as long as the residual falls fast with it.
+/// The linear solves of Newton's iteration at the state that `dynamics` evaluated last. A matrix is
+/// kept from one iteration, and from one step, to the next as long as the residual falls fast with
+/// it.
 class NewtonSystem {
  public:
   NewtonSystem(const Model& model, Dynamics& dynamics);
@@ -27,9 +28,9 @@ class NewtonSystem {
   Dynamics& dynamics_;
   std::unique_ptr<fem::LinearSolver> solver_;
   Eigen::VectorXd velocity_rhs_, mass_rhs_, pull_, w_;
-  double gamma_ = 0;          // of the matrix that is factored; 0: none
-  std::uint64_t pattern_ = 0;  // of that matrix
-  int iteration_ = 0;         // in this step
+  double gamma_ = 0;                         // of the matrix that is factored; 0: none
+  std::uint64_t pattern_ = 0;                // of that matrix
+  int iteration_ = 0;                        // in this step
   double residual_ = 0, last_residual_ = 0;  // of this iteration and the one before
 };
 

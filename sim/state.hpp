@@ -30,10 +30,10 @@ struct Counts {
 
 /// All that changes: a copy of it at a checkpoint is a restart point.
 struct State {
-  double t = 0;       // [s]
-  Eigen::VectorXd y;  // in the order of Layout
-  double next_step = 0;  // [s]
-  double next_margin = 0;  // [m] of the next detection
+  double t = 0;                // [s]
+  Eigen::VectorXd y;           // in the order of Layout
+  double next_step = 0;        // [s]
+  double next_margin = 0;      // [m] of the next detection
   double max_penetration = 0;  // [m] largest so far
   int frames = 0;              // written
   EnergyLedger energy;

@@ -9,8 +9,8 @@
 namespace articular::sim {
 namespace {
 
-/// The next detection covers this times what something strayed from where this one looked; half of it
-/// would just do.
+/// The next detection covers this times what something strayed from where this one looked; half of
+/// it would just do.
 constexpr double kMarginPerStray = 4;
 
 Counts operator+(Counts c, const IntegratorCounts& i) {
@@ -115,8 +115,8 @@ double Stepper::margin_for(double stray) const {
 }
 
 bool Stepper::try_step(State& state, double h) {
-  // Implicit Euler needs contacts where the step ends: they are looked for where everything will be if
-  // it moves on as now. A scheme with stages between needs them on the whole way.
+  // Implicit Euler needs contacts where the step ends: they are looked for where everything will be
+  // if it moves on as now. A scheme with stages between needs them on the whole way.
   const bool only_end = model_.scenario.integrator.scheme == Integrator::Scheme::ImplicitEuler;
   const Configuration where = only_end ? predicted(model_, start_, h) : start_;
   for (;;) {
@@ -159,7 +159,8 @@ void Stepper::account(State& after) {
     if (!bone.motion) continue;
     const Eigen::AngleAxisd turn(now.poses[b].R * start_.poses[b].R.transpose());
     const Eigen::VectorXd& f = dynamics_->forces();
-    const Vec3 force = 0.5 * (forces_before_.segment<3>(3 * bone.block) + f.segment<3>(3 * bone.block));
+    const Vec3 force =
+        0.5 * (forces_before_.segment<3>(3 * bone.block) + f.segment<3>(3 * bone.block));
     const Vec3 moment =
         0.5 * (forces_before_.segment<3>(3 * bone.block + 3) + f.segment<3>(3 * bone.block + 3));
     ledger.motion_work -=
@@ -184,10 +185,11 @@ void Stepper::fail(const State& state, double h) const {
     cause = fmt::format("; the most squeezed element is {} of tissue `{}` (volume ratio {:.3g})",
                         worst, model_.bodies[static_cast<std::size_t>(tissue.body)].name, lowest);
   }
-  throw SimulationError(fmt::format(
-      "the simulation cannot go on at t = {:.6g} s: Newton's iteration did not converge with a step "
-      "of {:.3g} s{}; results are valid until then",
-      state.t, h, cause));
+  throw SimulationError(
+      fmt::format("the simulation cannot go on at t = {:.6g} s: Newton's iteration did not "
+                  "converge with a step "
+                  "of {:.3g} s{}; results are valid until then",
+                  state.t, h, cause));
 }
 
 StoredEnergy Stepper::stored_energy() const {

@@ -64,7 +64,7 @@ void add_stiffness(const Model& model, const Configuration& configuration,
     if (nodes[k]->bone >= 0) right.middleCols<3>(3 * place[k] + 3) -= columns * lever[k];
   }
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 36, 36> both(3 * count,
-                                                                                     3 * count);
+                                                                                      3 * count);
   both.setZero();
   for (std::size_t k = 0; k < 6; ++k) {
     if (place[k] < 0) continue;

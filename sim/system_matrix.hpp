@@ -21,8 +21,8 @@ struct Stencils {
 void add_stiffness(const Model& model, const Configuration& configuration, const NodeRef& i,
                    const NodeRef& j, const Mat3& stiffness, fem::BlockMatrix& A);
 
-/// A += the 18 x 18 stiffness of six nodes. Nodes of one bone are gathered first: its two blocks are
-/// written once.
+/// A += the 18 x 18 stiffness of six nodes. Nodes of one bone are gathered first: its two blocks
+/// are written once.
 void add_stiffness(const Model& model, const Configuration& configuration,
                    const std::array<const NodeRef*, 6>& nodes,
                    const Eigen::Matrix<double, 18, 18>& stiffness, fem::BlockMatrix& A);
