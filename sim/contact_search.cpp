@@ -59,6 +59,19 @@ bool tied(const Collider& a, int triangle, const Collider& b, int face) {
   return false;
 }
 
+/// Keeps the candidates whose face itself meets the triangle's body. A triangle that passes the edge of
+/// a body also faces that body's far side, which it can't have come through: that side is outside.
+void drop_far_faces(const std::vector<collision::Penetration>& faces_in_triangles_body,
+                    std::size_t num_faces, std::vector<ContactCandidate>& pairs) {
+  if (pairs.empty()) return;
+  std::vector<char> meets(num_faces, 0);
+  for (const collision::Penetration& p : faces_in_triangles_body)
+    meets[static_cast<std::size_t>(p.face)] = 1;
+  std::erase_if(pairs, [&](const ContactCandidate& candidate) {
+    return meets[static_cast<std::size_t>(candidate.face)] == 0;
+  });
+}
+
 }  // namespace
 
 ContactSearch::ContactSearch(const Model& model)
@@ -115,21 +128,27 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     CandidateList& list = candidates_[i];
     const ContactModel& contact = model_.contacts[static_cast<std::size_t>(list.contact)];
-    const Moving& a =
-        moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(contact.a)])];
-    const Moving& b =
-        moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(contact.b)])];
+    const Moving& a = moving_[static_cast<std::size_t>(
+        moving_of_body_[static_cast<std::size_t>(contact.a)])];
+    const Moving& b = moving_[static_cast<std::size_t>(
+        moving_of_body_[static_cast<std::size_t>(contact.b)])];
+    const auto num_faces = [&](const Moving& moving) {
+      return model_.bodies[static_cast<std::size_t>(moving.body)].collider->face_area.size();
+    };
     if (contact.a == contact.b) {
       collision::self_intersections(*a.tree, faces_of_a_, query);
       collect(faces_of_a_, a, a, margin, list.pairs);
+      drop_far_faces(faces_of_a_, num_faces(a), list.pairs);
       continue;
     }
     const bool apart = (a.low - b.high).maxCoeff() > margin || (b.low - a.high).maxCoeff() > margin;
     if (!apart) {
       collision::collide(*a.tree, *b.tree, faces_of_a_, faces_of_b_, query, scratch_);
       collect(faces_of_a_, a, b, margin, list.pairs);
+      drop_far_faces(faces_of_b_, num_faces(b), list.pairs);
       CandidateList& reverse = candidates_[i + 1];
       collect(faces_of_b_, b, a, margin, reverse.pairs);
+      drop_far_faces(faces_of_a_, num_faces(a), reverse.pairs);
     }
     ++i;  // the reverse list is done too
   }

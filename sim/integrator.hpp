@@ -23,7 +23,7 @@ struct IntegratorCounts {
 ///
 /// Newton's linear system is reduced to block velocities: with δx = b_x + γ δv for the kinematic
 /// rows (rotations: δθ in place of quaternions) and w = δv + b_x/γ,
-///   (M + γ D + γ² K) w = M (b_v + b_x/γ) + γ ∂f/∂a δa,   δx = γ w.
+///   (M + γ D + γ² K) w = M (b_v + b_x/γ) + D b_x + γ ∂f/∂a δa,   δx = γ w.
 /// Gyroscopic and moment terms are left out of the matrix, never out of the residual.
 class ImplicitIntegrator {
  public:

@@ -19,6 +19,27 @@ constexpr double kSlowFall = 0.1;
 
 Eigen::Quaterniond quaternion(const double* q) { return {q[0], q[1], q[2], q[3]}; }
 
+/// How much longer a line gets when the blocks move by `shift` (bones: p, rotation vector).
+double lengthening(const Line& line, const Configuration& now, const Eigen::VectorXd& shift) {
+  const auto move = [&](const WeightedPoint& point) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 0; k < point.nodes.size(); ++k) {
+      const NodeRef& node = point.nodes[k];
+      Vec3 d = shift.segment<3>(3 * node.block);
+      if (node.bone >= 0) d += shift.segment<3>(3 * node.block + 3).cross(now.lever(node));
+      sum += point.weights[k] * d;
+    }
+    return sum;
+  };
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < line.path.size(); ++i) {
+    const Vec3 d = now.position(line.path[i + 1]) - now.position(line.path[i]);
+    if (const double length = d.norm(); length > 0)
+      sum += d.dot(move(line.path[i + 1]) - move(line.path[i])) / length;
+  }
+  return sum;
+}
+
 }  // namespace
 
 NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
@@ -52,17 +73,19 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
                          IntegratorCounts& counts) {
   const Layout& layout = model_.layout;
   const int num_velocities = 3 * layout.num_unknown_blocks();
-  // b_v + b_x/γ
-  velocity_rhs_ = Eigen::Map<const Eigen::VectorXd>(b + layout.velocities(), num_velocities);
-  velocity_rhs_.head(3 * layout.num_free_nodes) +=
-      Eigen::Map<const Eigen::VectorXd>(b, 3 * layout.num_free_nodes) / gamma;
+  // b_x by blocks, a bone's as a rotation vector; then b_v + b_x/γ.
+  shift_.setZero(3 * model_.num_blocks);
+  shift_.head(3 * layout.num_free_nodes) =
+      Eigen::Map<const Eigen::VectorXd>(b, 3 * layout.num_free_nodes);
   for (int r = 0; r < layout.num_rigid; ++r) {
     const int row = 3 * model_.bones[static_cast<std::size_t>(r)].block;
-    velocity_rhs_.segment<3>(row) += Eigen::Map<const Vec3>(b + layout.bone_p(r)) / gamma;
+    shift_.segment<3>(row) = Eigen::Map<const Vec3>(b + layout.bone_p(r));
     const Eigen::Quaterniond q = quaternion(y + layout.bone_q(r));
     const Eigen::Quaterniond turn = quaternion(b + layout.bone_q(r)) * q.conjugate();
-    velocity_rhs_.segment<3>(row + 3) += 2 / q.squaredNorm() * turn.vec() / gamma;
+    shift_.segment<3>(row + 3) = 2 / q.squaredNorm() * turn.vec();
   }
+  velocity_rhs_ = Eigen::Map<const Eigen::VectorXd>(b + layout.velocities(), num_velocities) +
+                  shift_.head(num_velocities) / gamma;
   dynamics_.multiply_mass(velocity_rhs_, mass_rhs_);
 
   // Activations are on their own; their change pulls on the lines' points.
@@ -76,6 +99,12 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
       add_line_force(model_.lines[line], dynamics_.configuration(),
                      dynamics_.lines()[line].tension_per_activation * x[i], pull_);
   }
+  // D b_x: dampers depend on δv = w − b_x/γ.
+  const Configuration& now = dynamics_.configuration();
+  for (std::size_t l = 0; l < model_.lines.size(); ++l)
+    if (const double viscosity = dynamics_.lines()[l].viscosity; viscosity != 0)
+      add_line_force(model_.lines[l], now,
+                     -viscosity / gamma * lengthening(model_.lines[l], now, shift_), pull_);
   mass_rhs_ += gamma * pull_.head(num_velocities);
 
   last_residual_ = residual_;
@@ -93,19 +122,13 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   Eigen::Map<Eigen::VectorXd>(x, 3 * layout.num_free_nodes) =
       gamma * w_.head(3 * layout.num_free_nodes);
   Eigen::Map<Eigen::VectorXd> velocity_change(x + layout.velocities(), num_velocities);
-  velocity_change = w_;
-  velocity_change.head(3 * layout.num_free_nodes) -=
-      Eigen::Map<const Eigen::VectorXd>(b, 3 * layout.num_free_nodes) / gamma;
+  velocity_change = w_ - shift_.head(num_velocities) / gamma;
   for (int r = 0; r < layout.num_rigid; ++r) {
     const int row = 3 * model_.bones[static_cast<std::size_t>(r)].block;
-    const Eigen::Map<const Vec3> b_p(b + layout.bone_p(r));
     Eigen::Map<Vec3>(x + layout.bone_p(r)) = gamma * w_.segment<3>(row);
-    velocity_change.segment<3>(row) -= b_p / gamma;
     // δq = ½ δθ ⊗ q, and the part of b_q along q that changes its length.
     const Eigen::Quaterniond q = quaternion(y + layout.bone_q(r));
     const Eigen::Quaterniond b_q = quaternion(b + layout.bone_q(r));
-    const Eigen::Quaterniond turn = b_q * q.conjugate();
-    velocity_change.segment<3>(row + 3) -= 2 / q.squaredNorm() * turn.vec() / gamma;
     const Vec3 theta = 0.5 * gamma * w_.segment<3>(row + 3);
     const Eigen::Quaterniond dq = Eigen::Quaterniond(0, theta.x(), theta.y(), theta.z()) * q;
     const double growth = b_q.dot(q) / q.squaredNorm();

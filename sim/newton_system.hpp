@@ -27,7 +27,7 @@ class NewtonSystem {
   const Model& model_;
   Dynamics& dynamics_;
   std::unique_ptr<fem::LinearSolver> solver_;
-  Eigen::VectorXd velocity_rhs_, mass_rhs_, pull_, w_;
+  Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_;
   double gamma_ = 0;                         // of the matrix that is factored; 0: none
   std::uint64_t pattern_ = 0;                // of that matrix
   int iteration_ = 0;                        // in this step

@@ -150,7 +150,7 @@ TEST(Collider, NearbyFacesOfATetrahedronContainTheFacesAtItsNodes) {
 }
 
 TEST(Collider, ElementsBelowTheSurfaceKnowTheFacesAboveThem) {
-  const Collider collider = solid(box_mesh({{5, 5, 5}, {5, 5, 5}, Vec3::Zero()}));
+  const Collider collider = solid(box_mesh({{3, 3, 3}, {3, 3, 3}, Vec3::Zero()}));
   for (std::size_t t = 0; t + 1 < collider.nearby_begin.size(); ++t)
     EXPECT_GT(collider.nearby_begin[t + 1], collider.nearby_begin[t]);
 }

@@ -68,14 +68,15 @@ Eigen::VectorXd moved(const Model& model, const Eigen::VectorXd& y, const Eigen:
   return result;
 }
 
-/// Everything displaced, turning, moving and half active at random.
-Eigen::VectorXd random_state(const Model& model, double amplitude, Random& random) {
+/// Everything displaced, turned, moving and half active at random.
+/// @param speed  [m/s], and rad/s of bones
+Eigen::VectorXd random_state(const Model& model, double amplitude, double speed, Random& random) {
   const int num_velocities = 3 * model.layout.num_unknown_blocks();
   Eigen::VectorXd by = amplitude * random.vector(num_velocities);
   for (int block = 0; block < model.layout.num_unknown_blocks(); ++block)
     by.segment<3>(3 * block) *= position_scale(model, block);
   Eigen::VectorXd y = moved(model, initial_state(model), by);
-  y.segment(model.layout.velocities(), num_velocities) = random.vector(num_velocities);
+  y.segment(model.layout.velocities(), num_velocities) = speed * random.vector(num_velocities);
   y.tail(model.layout.num_muscles).setConstant(0.5);
   return y;
 }
@@ -104,7 +105,7 @@ TEST(Dynamics, InternalContactAndLineForcesHaveNoNetForceOrMoment) {
   Random random(1);
   Forces scene(everything(0.05 * kSide), 0.3 * kSide);
   for (int n = 0; n < 20; ++n) {
-    const Eigen::VectorXd f = scene.at(random_state(scene.model, 0.05, random));
+    const Eigen::VectorXd f = scene.at(random_state(scene.model, 0.05, 0.1, random));
     EXPECT_GT(scene.dynamics.contacts()[0].force.norm(), 1e-3);
     EXPECT_GT(scene.dynamics.lines()[0].tension, 0);
     EXPECT_GT(scene.dynamics.lines()[1].tension, 0);
@@ -179,33 +180,59 @@ double matrix_error(Forces& scene, const Eigen::VectorXd& y, double step, bool s
   return worst;
 }
 
-// Deformed tissue, a taut ligament with its damper and an active muscle, all moving, out of
-// contact. The matrix lacks how the bone's moment changes with the turning of its levers; all else
-// is exact.
-TEST(Dynamics, TheNewtonMatrixIsTheDerivativeOfTheForcesButForTurningLevers) {
+Scenario everything_apart() {
   Scenario scenario = everything(0);
   scenario.contact = false;
   scenario.contacts.clear();
+  return scenario;
+}
+
+// Deformed tissue, a taut ligament and an active muscle with its force–velocity, at rest. The
+// matrix lacks how the bone's moment changes with the turning of its levers; all else is exact.
+TEST(Dynamics, TheNewtonMatrixIsTheDerivativeOfTheForcesButForTurningLevers) {
+  Scenario scenario = everything_apart();
+  scenario.ligaments[0].damping = 0;  // it sets in with a kink, just here
   Forces scene(scenario, 0);
   Random random(2);
-  Eigen::VectorXd y = random_state(scene.model, 0.02, random);
-  // The muscle on the rising side of force-length: falling parts count as zero in the matrix.
+  const Eigen::VectorXd y = random_state(scene.model, 0.02, 0, random);
   scene.at(y);
-  ASSERT_LT(scene.dynamics.lines()[0].length, 0.08);
+  // The muscle is on the rising side of force-length: falling parts count as zero in the matrix.
   ASSERT_GT(scene.dynamics.lines()[0].stiffness, 0);
-  // The ligament is being stretched, its damper works.
-  y.segment(scene.model.layout.velocities(), 3 * scene.model.layout.num_unknown_blocks()) *=
-      scene.dynamics.lines()[1].rate > 0 ? 1 : -1;
+  ASSERT_GT(scene.dynamics.lines()[0].viscosity, 0);
+  ASSERT_GT(scene.dynamics.lines()[1].tension, 0);
+  // Hill's curve changes its curvature at rest: differences are of first order there.
+  EXPECT_LT(matrix_error(scene, y, 1e-6, true), 1e-5);
+}
+
+// M + γ D + γ² K: D is half the difference of the matrices for γ and −γ, over γ.
+TEST(Dynamics, TheNewtonMatrixsDampingIsTheDerivativeByTheVelocities) {
+  Forces scene(everything_apart(), 0);
+  const Model& model = scene.model;
+  Random random(2);
+  Eigen::VectorXd y = random_state(model, 0.02, 0.1, random);
+  const int begin = model.layout.velocities(), count = 3 * model.layout.num_unknown_blocks();
   scene.at(y);
-  ASSERT_GT(scene.dynamics.lines()[1].damping, 0);
-  EXPECT_LT(matrix_error(scene, y, 1e-4, true), 1e-7);
+  if (scene.dynamics.lines()[1].rate < 0) y.segment(begin, count) *= -1;
+  scene.at(y);
+  ASSERT_GT(scene.dynamics.lines()[1].damping, 0);  // stretching: the damper works
+  const double gamma = 1e-3, e = 1e-4;
+  const Eigen::VectorXd w = random.vector(count);
+  const Eigen::VectorXd D =
+      0.5 / gamma *
+      (dense_product(scene.dynamics.matrix(gamma, fem::Tangent::Consistent), w) -
+       dense_product(scene.dynamics.matrix(-gamma, fem::Tangent::Consistent), w));
+  const auto at = [&](double by) -> Eigen::VectorXd {
+    Eigen::VectorXd there = y;
+    there.segment(begin, count) += by * w;
+    return scene.at(there).head(count);
+  };
+  const Eigen::VectorXd numeric = -(at(e) - at(-e)) / (2 * e);
+  EXPECT_LT((D - numeric).norm(), 1e-7 * numeric.norm());
 }
 
 // Nothing pulls on the bone in the undeformed scene, so that its levers don't matter.
 TEST(Dynamics, WithoutForcesOnTheBoneTheNewtonMatrixIsTheWholeDerivative) {
-  Scenario scenario = everything(0);
-  scenario.contact = false;
-  scenario.contacts.clear();
+  Scenario scenario = everything_apart();
   scenario.muscles.clear();
   scenario.ligaments.clear();
   Forces scene(scenario, 0);
@@ -232,9 +259,7 @@ TEST(Dynamics, InContactTheNewtonMatrixErrsInProportionToTheDepth) {
 // (I − γ ∂rate/∂y) x = b for the whole state vector, quaternions and activations too. The bone does
 // not turn and nothing loads it: what the matrix leaves out vanishes.
 TEST(Dynamics, TheNewtonSystemSolvesWithTheJacobianOfTheRate) {
-  Scenario scenario = everything(0);
-  scenario.contact = false;
-  scenario.contacts.clear();
+  Scenario scenario = everything_apart();
   scenario.ligaments.clear();
   scenario.muscles[0].path = {anchor("frame", {0.05, 0.01, 0}),
                               anchor("free", {0.3 * kSide, 0, 0}, 0.5 * kSide)};
@@ -242,7 +267,7 @@ TEST(Dynamics, TheNewtonSystemSolvesWithTheJacobianOfTheRate) {
   Forces scene(scenario, 0);
   const Model& model = scene.model;
   Random random(3);
-  Eigen::VectorXd y = random_state(model, 0.02, random);
+  Eigen::VectorXd y = random_state(model, 0.02, 0, random);
   const Eigen::VectorXd start = initial_state(model);
   for (const Tissue& tissue : model.tissues)  // the hung block and the bone as they were
     for (const NodeRef& node : tissue.nodes)
@@ -250,7 +275,6 @@ TEST(Dynamics, TheNewtonSystemSolvesWithTheJacobianOfTheRate) {
         y.segment<3>(model.layout.node_x(node.block)) =
             start.segment<3>(model.layout.node_x(node.block));
   y.segment<7>(model.layout.bone_p(0)) = start.segment<7>(model.layout.bone_p(0));
-  y.segment<3>(model.layout.velocities() + 3 * model.bones[0].block + 3).setZero();
 
   const double gamma = 2e-3;
   const auto rate = [&](const Eigen::VectorXd& at) {
@@ -271,8 +295,9 @@ TEST(Dynamics, TheNewtonSystemSolvesWithTheJacobianOfTheRate) {
   ASSERT_TRUE(newton.solve(y.data(), gamma, b.data(), solved.data(), counts));
   EXPECT_EQ(counts.projected_tangents, 0);
   const auto split = model.layout.velocities();
-  EXPECT_LT((solved - x).head(split).norm(), 1e-6 * x.head(split).norm());
-  EXPECT_LT((solved - x).tail(y.size() - split).norm(), 1e-6 * x.tail(y.size() - split).norm());
+  // Hill's curve changes its curvature at rest: differences are of first order there.
+  EXPECT_LT((solved - x).head(split).norm(), 1e-4 * x.head(split).norm());
+  EXPECT_LT((solved - x).tail(y.size() - split).norm(), 1e-4 * x.tail(y.size() - split).norm());
 }
 
 TEST(Dynamics, ASupportCarriesTheWholeWeightOfTheTissueThatHangsOnIt) {
