@@ -1,6 +1,7 @@
 #include "sim/dynamics.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/stopwatch.hpp"
 
@@ -20,6 +21,11 @@ Dynamics::Dynamics(const Model& model) : model_(model) {
         mass_nodes_[static_cast<std::size_t>(tissue.nodes[i].block)] = {static_cast<int>(t),
                                                                         static_cast<int>(i)};
     const Tetrahedra& tets = tissue.elasticity.tets();
+    double volume = 0;
+    for (const double element : tissue.elasticity.rest_volume()) volume += element;
+    // Edge of the cube that six mean tetrahedra fill.
+    trusted_motion_ =
+        std::min(trusted_motion_, std::cbrt(6 * volume / static_cast<double>(tets.cols())));
     for (Eigen::Index e = 0; e < tets.cols(); ++e) {
       for (int k = 0; k < 4; ++k)
         append_blocks(model, tissue.nodes[static_cast<std::size_t>(tets(k, e))], base_.blocks);
@@ -31,6 +37,8 @@ Dynamics::Dynamics(const Model& model) : model_(model) {
     base_.blocks.insert(base_.blocks.end(), {block, block + 1});
     base_.close();
   }
+  for (const BodyModel& body : model.bodies)
+    if (body.collider) trusted_motion_ = std::min(trusted_motion_, body.collider->reach);
   for (const Line& line : model.lines) append_stencil(model, line, base_);
   build_pattern();
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "sim/contact_force.hpp"
 #include "sim/line_force.hpp"
 
@@ -32,6 +34,11 @@ class Dynamics {
 
   /// M + gamma D + gamma² K at the last evaluate(), over the unknown blocks.
   const fem::BlockMatrix& matrix(double gamma, fem::Tangent tangent);
+
+  /// How far anything may move in one correction of Newton's iteration, or stray from its path in
+  /// one step: the smallest mean element size. Beyond, neither linearisation nor contact search
+  /// holds.
+  double trusted_motion() const { return trusted_motion_; }  // [m]
 
   std::uint64_t pattern_id() const { return A_.pattern_id(); }
 
@@ -68,6 +75,7 @@ class Dynamics {
   std::vector<std::pair<int, int>> mass_nodes_;  // tissue, node of each free block
   Stencils base_, contact_couplings_;
   fem::BlockMatrix A_;
+  double trusted_motion_ = std::numeric_limits<double>::infinity();
   DynamicsTimes times_;
 };
 

@@ -56,7 +56,8 @@ struct ImplicitIntegrator::Memory {
   Dynamics& dynamics;
   NewtonSystem newton;
   IntegratorCounts counts;
-  double step = 0;  // [s] being tried
+  double step = 0;     // [s] being tried
+  double t_start = 0;  // [s] of that step
   bool keep_matrix = false;
   std::exception_ptr error;  // thrown below a C callback; rethrown above it
   Owned<SUNContext, FreeContext> context;
@@ -130,6 +131,30 @@ int weights(N_Vector, N_Vector w, void* data) {
   return 0;
 }
 
+/// A stage's iteration starts where everything would be if it moved on with its velocity of the
+/// step's start: what is left to find is due to forces, and near what the contact search covers.
+template <class State>
+int predict_stage(realtype t, N_Vector z, void* data) {
+  const auto& state = *static_cast<State*>(data);
+  const Layout& layout = state.model.layout;
+  double* y = N_VGetArrayPointer(z);
+  const double h = t - state.t_start;
+  Eigen::Map<Eigen::VectorXd> vector(y, layout.size());
+  vector.head(3 * layout.num_free_nodes) +=
+      h * vector.segment(layout.velocities(), 3 * layout.num_free_nodes);
+  for (int r = 0; r < layout.num_rigid; ++r) {
+    const int velocity =
+        layout.velocities() + 3 * state.model.bones[static_cast<std::size_t>(r)].block;
+    vector.segment<3>(layout.bone_p(r)) += h * vector.segment<3>(velocity);
+    double* q = y + layout.bone_q(r);
+    const Eigen::Quaterniond turned =
+        Eigen::Quaterniond(rotation_matrix(h * vector.segment<3>(velocity + 3))) *
+        Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+    vector.segment<4>(layout.bone_q(r)) << turned.w(), turned.vec();
+  }
+  return 0;
+}
+
 void ignore_message(int, const char*, const char*, char*, void*) {}
 
 SUNLinearSolver_Type solver_type(SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; }
@@ -187,6 +212,7 @@ ImplicitIntegrator::ImplicitIntegrator(const Model& model, Dynamics& dynamics)
   // The stage's own rate, (z − y)/γ, and not f(z): a remaining error in z would come out amplified
   // by the stiffness.
   check(ARKStepSetDeduceImplicitRhs(arkode, SUNTRUE), "ARKStepSetDeduceImplicitRhs");
+  check(ARKStepSetStagePredictFn(arkode, predict_stage<Memory>), "ARKStepSetStagePredictFn");
   check(ARKStepSetInterpolantType(arkode, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
 }
 
@@ -204,6 +230,7 @@ bool ImplicitIntegrator::advance(Eigen::VectorXd& y, double t, double h) {
   }
   void* arkode = m.arkode.get();
   m.step = h;
+  m.t_start = t;
   m.newton.begin_step(m.keep_matrix);
   m.keep_matrix = false;  // after a failure
   Eigen::Map<Eigen::VectorXd> vector(N_VGetArrayPointer(m.y.get()), y.size());

@@ -1,5 +1,8 @@
 #include "sim/newton_system.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim/stopwatch.hpp"
 
 namespace articular::sim {
@@ -69,6 +72,20 @@ bool NewtonSystem::prepare(double gamma, IntegratorCounts& counts) {
   return false;
 }
 
+double NewtonSystem::step_fraction(double gamma) const {
+  double largest = 0;  // displacement of a node or bone [m]
+  for (int block = 0; block < model_.layout.num_free_nodes; ++block)
+    largest = std::max(largest, w_.segment<3>(3 * block).squaredNorm());
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
+    const double radius_squared = bone.mass.inertia.trace() / (2 * bone.mass.mass);  // of gyration
+    largest = std::max({largest, w_.segment<3>(3 * bone.block).squaredNorm(),
+                        radius_squared * w_.segment<3>(3 * bone.block + 3).squaredNorm()});
+  }
+  const double motion = gamma * std::sqrt(largest);
+  return motion > dynamics_.trusted_motion() ? dynamics_.trusted_motion() / motion : 1;
+}
+
 bool NewtonSystem::solve(const double* y, double gamma, const double* b, double* x,
                          IntegratorCounts& counts) {
   const Layout& layout = model_.layout;
@@ -118,6 +135,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     counts.linear_iterations += report.iterations;
     if (!report.converged || !w_.allFinite()) return false;
   }
+  const double scale = step_fraction(gamma);
 
   Eigen::Map<Eigen::VectorXd>(x, 3 * layout.num_free_nodes) =
       gamma * w_.head(3 * layout.num_free_nodes);
@@ -138,6 +156,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     x_q[2] = dq.y() + growth * q.y();
     x_q[3] = dq.z() + growth * q.z();
   }
+  if (scale < 1) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;
   return true;
 }
 

@@ -22,6 +22,8 @@ class NewtonSystem {
 
  private:
   bool needs_matrix(double gamma) const;
+  /// Part of the correction w that stays within Dynamics::trusted_motion().
+  double step_fraction(double gamma) const;
   bool prepare(double gamma, IntegratorCounts& counts);
 
   const Model& model_;

@@ -128,6 +128,10 @@ bool Stepper::try_step(State& state, double h) {
     dynamics_->evaluate(y_.data(), state.t + h);
     if (!search_) break;
     const double stray = search_->motion_since(dynamics_->configuration());
+    if (stray > dynamics_->trusted_motion()) {
+      ++state.counts.rejected_motion;
+      return false;
+    }
     const bool covered = stray <= 0.5 * state.next_margin;
     state.next_margin = margin_for(stray);
     if (covered) break;
