@@ -4,9 +4,21 @@
 #include <chrono>
 
 #include "collision/element_pair.hpp"
+#include "collision/face_planes.hpp"
 #include "collision/gjk.hpp"
 
 namespace articular::collision {
+namespace {
+
+/// GJK, where the planes of the elements do not tell already.
+bool elements_overlap(const Eigen::Matrix3d& triangle,
+                      const Eigen::Matrix<double, 3, 4>& tetrahedron, double margin) {
+  const PlaneVerdict verdict = face_planes(triangle, tetrahedron, margin);
+  if (verdict != PlaneVerdict::Unknown) return verdict == PlaneVerdict::Overlapping;
+  return gjk_overlap(triangle, tetrahedron, margin);
+}
+
+}  // namespace
 
 void narrow_phase(const BucketTree& F, const BucketTree& W, Reports& reports,
                   std::vector<Penetration>& pairs, QueryCounts& counts) {
@@ -16,7 +28,7 @@ void narrow_phase(const BucketTree& F, const BucketTree& W, Reports& reports,
     const Eigen::Matrix3d triangle = corners<3>(F.positions(), F.surface().faces.col(pair.face));
     const Eigen::Matrix<double, 3, 4> tetrahedron =
         corners<4>(W.positions(), W.tets().col(pair.tetrahedron));
-    if (gjk_overlap(triangle, tetrahedron, margin))
+    if (elements_overlap(triangle, tetrahedron, margin))
       reports.collisions.insert(pair.face, pair.tetrahedron);
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

@@ -16,8 +16,9 @@ namespace articular::fem {
 /// Defined for every F, inverted ones (J ≤ 0) included. λ is the Lamé constant plus μ:
 /// with that shift the small-strain limit is Hooke's law for the given E and ν.
 ///
-/// Without the barrier F = 0 is a second minimum: an element that is crushed in all directions at
-/// once below a length ratio of about μ/(λ + μ) (0.09 at ν = 0.45, 0.3 at ν = 0.3) does not return.
+/// Without the barrier F = 0 is a second minimum: under F = s I the energy falls towards it where
+/// s + s² + s³ < 1 − 2ν. An element that is crushed in all directions at once to less than 0.09 of
+/// its length at ν = 0.45, or 0.29 at ν = 0.3, does not return.
 ///
 /// [Smith 2018] Smith, De Goes, Kim. Stable Neo-Hookean Flesh Simulation. ACM TOG 37(2).
 class NeoHookean {

@@ -50,11 +50,27 @@ class Reader {
 
 }  // namespace
 
-std::string fingerprint(const std::string& settings, const Eigen::VectorXd& initial_y) {
-  return fmt::format(
-      "{:016x}-{:016x}", hash_bytes(settings.data(), settings.size()),
-      hash_bytes(reinterpret_cast<const char*>(initial_y.data()),
-                 static_cast<std::size_t>(initial_y.size()) * sizeof(double)));
+std::string fingerprint(const Model& model) {
+  std::string bytes = model.scenario.content;
+  const auto put_numbers = [&bytes](const auto& matrix) {
+    bytes.append(reinterpret_cast<const char*>(matrix.data()),
+                 static_cast<std::size_t>(matrix.size()) * sizeof(*matrix.data()));
+  };
+  put_numbers(initial_state(model));
+  for (const BodyModel& body : model.bodies) {
+    put_numbers(body.X);
+    if (body.collider) put_numbers(body.collider->X);
+    if (body.collider) put_numbers(body.collider->tets);
+  }
+  for (const Tissue& tissue : model.tissues) put_numbers(tissue.elasticity.tets());
+  for (const Bone& bone : model.bones) put_numbers(bone.rest.p);
+  for (const MuscleModel& muscle : model.muscles) {
+    put(muscle.given.max_force, bytes);
+    put(muscle.given.max_length_ratio, bytes);
+    put(muscle.given.tendon_ratio, bytes);
+  }
+  for (const Line& line : model.lines) put(line.start_length, bytes);
+  return fmt::format("{:016x}", hash_bytes(bytes.data(), bytes.size()));
 }
 
 void write_checkpoint(const std::filesystem::path& file, const State& state,
@@ -63,6 +79,7 @@ void write_checkpoint(const std::filesystem::path& file, const State& state,
   bytes += fingerprint;
   put(state.t, bytes);
   put(state.next_step, bytes);
+  put(state.next_margin, bytes);
   put(state.max_penetration, bytes);
   put(state.frames, bytes);
   put(state.energy, bytes);
@@ -91,11 +108,13 @@ std::optional<State> read_checkpoint(const std::filesystem::path& file,
     Reader reader(std::string_view(bytes).substr(0, body));
     if (reader.take(std::strlen(kMagic)) != kMagic) throw InputError("");
     if (reader.take(fingerprint.size()) != fingerprint)
-      throw InputError(fmt::format("{} belongs to another scenario, mesh or setting; run without "
-                                   "--resume or choose another --out",
-                                   file.string()));
+      throw InputError(
+          fmt::format("{} belongs to another scenario, mesh or setting; run without "
+                      "--resume or choose another --out",
+                      file.string()));
     reader.get(state.t);
     reader.get(state.next_step);
+    reader.get(state.next_margin);
     reader.get(state.max_penetration);
     reader.get(state.frames);
     reader.get(state.energy);

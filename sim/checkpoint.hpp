@@ -4,12 +4,14 @@
 #include <optional>
 #include <string>
 
+#include "sim/model.hpp"
 #include "sim/state.hpp"
 
 namespace articular::sim {
 
-/// What a checkpoint belongs to: a run of another scenario must not resume from it.
-std::string fingerprint(const std::string& settings, const Eigen::VectorXd& initial_y);
+/// What a checkpoint belongs to: the scenario's content and what was read from other files (meshes,
+/// muscle tables). A run of another scenario must not resume from it.
+std::string fingerprint(const Model& model);
 
 /// Writes the state in full precision, whole or not at all. @throws SystemError
 void write_checkpoint(const std::filesystem::path& file, const State& state,

@@ -78,7 +78,8 @@ Tetrahedra shell_under(Positions& X, const Triangles& triangles, double thicknes
     for (int i = 0; i < n; ++i)
       if (folded[static_cast<std::size_t>(i)] != 0) depth[i] *= 0.5;
   }
-  throw InputError("a contact surface folds back onto itself at a vertex; expected a smooth surface");
+  throw InputError(
+      "a contact surface folds back onto itself at a vertex; expected a smooth surface");
 }
 
 namespace {

@@ -4,14 +4,15 @@
 
 namespace articular::sim {
 
-/// A shell of tetrahedra under a surface: each triangle sinks along the vertex normals into a prism of
-/// three tetrahedra. Where the surface bends so sharply that prisms would fold, the shell is thinner.
-/// Nodes 0 .. n-1 are the surface's, n .. 2n-1 those below them.
+/// A shell of tetrahedra under a surface: each triangle sinks along the vertex normals into a prism
+/// of three tetrahedra. Where the surface bends so sharply that prisms would fold, the shell is
+/// thinner. Nodes 0 .. n-1 are the surface's, n .. 2n-1 those below them.
 /// @throws InputError when a vertex has no depth that leaves its prisms unfolded
 Tetrahedra shell_under(Positions& X, const Triangles& triangles, double thickness);
 
 /// Faces and areas, nearby faces and sizes of a collider whose X, tets and nodes are set.
-/// @param is_outer  per node: on the surface that a shell lies under, the only one that touches; empty =
+/// @param is_outer  per node: on the surface that a shell lies under, the only one that touches;
+/// empty =
 ///                  every face touches
 void complete_collider(Collider& collider, const std::vector<char>& is_outer);
 

@@ -46,6 +46,20 @@ void read_state(const Model& model, const double* y, double t, Configuration& co
       Eigen::Map<const Eigen::VectorXd>(y + layout.activations(), layout.num_muscles);
 }
 
+Configuration predicted(const Model& model, const Configuration& now, double h) {
+  Configuration later = now;
+  later.t = now.t + h;
+  later.x += h * now.v;
+  for (std::size_t b = 0; b < model.bones.size(); ++b) {
+    const Bone& bone = model.bones[b];
+    if (bone.motion) later.poses[b] = driven_pose(*bone.motion, bone.rest, later.t);
+    if (!bone.unknown) continue;
+    later.poses[b].p += h * now.velocities[b].linear;
+    later.poses[b].R = rotation_matrix(h * now.velocities[b].angular) * now.poses[b].R;
+  }
+  return later;
+}
+
 void positions_of(const Configuration& configuration, const std::vector<NodeRef>& nodes,
                   Positions& x) {
   x.resize(3, static_cast<Eigen::Index>(nodes.size()));

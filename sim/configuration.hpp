@@ -7,8 +7,8 @@ namespace articular::sim {
 /// Positions and velocities of everything at one moment, read from the state vector.
 struct Configuration {
   double t = 0;
-  Positions x, v;                       // free nodes, by block
-  std::vector<Pose> poses;              // bones
+  Positions x, v;                         // free nodes, by block
+  std::vector<Pose> poses;                // bones
   std::vector<RigidVelocity> velocities;  // bones
   Eigen::VectorXd activation;
 
@@ -32,10 +32,15 @@ struct Configuration {
 /// @param y  in the order of Layout; quaternions need not be of unit length
 void read_state(const Model& model, const double* y, double t, Configuration& configuration);
 
-/// Positions of a list of nodes, one a column.
-void positions_of(const Configuration& configuration, const std::vector<NodeRef>& nodes, Positions& x);
+/// Everything moved on with its velocity of now for a time h [s].
+Configuration predicted(const Model& model, const Configuration& now, double h);
 
-/// Adds a force at a node to block forces: 3 entries a block, a bone's moment about its reference point.
+/// Positions of a list of nodes, one a column.
+void positions_of(const Configuration& configuration, const std::vector<NodeRef>& nodes,
+                  Positions& x);
+
+/// Adds a force at a node to block forces: 3 entries a block, a bone's moment about its reference
+/// point.
 inline void add_force(const Configuration& configuration, const NodeRef& node, const Vec3& force,
                       Eigen::VectorXd& f) {
   f.segment<3>(3 * node.block) += force;

@@ -87,13 +87,8 @@ void add_contact_stiffness(const Model& model, const Configuration& configuratio
     for_each_patch(model, configuration, list,
                    [&](const SixNodes& nodes, const ContactPatch& patch, double k,
                        const ContactCandidate&) {
-                     const Mat18 H = contact_hessian(patch, gamma * gamma * k);
-                     for (std::size_t i = 0; i < 6; ++i)
-                       for (std::size_t j = 0; j < 6; ++j)
-                         add_stiffness(model, configuration, *nodes[i], *nodes[j],
-                                       H.block<3, 3>(3 * static_cast<Eigen::Index>(i),
-                                                     3 * static_cast<Eigen::Index>(j)),
-                                       A);
+                     add_stiffness(model, configuration, nodes,
+                                   contact_hessian(patch, gamma * gamma * k), A);
                    });
 }
 

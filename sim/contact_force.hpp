@@ -4,17 +4,17 @@
 #include "sim/contact_search.hpp"
 #include "sim/system_matrix.hpp"
 
-/// The penalty response on contact candidates: each direction of a pair (triangles of a against faces
-/// of b, and the reverse) carries half of the pair's stiffness.
+/// The penalty response on contact candidates: each direction of a pair (triangles of a against
+/// faces of b, and the reverse) carries half of the pair's stiffness.
 namespace articular::sim {
 
 /// What one contact pair carries; force on body a [N].
 struct ContactSummary {
   Vec3 force = Vec3::Zero();
-  double area = 0;        // [m²] mean of both directions
-  double max_depth = 0;   // [m]
+  double area = 0;          // [m²] mean of both directions
+  double max_depth = 0;     // [m]
   double max_pressure = 0;  // [Pa] stiffness times the largest depth
-  double energy = 0;      // [J]
+  double energy = 0;        // [J]
 };
 
 /// f += contact forces (block forces); returns one summary per contact of the model.

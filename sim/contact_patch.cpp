@@ -9,14 +9,17 @@ namespace articular::sim {
 namespace {
 
 /// A convex polygon in barycentric coordinates of the triangle, one corner a column (N0 N1 N2).
-/// A triangle cut by four half planes has at most seven corners.
+/// A triangle cut by four half planes has at most seven corners; where round-off makes the levels
+/// of corners on a cut change sign more often than twice, each cut adds half as many: 3, 4, 6,
+/// 9, 13.
 struct Polygon {
-  std::array<Vec3, 8> corner;
-  std::array<double, 8> level;
+  std::array<Vec3, 13> corner;
+  std::array<double, 13> level;
   int count = 0;
 };
 
-/// Keeps the part where the affine function with the values `at_nodes` at the triangle's nodes is >= 0.
+/// Keeps the part where the affine function with the values `at_nodes` at the triangle's nodes is
+/// >= 0.
 void clip(const Vec3& at_nodes, Polygon& polygon, Polygon& scratch) {
   bool all_inside = true;
   for (int i = 0; i < polygon.count; ++i) {
@@ -26,7 +29,9 @@ void clip(const Vec3& at_nodes, Polygon& polygon, Polygon& scratch) {
   }
   if (all_inside) return;
   scratch.count = 0;
-  const auto keep = [&](const Vec3& N) { scratch.corner[static_cast<std::size_t>(scratch.count++)] = N; };
+  const auto keep = [&](const Vec3& N) {
+    scratch.corner[static_cast<std::size_t>(scratch.count++)] = N;
+  };
   for (int i = 0; i < polygon.count; ++i) {
     const auto a = static_cast<std::size_t>(i);
     const auto b = static_cast<std::size_t>(i + 1 == polygon.count ? 0 : i + 1);

@@ -125,7 +125,7 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
     }
     const bool apart = (a.low - b.high).maxCoeff() > margin || (b.low - a.high).maxCoeff() > margin;
     if (!apart) {
-      collision::collide(*a.tree, *b.tree, faces_of_a_, faces_of_b_, query);
+      collision::collide(*a.tree, *b.tree, faces_of_a_, faces_of_b_, query, scratch_);
       collect(faces_of_a_, a, b, margin, list.pairs);
       CandidateList& reverse = candidates_[i + 1];
       collect(faces_of_b_, b, a, margin, reverse.pairs);
@@ -171,16 +171,6 @@ double ContactSearch::motion_since(const Configuration& configuration) const {
       largest = std::max(largest, (configuration.position(collider.nodes[i]) -
                                    moving.x.col(static_cast<Eigen::Index>(i)))
                                       .squaredNorm());
-  }
-  return std::sqrt(largest);
-}
-
-double ContactSearch::largest_speed(const Configuration& configuration) const {
-  double largest = 0;
-  for (const Moving& moving : moving_) {
-    const Collider& collider = *model_.bodies[static_cast<std::size_t>(moving.body)].collider;
-    for (const NodeRef& node : collider.nodes)
-      largest = std::max(largest, configuration.velocity(node).squaredNorm());
   }
   return std::sqrt(largest);
 }

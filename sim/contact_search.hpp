@@ -6,12 +6,12 @@
 #include "collision/collide.hpp"
 #include "sim/configuration.hpp"
 
-/// Who may touch whom during the next step: from the BucketTrees' penetrations with a margin to pairs
-/// of a surface triangle and a facing face of the other body.
+/// Who may touch whom during the next step: from the BucketTrees' penetrations with a margin to
+/// pairs of a surface triangle and a facing face of the other body.
 namespace articular::sim {
 
-/// Triangle `s` of body a of the contact pair may touch face `f` of body b (or, reversed, triangle of b
-/// and face of a).
+/// Triangle `s` of body a of the contact pair may touch face `f` of body b (or, reversed, triangle
+/// of b and face of a).
 struct ContactCandidate {
   int triangle = 0, face = 0;
 };
@@ -24,7 +24,7 @@ struct CandidateList {
 
 struct SearchCounts {
   std::int64_t tree_updates = 0;
-  std::int64_t reported_pairs = 0;   // by the BucketTrees, within the margin
+  std::int64_t reported_pairs = 0;  // by the BucketTrees, within the margin
   std::int64_t narrow_tests = 0;
   double update_seconds = 0, traversal_seconds = 0, narrow_seconds = 0;
 };
@@ -42,30 +42,28 @@ class ContactSearch {
   const SearchCounts& counts() const { return counts_; }
   SearchCounts& counts() { return counts_; }
 
-  /// Largest distance that a node of any collider has moved since find() [m].
+  /// Largest distance of a node of any collider from where find() had it [m].
   double motion_since(const Configuration& configuration) const;
-  /// Largest speed of a node of any collider [m/s].
-  double largest_speed(const Configuration& configuration) const;
 
  private:
   struct Moving {
     int body = 0;
     std::unique_ptr<collision::BucketTree> tree;
-    Positions x;             // where it was found
+    Positions x;                                   // where it was found
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // its box
-    double margin = -1;      // that the tree was updated with
+    double margin = -1;                            // that the tree was updated with
   };
   void update(Moving& moving, const Configuration& configuration, double margin);
   bool needs_update(const Moving& moving, double margin) const;
-  void collect(const std::vector<collision::Penetration>& found,
-               const Moving& a, const Moving& b, double margin,
-               std::vector<ContactCandidate>& pairs);
+  void collect(const std::vector<collision::Penetration>& found, const Moving& a, const Moving& b,
+               double margin, std::vector<ContactCandidate>& pairs);
 
   const Model& model_;
-  std::vector<Moving> moving_;            // one a collider
-  std::vector<int> moving_of_body_;       // -1: none
+  std::vector<Moving> moving_;       // one a collider
+  std::vector<int> moving_of_body_;  // -1: none
   std::vector<CandidateList> candidates_;
   std::vector<collision::Penetration> faces_of_a_, faces_of_b_;
+  collision::QueryScratch scratch_;
   std::vector<int> seen_;                 // per face: last triangle that it was paired with
   SearchCounts counts_;
 };

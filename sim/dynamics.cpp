@@ -11,8 +11,10 @@ Dynamics::Dynamics(const Model& model) : model_(model) {
   mass_nodes_.resize(static_cast<std::size_t>(model.layout.num_free_nodes));
   for (std::size_t t = 0; t < model.tissues.size(); ++t) {
     const Tissue& tissue = model.tissues[t];
-    tissues_.push_back({Positions(3, tissue.X.cols()), Positions(3, tissue.X.cols()),
-                        tissue.elasticity.make_matrix(), {}});
+    tissues_.push_back({Positions(3, tissue.X.cols()),
+                        Positions(3, tissue.X.cols()),
+                        tissue.elasticity.make_matrix(),
+                        {}});
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
       if (tissue.nodes[i].bone < 0)
         mass_nodes_[static_cast<std::size_t>(tissue.nodes[i].block)] = {static_cast<int>(t),
@@ -71,6 +73,10 @@ void Dynamics::build_pattern() {
   }
 }
 
+bool Dynamics::carries_own_weight(const NodeRef& node) const {
+  return node.bone < 0 || node.bone >= model_.layout.num_rigid;
+}
+
 void Dynamics::evaluate(const double* y, double t) {
   read_state(model_, y, t, configuration_);
   f_.setZero();
@@ -85,7 +91,8 @@ void Dynamics::evaluate(const double* y, double t) {
       for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
         const auto column = static_cast<Eigen::Index>(i);
         Vec3 force = -work.f.col(column);
-        if (tissue.nodes[i].bone < 0) force += tissue.lumped_mass[column] * model_.gravity;
+        if (carries_own_weight(tissue.nodes[i]))
+          force += tissue.lumped_mass[column] * model_.gravity;
         add_force(configuration_, tissue.nodes[i], force, f_);
       }
     }
@@ -138,8 +145,8 @@ void Dynamics::rate(const double* y, double* y_dot) const {
     Eigen::Map<Vec3>(y_dot + layout.bone_p(r)) = velocity(bone.block);
     // q̇ = ½ ω ⊗ q, q = (w, x, y, z).
     const double* q = y + layout.bone_q(r);
-    const Eigen::Quaterniond turned =
-        Eigen::Quaterniond(0, omega.x(), omega.y(), omega.z()) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+    const Eigen::Quaterniond turned = Eigen::Quaterniond(0, omega.x(), omega.y(), omega.z()) *
+                                      Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
     double* q_dot = y_dot + layout.bone_q(r);
     q_dot[0] = 0.5 * turned.w();
     q_dot[1] = 0.5 * turned.x();
@@ -221,8 +228,8 @@ double Dynamics::kinetic_energy() const {
   }
   for (int r = 0; r < model_.layout.num_rigid; ++r) {
     const auto& velocity = configuration_.velocities[static_cast<std::size_t>(r)];
-    energy += 0.5 * model_.bones[static_cast<std::size_t>(r)].mass.mass *
-              velocity.linear.squaredNorm();
+    energy +=
+        0.5 * model_.bones[static_cast<std::size_t>(r)].mass.mass * velocity.linear.squaredNorm();
     energy += 0.5 * velocity.angular.dot(world_inertia(r) * velocity.angular);
   }
   return energy;
@@ -237,11 +244,11 @@ double Dynamics::elastic_energy() const {
 
 double Dynamics::gravity_energy() const {
   double energy = 0;
-  for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
-    const auto [t, node] = mass_nodes_[static_cast<std::size_t>(block)];
-    energy -= model_.tissues[static_cast<std::size_t>(t)].lumped_mass[node] *
-              model_.gravity.dot(configuration_.x.col(block));
-  }
+  for (const Tissue& tissue : model_.tissues)
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+      if (carries_own_weight(tissue.nodes[i]))
+        energy -= tissue.lumped_mass[static_cast<Eigen::Index>(i)] *
+                  model_.gravity.dot(configuration_.position(tissue.nodes[i]));
   for (int r = 0; r < model_.layout.num_rigid; ++r)
     energy -= model_.bones[static_cast<std::size_t>(r)].mass.mass *
               model_.gravity.dot(configuration_.poses[static_cast<std::size_t>(r)].p);

@@ -33,15 +33,17 @@ class Dynamics {
   /// M + gamma D + gamma² K at the last evaluate(), over the unknown blocks.
   const fem::BlockMatrix& matrix(double gamma, fem::Tangent tangent);
 
+  std::uint64_t pattern_id() const { return A_.pattern_id(); }
+
   /// r = M b for block velocities b.
   void multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const;
 
   /// Time constant of a muscle's activation now [s].
   double activation_time(const double* y, double t, int muscle) const;
 
-  double kinetic_energy() const;   // at the last evaluate() [J]
-  double elastic_energy() const;   // of the tissues [J]
-  double gravity_energy() const;   // [J], of all unknown masses
+  double kinetic_energy() const;  // at the last evaluate() [J]
+  double elastic_energy() const;  // of the tissues [J]
+  double gravity_energy() const;  // [J], of all masses but fixed and driven bones' own
   DynamicsTimes& times() { return times_; }
 
  private:
@@ -53,6 +55,8 @@ class Dynamics {
   void build_pattern();
   void add_tissue_stiffness(std::size_t t, double gamma, fem::Tangent tangent);
   Mat3 world_inertia(int bone) const;
+  /// All tissue nodes but those whose mass a rigid bone has taken over.
+  bool carries_own_weight(const NodeRef& node) const;
 
   const Model& model_;
   const std::vector<CandidateList>* candidates_ = nullptr;

@@ -21,8 +21,8 @@ inline std::string prefix(const Location& where) {
   return text + ": ";
 }
 
-/// Bad input by the user (scenario, mesh, arguments): exit code 2. what() is one line that is enough
-/// by itself: file:line:column, what is wrong, what was expected.
+/// Bad input by the user (scenario, mesh, arguments): exit code 2. what() is one line that is
+/// enough by itself: file:line:column, what is wrong, what was expected.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
@@ -36,7 +36,8 @@ class SystemError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The simulation cannot go on (no step size makes it): exit code 3. Files written so far are valid.
+/// The simulation cannot go on (no step size makes it): exit code 3. Files written so far are
+/// valid.
 class SimulationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

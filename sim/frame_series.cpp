@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <algorithm>
 #include <map>
 
 #include "sim/error.hpp"
@@ -76,6 +77,14 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& pvd) {
     if (!seconds) throw InputError({name}, "timestep `" + time + "` is not a number");
     entries.push_back({*seconds, *index, attribute(element, "name"), file});
   }
+  // A part that stands still is listed in later frames with its first file: the frame's number is that
+  // of its newest file.
+  std::map<double, int> newest;
+  for (const SeriesEntry& entry : entries) {
+    int& index = newest.try_emplace(entry.time, entry.index).first->second;
+    index = std::max(index, entry.index);
+  }
+  for (SeriesEntry& entry : entries) entry.index = newest.at(entry.time);
   return entries;
 }
 

@@ -9,7 +9,7 @@ namespace articular::sim {
 /// One part (body, or the lines) of one frame, as listed in a .pvd.
 struct SeriesEntry {
   double time;       // [s]
-  int index;         // frame number, as in the file's name
+  int index;         // frame number; as in the file's name, or later for a part that stands still
   std::string part;  // name of the body, or "lines"
   std::string file;  // relative to the folder of the .pvd
 };

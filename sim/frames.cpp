@@ -42,9 +42,16 @@ std::vector<Field> tissue_cell_fields(const Tissue& tissue, const Positions& x) 
           {"strain_energy_density", "J/m^3", e.strain_energy_density(x).transpose()}};
 }
 
+/// A fixed bone is written once.
+bool stands_still(const Bone& bone) { return !bone.unknown && !bone.motion; }
+
 void write_bone(const Model& model, const Configuration& now, const BodyModel& body, int index,
                 double time, FrameWriter& writer) {
   const auto b = static_cast<std::size_t>(body.bone);
+  if (index > 0 && stands_still(model.bones[b])) {
+    writer.repeat_bone(body.name, 0, index, time);
+    return;
+  }
   const Pose& pose = now.poses[b];
   const Positions x = (pose.R * body.X).colwise() + pose.p;
   const Positions start = body.X.colwise() + model.bones[b].rest.p;
@@ -52,8 +59,11 @@ void write_bone(const Model& model, const Configuration& now, const BodyModel& b
   Eigen::MatrixXd v(3, x.cols());
   for (Eigen::Index i = 0; i < x.cols(); ++i)
     v.col(i) = velocity.linear + velocity.angular.cross(x.col(i) - pose.p);
-  writer.write_bone({body.name, x, body.triangles,
-                     {{"displacement", "m", x - start}, {"velocity", "m/s", v}}, {}},
+  writer.write_bone({body.name,
+                     x,
+                     body.triangles,
+                     {{"displacement", "m", x - start}, {"velocity", "m/s", v}},
+                     {}},
                     index, time);
 }
 
@@ -95,11 +105,12 @@ void write_frame(const Model& model, const Stepper& stepper, int index, double t
       const Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
       Positions x;
       positions_of(now, tissue.nodes, x);
-      writer.write_tissue({body.name, x, tissue.elasticity.tets(),
-                           tissue_point_fields(model, tissue, now, x,
-                                               contact_forces[static_cast<std::size_t>(tissue.body)]),
-                           tissue_cell_fields(tissue, x)},
-                          index, time);
+      writer.write_tissue(
+          {body.name, x, tissue.elasticity.tets(),
+           tissue_point_fields(model, tissue, now, x,
+                               contact_forces[static_cast<std::size_t>(tissue.body)]),
+           tissue_cell_fields(tissue, x)},
+          index, time);
     } else if (body.X.cols() > 0) {
       write_bone(model, now, body, index, time, writer);
     }

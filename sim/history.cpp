@@ -4,12 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
-#include <iterator>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace articular::sim {
 namespace {
+
+/// Times are printed with twelve digits: a row's time may be this much off, relatively.
+constexpr double kTimeRounding = 1e-11;
 
 std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model) {
   const std::string& length = model.scenario.output.length_unit_name;
@@ -66,8 +69,9 @@ History::History(const Model& model) : model_(model), columns_{"time [s]"} {
 void History::record(const State& state, const Stepper& stepper) {
   values_.assign(1, state.t);
   for (const ProbeModel& probe : model_.probes) append(probe, state, stepper);
-  for (std::size_t i = 0; i < values_.size(); ++i)
-    fmt::format_to(std::back_inserter(rows_), "{}{:.9g}", i == 0 ? "" : ",", values_[i]);
+  fmt::format_to(std::back_inserter(rows_), "{:.12g}", state.t);
+  for (std::size_t i = 1; i < values_.size(); ++i)
+    fmt::format_to(std::back_inserter(rows_), ",{:.9g}", values_[i]);
   rows_ += '\n';
 }
 
@@ -136,7 +140,7 @@ void History::resume(const std::string& earlier, double time) {
   while (begin != std::string::npos && begin + 1 < earlier.size()) {
     const std::size_t end = earlier.find('\n', begin + 1);
     const std::string row = earlier.substr(begin + 1, end - begin);
-    if (std::stod(row) > time * (1 + 1e-12)) break;
+    if (std::stod(row) > time * (1 + kTimeRounding)) break;
     rows_ += row;
     begin = end;
   }

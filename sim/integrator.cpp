@@ -57,6 +57,7 @@ struct ImplicitIntegrator::Memory {
   NewtonSystem newton;
   IntegratorCounts counts;
   double step = 0;                   // [s] being tried
+  bool keep_matrix = false;
   std::exception_ptr error;          // thrown below a C callback; rethrown above it
   Owned<SUNContext, FreeContext> context;
   Owned<N_Vector, FreeVector> y;
@@ -88,7 +89,8 @@ int rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
   });
 }
 
-/// The right-hand side was evaluated last where Newton's iteration stands: the residual comes first.
+/// The right-hand side was evaluated last where Newton's iteration stands: the residual comes
+/// first.
 template <class State>
 int solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
   auto& state = *static_cast<State*>(solver->content);
@@ -121,7 +123,8 @@ int weights(N_Vector, N_Vector w, void* data) {
     const double size = std::sqrt(bone.mass.inertia.trace() / (2 * bone.mass.mass));
     weight.segment<3>(layout.bone_p(r)).setConstant(position);
     weight.segment<4>(layout.bone_q(r)).setConstant(position * size);
-    weight.segment<3>(layout.velocities() + 3 * bone.block + 3).setConstant(position * size * state.step);
+    weight.segment<3>(layout.velocities() + 3 * bone.block + 3)
+        .setConstant(position * size * state.step);
   }
   weight.tail(layout.num_muscles).setConstant(1 / kActivationTolerance);
   return 0;
@@ -181,20 +184,28 @@ ImplicitIntegrator::ImplicitIntegrator(const Model& model, Dynamics& dynamics)
   check(ARKStepSetMaxConvFails(arkode, 1), "ARKStepSetMaxConvFails");
   check(ARKStepSetNonlinConvCoef(arkode, kNewtonFraction), "ARKStepSetNonlinConvCoef");
   check(ARKStepSetNonlinRDiv(arkode, kDivergenceRatio), "ARKStepSetNonlinRDiv");
-  // The stage's own rate, (z − y)/γ, and not f(z): a remaining error in z would come out amplified by
-  // the stiffness.
+  // The stage's own rate, (z − y)/γ, and not f(z): a remaining error in z would come out amplified
+  // by the stiffness.
   check(ARKStepSetDeduceImplicitRhs(arkode, SUNTRUE), "ARKStepSetDeduceImplicitRhs");
   check(ARKStepSetInterpolantType(arkode, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
 }
 
 ImplicitIntegrator::~ImplicitIntegrator() = default;
 
+void ImplicitIntegrator::forget() { memory_->keep_matrix = false; }
+
 const IntegratorCounts& ImplicitIntegrator::counts() const { return memory_->counts; }
 
 bool ImplicitIntegrator::advance(Eigen::VectorXd& y, double t, double h) {
   Memory& m = *memory_;
+  if (y.size() == 0) {  // nothing to solve for: only driven bones move
+    ++m.counts.steps;
+    return true;
+  }
   void* arkode = m.arkode.get();
   m.step = h;
+  m.newton.begin_step(m.keep_matrix);
+  m.keep_matrix = false;  // after a failure
   Eigen::Map<Eigen::VectorXd> vector(N_VGetArrayPointer(m.y.get()), y.size());
   vector = y;
   check(ARKStepReset(arkode, t, m.y.get()), "ARKStepReset");
@@ -208,6 +219,7 @@ bool ImplicitIntegrator::advance(Eigen::VectorXd& y, double t, double h) {
     return false;
   }
   ++m.counts.steps;
+  m.keep_matrix = true;
   y = vector;
   return true;
 }

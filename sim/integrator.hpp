@@ -8,8 +8,8 @@
 namespace articular::sim {
 
 struct IntegratorCounts {
-  std::int64_t steps = 0;           // that SUNDIALS took
-  std::int64_t failed = 0;          // that it could not (Newton iteration did not converge)
+  std::int64_t steps = 0;   // that SUNDIALS took
+  std::int64_t failed = 0;  // that it could not (Newton iteration did not converge)
   std::int64_t newton_iterations = 0;
   std::int64_t force_evaluations = 0;
   std::int64_t factorizations = 0;
@@ -19,10 +19,10 @@ struct IntegratorCounts {
 };
 
 /// One implicit step of SUNDIALS' ARKODE (DIRK at fixed step) on y' = rate(t, y). Each step starts
-/// afresh from (t, y): nothing of the past enters but the matrix pattern.
+/// afresh from (t, y): nothing of the past enters but the last matrix and its pattern.
 ///
-/// Newton's linear system is reduced to block velocities: with δx = b_x + γ δv for the kinematic rows
-/// (rotations: δθ in place of quaternions) and w = δv + b_x/γ,
+/// Newton's linear system is reduced to block velocities: with δx = b_x + γ δv for the kinematic
+/// rows (rotations: δθ in place of quaternions) and w = δv + b_x/γ,
 ///   (M + γ D + γ² K) w = M (b_v + b_x/γ) + γ ∂f/∂a δa,   δx = γ w.
 /// Gyroscopic and moment terms are left out of the matrix, never out of the residual.
 class ImplicitIntegrator {
@@ -32,8 +32,12 @@ class ImplicitIntegrator {
   ImplicitIntegrator(const ImplicitIntegrator&) = delete;
   ImplicitIntegrator& operator=(const ImplicitIntegrator&) = delete;
 
-  /// Advances y from t to t + h. @return false when Newton's iteration did not converge; y is as before
+  /// Advances y from t to t + h. @return false when Newton's iteration did not converge; y is as
+  /// before
   [[nodiscard]] bool advance(Eigen::VectorXd& y, double t, double h);
+
+  /// Drops the matrix of the last step.
+  void forget();
 
   const IntegratorCounts& counts() const;
 

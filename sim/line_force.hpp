@@ -9,11 +9,11 @@ namespace articular::sim {
 struct LineState {
   double length = 0, rate = 0;  // [m], [m/s]
   double tension = 0;           // [N]
-  double active = 0;            // [N] part of it that does the muscle's work; the rest is stored or damped
-  double damping = 0;           // [N] part of it that a ligament's damper makes
-  double stored = 0;            // [J] passive muscle or ligament energy
-  double stiffness = 0;         // ∂tension/∂length [N/m], not negative: descending parts count as 0
-  double viscosity = 0;         // ∂tension/∂rate [N s/m]
+  double active = 0;     // [N] part of it that does the muscle's work; the rest is stored or damped
+  double damping = 0;    // [N] part of it that a ligament's damper makes
+  double stored = 0;     // [J] passive muscle or ligament energy
+  double stiffness = 0;  // ∂tension/∂length [N/m], not negative: descending parts count as 0
+  double viscosity = 0;  // ∂tension/∂rate [N s/m]
   double tension_per_activation = 0;  // [N]
 };
 

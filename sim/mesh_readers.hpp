@@ -21,7 +21,12 @@ MeshData read_abaqus(const std::filesystem::path& file);
 /// several normals.
 MeshData read_obj(const std::filesystem::path& file);
 
-/// .vtu, .vtp, .vtk, .stl, .ply through VTK. Positions of .stl and .ply are in single precision.
+/// Stanford polygons: x, y, z of `vertex` and the lists of `face`, polygons split as above, in text
+/// or binary of either byte order. Read here and not by VTK, which crashes on damaged files.
+MeshData read_ply(const std::filesystem::path& file);
+
+/// .vtu, .vtp, .vtk, .stl through VTK. Positions of .stl are in single precision, as in binary
+/// files.
 MeshData read_with_vtk(const std::filesystem::path& file);
 
 /// One finite number, nothing before or after it; empty if it is none.

@@ -134,31 +134,58 @@ MassProperties rigid_mass(const Body& body, const MeshData& mesh) {
   return mass;
 }
 
+/// Squared distance of a point from the triangle a b c. [Ericson 2005, Real-Time Collision
+/// Detection, 5.1.5: by the part of the plane that the point projects to]
+double squared_distance(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto from_edge = [&](const Vec3& p, const Vec3& q) {
+    const Vec3 edge = q - p;
+    const double length = edge.squaredNorm();
+    const double s = length > 0 ? std::clamp((x - p).dot(edge) / length, 0.0, 1.0) : 0.0;
+    return (x - p - s * edge).squaredNorm();
+  };
+  const Vec3 n = (b - a).cross(c - a);
+  const bool inside = n.squaredNorm() > 0 && (b - a).cross(x - a).dot(n) >= 0 &&
+                      (c - b).cross(x - b).dot(n) >= 0 && (a - c).cross(x - c).dot(n) >= 0;
+  if (inside) return std::pow((x - a).dot(n), 2) / n.squaredNorm();
+  return std::min({from_edge(a, b), from_edge(b, c), from_edge(c, a)});
+}
+
+bool is_near(const MeshData& mesh, const Vec3& x, double distance) {
+  for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+    const Vec3 a = mesh.X.col(mesh.triangles(0, f)), b = mesh.X.col(mesh.triangles(1, f)),
+               c = mesh.X.col(mesh.triangles(2, f));
+    if (squared_distance(x, a, b, c) <= distance * distance) return true;
+  }
+  return false;
+}
+
 /// A region's nodes, tested in the geometry at the start.
 class RegionTest {
  public:
   RegionTest(const Region& region, const Model& model, const std::vector<Geometry>& geometry)
       : region_(region) {
     if (!region.near_body) return;
-    for (std::size_t b = 0; b < model.bodies.size(); ++b)
-      if (model.bodies[b].name == region.near_body->first)
-        near_ = geometry[b].contact.X.cols() > 0 ? &geometry[b].contact : &geometry[b].mesh;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      if (model.bodies[b].name != region.near_body->first) continue;
+      const Geometry& near = geometry[b];
+      near_ = near.contact.X.cols() > 0 ? near.contact : near.mesh;
+      if (near_.tets.cols() > 0)
+        near_.triangles =
+            collision::build_surface(near_.tets, static_cast<int>(near_.X.cols())).faces;
+    }
   }
   bool contains(const Vec3& x, bool on_surface) const {
     if (region_.surface_only && !on_surface) return false;
-    if (region_.box && ((x - region_.box->first).minCoeff() < 0 ||
-                        (region_.box->second - x).minCoeff() < 0))
+    if (region_.box &&
+        ((x - region_.box->first).minCoeff() < 0 || (region_.box->second - x).minCoeff() < 0))
       return false;
     if (region_.sphere && (x - region_.sphere->first).norm() > region_.sphere->second) return false;
-    if (region_.near_body)
-      return near_ != nullptr &&
-             (near_->X.colwise() - x).colwise().norm().minCoeff() <= region_.near_body->second;
-    return true;
+    return !region_.near_body || is_near(near_, x, region_.near_body->second);
   }
 
  private:
   const Region& region_;
-  const MeshData* near_ = nullptr;
+  MeshData near_;
 };
 
 class Builder {
@@ -238,7 +265,9 @@ class Builder {
       try {
         Tissue tissue{static_cast<int>(b),
                       fem::Elasticity(mesh.X, mesh.tets, make_material(*body.material)),
-                      fem::lumped_mass(mesh.X, mesh.tets, *body.density), {}, mesh.X};
+                      fem::lumped_mass(mesh.X, mesh.tets, *body.density),
+                      {},
+                      mesh.X};
         tissue.nodes.resize(static_cast<std::size_t>(mesh.X.cols()));
         model_.bodies[b].tissue = static_cast<int>(model_.tissues.size());
         model_.tissues.push_back(std::move(tissue));
@@ -294,14 +323,12 @@ class Builder {
     model_.num_blocks = block;
     for (Tissue& tissue : model_.tissues)
       for (NodeRef& node : tissue.nodes)
-        if (node.bone >= 0)
-          node.block = model_.bones[static_cast<std::size_t>(node.bone)].block;
+        if (node.bone >= 0) node.block = model_.bones[static_cast<std::size_t>(node.bone)].block;
     model_.layout.num_muscles = static_cast<int>(scenario().muscles.size());
   }
 
   std::vector<char> surface_nodes(int tissue) const {
-    std::vector<char> on_surface(
-        model_.tissues[static_cast<std::size_t>(tissue)].nodes.size(), 0);
+    std::vector<char> on_surface(model_.tissues[static_cast<std::size_t>(tissue)].nodes.size(), 0);
     for (const int node : surface_[static_cast<std::size_t>(tissue)].faces.reshaped())
       on_surface[static_cast<std::size_t>(node)] = 1;
     return on_surface;
@@ -466,8 +493,7 @@ class Builder {
     line.name = name;
     for (const Anchor& anchor : path) line.path.push_back(resolve(anchor));
     for (std::size_t i = 1; i < line.path.size(); ++i)
-      line.start_length +=
-          (start_position(line.path[i]) - start_position(line.path[i - 1])).norm();
+      line.start_length += (start_position(line.path[i]) - start_position(line.path[i - 1])).norm();
     if (!(line.start_length > 0))
       throw InputError(where, fmt::format("`{}` has no length: its points coincide", name));
     return line;
@@ -584,9 +610,9 @@ class Builder {
   }
 
   Model model_;
-  std::vector<Geometry> geometry_;             // one a body
-  std::vector<collision::Surface> surface_;    // one a tissue
-  mutable Positions free_start_;               // of the free tissue nodes, by block
+  std::vector<Geometry> geometry_;           // one a body
+  std::vector<collision::Surface> surface_;  // one a tissue
+  mutable Positions free_start_;             // of the free tissue nodes, by block
 };
 
 }  // namespace

@@ -12,15 +12,15 @@
 /// The scenario made ready to compute: immutable, holding only what the scene requires.
 ///
 /// Unknown velocities come in blocks of three: one block a free tissue node, then two a rigid bone
-/// (velocity of its centre of mass, angular velocity). Bones that are fixed or driven have two blocks
-/// too, after all unknown ones: forces on them are reactions.
+/// (velocity of its centre of mass, angular velocity). Bones that are fixed or driven have two
+/// blocks too, after all unknown ones: forces on them are reactions.
 namespace articular::sim {
 
 /// A point of a body by what moves it: a free tissue node's block, or a bone's two blocks and the
 /// point's place in the bone's frame.
 struct NodeRef {
-  int block = 0;       // first block
-  int bone = -1;       // index into Model::bones, or -1 for a free node
+  int block = 0;              // first block
+  int bone = -1;              // index into Model::bones, or -1 for a free node
   Vec3 local = Vec3::Zero();  // in the bone's frame [m]
 };
 
@@ -34,26 +34,26 @@ struct Bone {
   std::optional<Motion> motion;  // driven
 };
 
-/// What of a body can touch: tetrahedra with their surface. Tissue: its own mesh. Bone: its mesh, or
-/// a shell of tetrahedra under its surfaces.
+/// What of a body can touch: tetrahedra with their surface. Tissue: its own mesh. Bone: its mesh,
+/// or a shell of tetrahedra under its surfaces.
 struct Collider {
-  Positions X;      // at the start, world [m]
+  Positions X;  // at the start, world [m]
   Tetrahedra tets;
-  collision::Surface surface;      // of a shell: without its inner and lateral faces
-  std::vector<NodeRef> nodes;      // what moves each node
-  std::vector<double> face_area;   // at the start [m²]
+  collision::Surface surface;             // of a shell: without its inner and lateral faces
+  std::vector<NodeRef> nodes;             // what moves each node
+  std::vector<double> face_area;          // at the start [m²]
   std::vector<int> nearby_begin, nearby;  // per tetrahedron: faces around it
-  double stiffness = 0;  // contact stiffness of this side [Pa/m]
-  double reach = 0;      // [m] depth up to which a crossed face is found
-  double size = 0;       // [m] mean height of the elements at the surface
+  double stiffness = 0;                   // contact stiffness of this side [Pa/m]
+  double reach = 0;                       // [m] depth up to which a crossed face is found
+  double size = 0;                        // [m] mean height of the elements at the surface
 };
 
 struct Tissue {
   int body = 0;
   fem::Elasticity elasticity;
-  Eigen::VectorXd lumped_mass;   // [kg], one a node
-  std::vector<NodeRef> nodes;    // what moves each node
-  Positions X;                   // at the start, world [m]
+  Eigen::VectorXd lumped_mass;  // [kg], one a node
+  std::vector<NodeRef> nodes;   // what moves each node
+  Positions X;                  // at the start, world [m]
 };
 
 struct BodyModel {
@@ -110,7 +110,8 @@ struct ProbeModel {
 };
 
 /// Where everything stands in the state vector y:
-/// [free tissue x | per rigid bone: p, quaternion (w x y z) | free tissue v | per rigid bone: v, ω | activations]
+/// [free tissue x | per rigid bone: p, quaternion (w x y z) | free tissue v | per rigid bone: v, ω
+/// | activations]
 struct Layout {
   int num_free_nodes = 0, num_rigid = 0, num_muscles = 0;
 
@@ -118,7 +119,9 @@ struct Layout {
   int node_x(int block) const { return 3 * block; }
   int bone_p(int r) const { return 3 * num_free_nodes + 7 * r; }
   int bone_q(int r) const { return bone_p(r) + 3; }
-  int velocities() const { return 3 * num_free_nodes + 7 * num_rigid; }  // in the order of the blocks
+  int velocities() const {
+    return 3 * num_free_nodes + 7 * num_rigid;
+  }  // in the order of the blocks
   int activations() const { return velocities() + 3 * num_unknown_blocks(); }
   int size() const { return activations() + num_muscles; }
 };

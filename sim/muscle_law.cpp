@@ -31,7 +31,7 @@ double passive_energy_length(double length, double optimal_length, double max_ra
 }
 
 ValueSlope force_velocity(double w) {
-  constexpr double kCurvature = 4;      // F0/a
+  constexpr double kCurvature = 4;        // F0/a
   constexpr double kEccentricGain = 0.4;  // above 1 at fast lengthening
   // Slope at w = 0 from both sides: 1 + kCurvature = kEccentricGain * kEccentricRate.
   constexpr double kEccentricRate = (1 + kCurvature) / kEccentricGain;

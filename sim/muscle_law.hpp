@@ -12,15 +12,16 @@ struct ValueSlope {
 /// Slope with respect to l. [Peck 2000, Arch Oral Biol 45:963]
 ValueSlope active_force_length(double length, double optimal_length, double tendon_ratio);
 
-/// Passive factor: 0 up to the optimal length, linear to 1 at max_ratio times it, 1 beyond. [Peck 2000]
+/// Passive factor: 0 up to the optimal length, linear to 1 at max_ratio times it, 1 beyond. [Peck
+/// 2000]
 ValueSlope passive_force_length(double length, double optimal_length, double max_ratio);
 
 /// Energy behind the passive factor: ∫ p dl [m].
 double passive_energy_length(double length, double optimal_length, double max_ratio);
 
-/// Force–velocity factor of the normalised lengthening rate w = l̇ / (vmax l_opt): shortening (w < 0)
-/// Hill's hyperbola (1 + w)/(1 − 4w) with a/F0 = b/vmax = 1/4, 0 beyond w = −1; lengthening rises to
-/// 1.4 with the same slope at w = 0. Slope with respect to w.
+/// Force–velocity factor of the normalised lengthening rate w = l̇ / (vmax l_opt): shortening (w <
+/// 0) Hill's hyperbola (1 + w)/(1 − 4w) with a/F0 = b/vmax = 1/4, 0 beyond w = −1; lengthening
+/// rises to 1.4 with the same slope at w = 0. Slope with respect to w.
 ValueSlope force_velocity(double w);
 
 }  // namespace articular::sim

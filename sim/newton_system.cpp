@@ -14,6 +14,9 @@ std::unique_ptr<fem::LinearSolver> make_solver(const Model& model) {
   return fem::make_conjugate_gradients(kLinearTolerance, kMostLinearIterations);
 }
 
+/// A residual that falls by less than this asks for a new matrix.
+constexpr double kSlowFall = 0.1;
+
 Eigen::Quaterniond quaternion(const double* q) { return {q[0], q[1], q[2], q[3]}; }
 
 }  // namespace
@@ -21,12 +24,25 @@ Eigen::Quaterniond quaternion(const double* q) { return {q[0], q[1], q[2], q[3]}
 NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
     : model_(model), dynamics_(dynamics), solver_(make_solver(model)) {}
 
+void NewtonSystem::begin_step(bool keep_matrix) {
+  iteration_ = 0;
+  if (!keep_matrix) gamma_ = 0;
+}
+
+bool NewtonSystem::needs_matrix(double gamma) const {
+  if (gamma != gamma_ || pattern_ != dynamics_.pattern_id()) return true;
+  return iteration_ > 0 && residual_ > kSlowFall * last_residual_;
+}
+
 bool NewtonSystem::prepare(double gamma, IntegratorCounts& counts) {
   for (const fem::Tangent tangent : {fem::Tangent::Consistent, fem::Tangent::Projected}) {
     const fem::BlockMatrix& A = dynamics_.matrix(gamma, tangent);
     const Stopwatch watch(counts.solve_seconds);
     ++counts.factorizations;
+    gamma_ = gamma;
+    pattern_ = A.pattern_id();
     if (solver_->prepare(A) == fem::FactorStatus::Ready) return true;
+    gamma_ = 0;
     if (tangent == fem::Tangent::Consistent) ++counts.projected_tangents;
   }
   return false;
@@ -36,8 +52,6 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
                          IntegratorCounts& counts) {
   const Layout& layout = model_.layout;
   const int num_velocities = 3 * layout.num_unknown_blocks();
-  if (num_velocities > 0 && !prepare(gamma, counts)) return false;
-
   // b_v + b_x/γ
   velocity_rhs_ = Eigen::Map<const Eigen::VectorXd>(b + layout.velocities(), num_velocities);
   velocity_rhs_.head(3 * layout.num_free_nodes) +=
@@ -52,7 +66,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   dynamics_.multiply_mass(velocity_rhs_, mass_rhs_);
 
   // Activations are on their own; their change pulls on the lines' points.
-  Eigen::VectorXd pull = Eigen::VectorXd::Zero(3 * model_.num_blocks);
+  pull_.setZero(3 * model_.num_blocks);
   for (int m = 0; m < layout.num_muscles; ++m) {
     const int i = layout.activations() + m;
     const double tau = dynamics_.activation_time(y, dynamics_.configuration().t, m);
@@ -60,12 +74,16 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     const auto line = static_cast<std::size_t>(model_.muscles[static_cast<std::size_t>(m)].line);
     if (x[i] != 0)
       add_line_force(model_.lines[line], dynamics_.configuration(),
-                     dynamics_.lines()[line].tension_per_activation * x[i], pull);
+                     dynamics_.lines()[line].tension_per_activation * x[i], pull_);
   }
-  mass_rhs_ += gamma * pull.head(num_velocities);
+  mass_rhs_ += gamma * pull_.head(num_velocities);
 
+  last_residual_ = residual_;
+  residual_ = mass_rhs_.norm();
   w_.setZero(num_velocities);
   if (num_velocities > 0) {
+    if (needs_matrix(gamma) && !prepare(gamma, counts)) return false;
+    ++iteration_;
     const Stopwatch watch(counts.solve_seconds);
     const fem::SolveReport report = solver_->solve(mass_rhs_, w_);
     counts.linear_iterations += report.iterations;

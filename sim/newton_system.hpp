@@ -5,10 +5,14 @@
 
 namespace articular::sim {
 
-/// The linear solves of Newton's iteration at the state that `dynamics` evaluated last.
+/// The linear solves of Newton's iteration at the state that `dynamics` evaluated last. A matrix is kept
+/// from one iteration, and from one step, to the next as long as the residual falls fast with it.
 class NewtonSystem {
  public:
   NewtonSystem(const Model& model, Dynamics& dynamics);
+
+  /// A new step begins; with `keep_matrix` the last one's matrix may serve its first iteration.
+  void begin_step(bool keep_matrix);
 
   /// Solves (I − γ ∂rate/∂y) x = b, reduced to block velocities.
   /// @return false when the matrix can't be made positive definite or the solver fails
@@ -16,12 +20,17 @@ class NewtonSystem {
                            IntegratorCounts& counts);
 
  private:
+  bool needs_matrix(double gamma) const;
   bool prepare(double gamma, IntegratorCounts& counts);
 
   const Model& model_;
   Dynamics& dynamics_;
   std::unique_ptr<fem::LinearSolver> solver_;
-  Eigen::VectorXd velocity_rhs_, mass_rhs_, w_;
+  Eigen::VectorXd velocity_rhs_, mass_rhs_, pull_, w_;
+  double gamma_ = 0;          // of the matrix that is factored; 0: none
+  std::uint64_t pattern_ = 0;  // of that matrix
+  int iteration_ = 0;         // in this step
+  double residual_ = 0, last_residual_ = 0;  // of this iteration and the one before
 };
 
 }  // namespace articular::sim

@@ -46,7 +46,7 @@ vtkSmartPointer<vtkPointSet> make_lines(const std::vector<Positions>& paths, dou
       lines->InsertCellPoint(point++);
     }
   }
-  const vtkSmartPointer<vtkPointSet> set = make_surface(x, unit, Triangles(3, 0));
+  vtkSmartPointer<vtkPointSet> set = make_surface(x, unit, Triangles(3, 0));
   vtkPolyData::SafeDownCast(set)->SetLines(lines);
   return set;
 }
@@ -143,6 +143,11 @@ void FrameWriter::write_bone(const BoneFrame& frame, int index, double time) {
   const auto set = make_surface(frame.x, length_unit_, frame.triangles);
   add_fields(*set, frame.point_fields, frame.cell_fields);
   write_part(frame.body, ".vtp", *set, index, time);
+}
+
+void FrameWriter::repeat_bone(const std::string& body, int first, int index, double time) {
+  pending_.push_back(
+      {time, index, body, std::string(kFrames) + "/" + frame_file_name(body, first, ".vtp")});
 }
 
 void FrameWriter::write_lines(const LinesFrame& frame, int index, double time) {

@@ -61,6 +61,8 @@ class FrameWriter {
 
   void write_tissue(const TissueFrame& frame, int index, double time);
   void write_bone(const BoneFrame& frame, int index, double time);
+  /// A bone that stands still since frame `first`: that frame's file again.
+  void repeat_bone(const std::string& body, int first, int index, double time);
   void write_lines(const LinesFrame& frame, int index, double time);
   /// All parts of this frame are there: publishes it in the .pvd.
   void finish_frame(int index, double time);

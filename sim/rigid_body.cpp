@@ -43,8 +43,8 @@ MassProperties join(const MassProperties& a, const MassProperties& b) {
   result.inertia = Mat3::Zero();
   for (const MassProperties* part : {&a, &b}) {
     const Vec3 r = part->center - result.center;  // parallel axes
-    result.inertia += part->inertia +
-                      part->mass * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+    result.inertia +=
+        part->inertia + part->mass * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
   }
   return result;
 }

@@ -26,9 +26,9 @@ inline Mat3 skew(const Vec3& a) {
 
 /// Mass, centre of mass and inertia about it.
 struct MassProperties {
-  double mass = 0;                     // [kg]
-  Vec3 center = Vec3::Zero();          // [m]
-  Mat3 inertia = Mat3::Zero();         // [kg m²], about the centre
+  double mass = 0;              // [kg]
+  Vec3 center = Vec3::Zero();   // [m]
+  Mat3 inertia = Mat3::Zero();  // [kg m²], about the centre
 };
 
 /// Of the solid that a closed surface bounds (outward normals), by the divergence theorem.

@@ -22,7 +22,9 @@ constexpr int kFramesPerCheckpoint = 10;
 struct Schedule {
   double interval = 0;
   /// The first multiple after t.
-  double next(double t) const { return interval * (std::floor(t / interval * (1 + 1e-12) + 1e-9) + 1); }
+  double next(double t) const {
+    return interval * (std::floor(t / interval * (1 + 1e-12) + 1e-9) + 1);
+  }
   bool due(double t) const {
     const double count = t / interval;
     return std::abs(count - std::round(count)) < 1e-9 * std::max(1.0, count);
@@ -88,7 +90,7 @@ class Run {
 
   void begin() {
     state_ = stepper_.initial();
-    fingerprint_ = fingerprint(model_.scenario.settings_json, state_.y);
+    fingerprint_ = fingerprint(model_);
     if (options_.resume) {
       if (auto stored = read_checkpoint(checkpoint_file(), fingerprint_)) {
         state_ = std::move(*stored);
@@ -105,8 +107,8 @@ class Run {
   }
 
   double next_event() const {
-    double next = std::min({model_.scenario.duration, frames_.next(state_.t),
-                            checkpoints_.next(state_.t)});
+    double next =
+        std::min({model_.scenario.duration, frames_.next(state_.t), checkpoints_.next(state_.t)});
     const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), state_.t * (1 + 1e-12));
     if (kink != kinks_.end()) next = std::min(next, *kink);
     return next;

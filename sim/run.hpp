@@ -19,7 +19,8 @@ enum class RunOutcome { Finished, Interrupted };
 
 /// Runs a model from the start (or its checkpoint) to its duration and writes frames, history,
 /// checkpoints and the summary.
-/// @throws SimulationError when it can't go on; what was written stays valid, the summary says until when
+/// @throws SimulationError when it can't go on; what was written stays valid, the summary says
+/// until when
 /// @throws SystemError when results can't be written
 RunOutcome run(const Model& model, const RunOptions& options);
 

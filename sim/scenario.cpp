@@ -27,6 +27,7 @@ Scenario read_scenario(const std::filesystem::path& file,
   read_contacts(document, context, scenario);
   scenario.probes = read_probes(document, context, scenario.muscles, scenario.ligaments);
   scenario.settings_json = settings_as_json(scenario);
+  scenario.content = plain_text(root);
   return scenario;
 }
 

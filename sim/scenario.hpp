@@ -32,9 +32,10 @@ struct Motion {
 
 /// A part of a mesh's nodes: those inside every condition given. No condition = every node.
 struct Region {
-  std::optional<std::pair<Vec3, Vec3>> box;      // min, max corner [m]
+  std::optional<std::pair<Vec3, Vec3>> box;       // min, max corner [m]
   std::optional<std::pair<Vec3, double>> sphere;  // centre, radius [m]
-  std::optional<std::pair<std::string, double>> near_body;  // within a distance [m] of a body's surface
+  std::optional<std::pair<std::string, double>>
+      near_body;  // within a distance [m] of a body's surface
   bool surface_only = false;
   Location where;
 };
@@ -48,16 +49,17 @@ struct BoxGeometry {
 
 /// A solid ball of tetrahedra.
 struct SphereGeometry {
-  double radius = 0;         // [m]
-  double element_size = 0;   // [m]
+  double radius = 0;           // [m]
+  double element_size = 0;     // [m]
   Vec3 center = Vec3::Zero();  // [m]
 };
 
-/// The article's V-shape: two square legs that meet at the origin and open along +z in the x-z plane.
+/// The article's V-shape: two square legs that meet at the origin and open along +z in the x-z
+/// plane.
 struct VShapeGeometry {
-  double leg_length = 0;  // [m], from the tip
-  double width = 0;       // [m], the side of the square section
-  double angle = 0;       // [rad], between the legs
+  double leg_length = 0;                            // [m], from the tip
+  double width = 0;                                 // [m], the side of the square section
+  double angle = 0;                                 // [rad], between the legs
   Eigen::Vector2i cells = Eigen::Vector2i::Ones();  // along a leg, across it
 };
 
@@ -77,10 +79,11 @@ struct Layer {
   double poisson_ratio = 0;
 };
 
-/// A rigid change of frame of everything a body reads from files: x -> scale * R (x - about) + about + translation.
+/// A rigid change of frame of everything a body reads from files: x -> scale * R (x - about) +
+/// about + translation.
 struct Placement {
-  Vec3 rotation = Vec3::Zero();  // rotation vector [rad]
-  Vec3 about = Vec3::Zero();     // [m]
+  Vec3 rotation = Vec3::Zero();     // rotation vector [rad]
+  Vec3 about = Vec3::Zero();        // [m]
   Vec3 translation = Vec3::Zero();  // [m]
   double scale = 1;
 };
@@ -108,14 +111,16 @@ struct Body {
 
   std::vector<MeshFile> contact_meshes;  // bones: surfaces that touch, in place of the mesh
   bool collides = true;
-  std::optional<Material> material;  // tissue: needed
-  std::optional<double> density;     // [kg/m^3]; tissue: needed; rigid: or mass
-  std::optional<double> mass;        // [kg], rigid
+  std::optional<Material> material;    // tissue: needed
+  std::optional<double> density;       // [kg/m^3]; tissue: needed; rigid: or mass
+  std::optional<double> mass;          // [kg], rigid
   std::optional<Vec3> center_of_mass;  // [m], rigid, world at the start; default from the mesh
-  std::optional<Eigen::Matrix3d> inertia;  // [kg m^2], rigid, about the centre of mass; default from the mesh
+  std::optional<Eigen::Matrix3d>
+      inertia;  // [kg m^2], rigid, about the centre of mass; default from the mesh
   std::optional<Layer> layer;
-  std::optional<double> shell_thickness;  // [m], depth of the collision elements under a bone's surface
-  Vec3 velocity = Vec3::Zero();          // [m/s] at the start
+  std::optional<double>
+      shell_thickness;           // [m], depth of the collision elements under a bone's surface
+  Vec3 velocity = Vec3::Zero();  // [m/s] at the start
   Vec3 angular_velocity = Vec3::Zero();  // [rad/s] at the start, rigid
   Location where;
 };
@@ -139,16 +144,17 @@ struct Anchor {
 
 struct Muscle {
   std::string name;
-  std::vector<Anchor> path;  // from origin to insertion, via points between; at least 2
-  double max_force = 0;      // [N], isometric, at full activation
+  std::vector<Anchor> path;              // from origin to insertion, via points between; at least 2
+  double max_force = 0;                  // [N], isometric, at full activation
   std::optional<double> optimal_length;  // [m]; default: length of the path at the start
-  double max_length_ratio = 1.3;  // length at which the passive force reaches its maximum / optimal length
-  double tendon_ratio = 0;        // tendon length / optimal length (Peck)
-  double passive_fraction = 0.015;  // passive force at maximal length / max_force
-  double max_velocity = 10;       // [optimal lengths / s]
+  double max_length_ratio =
+      1.3;  // length at which the passive force reaches its maximum / optimal length
+  double tendon_ratio = 0;           // tendon length / optimal length (Peck)
+  double passive_fraction = 0.015;   // passive force at maximal length / max_force
+  double max_velocity = 10;          // [optimal lengths / s]
   double activation_time = 0.015;    // [s]
   double deactivation_time = 0.050;  // [s]
-  Curve excitation;  // 0..1; empty = 0
+  Curve excitation;                  // 0..1; empty = 0
   Location where;
 };
 
@@ -157,9 +163,9 @@ struct Ligament {
   std::string name;
   std::vector<Anchor> path;  // at least 2
   Law law = Law::Linear;
-  double stiffness = 0;  // Linear: [N/m]; Blankevoort: [N] per unit strain
+  double stiffness = 0;      // Linear: [N/m]; Blankevoort: [N] per unit strain
   double toe_strain = 0.03;  // Blankevoort's eps_l
-  double damping = 0;    // [N s/m], acts while stretching and taut
+  double damping = 0;        // [N s/m], acts while stretching and taut
   // Slack length: the first one given of these, else the length at the start.
   std::optional<double> slack_length;      // [m]
   std::optional<double> slack_extension;   // [m], added to the length at the start
@@ -171,18 +177,18 @@ struct Load {
   enum class Kind { Gravity, Force, Motion };
   Kind kind = Kind::Gravity;
   Vec3 acceleration = Vec3::Zero();  // Gravity [m/s^2]
-  Anchor anchor;                     // Force: where it acts (a region of a tissue: `region` instead)
-  std::optional<Region> region;      // Force on a tissue: spread over these nodes, equal shares
-  Vec3 force = Vec3::Zero();         // Force [N], dead
-  Curve profile;                     // Force: factor over time
-  std::string body;                  // Motion: a fixed body; Force with region: a tissue
-  Motion motion;                     // Motion
+  Anchor anchor;                 // Force: where it acts (a region of a tissue: `region` instead)
+  std::optional<Region> region;  // Force on a tissue: spread over these nodes, equal shares
+  Vec3 force = Vec3::Zero();     // Force [N], dead
+  Curve profile;                 // Force: factor over time
+  std::string body;              // Motion: a fixed body; Force with region: a tissue
+  Motion motion;                 // Motion
   Location where;
 };
 
 /// Without any of these every pair of bodies can meet, and none meets itself.
 struct ContactPair {
-  std::string a, b;  // a == b: the body with itself
+  std::string a, b;                 // a == b: the body with itself
   std::optional<double> stiffness;  // [Pa/m]; default: chosen from the tissue
   Location where;
 };
@@ -204,30 +210,29 @@ struct Integrator {
   enum class Solver { Cholesky, ConjugateGradients };
   Scheme scheme = Scheme::ImplicitEuler;
   Solver solver = Solver::Cholesky;
-  double step = 1e-3;               // [s]
+  double step = 1e-3;                // [s]
   double position_tolerance = 1e-6;  // [m], of the Newton iteration
-  int max_iterations = 12;          // Newton iterations before the step is halved
-  double min_step = 1e-7;           // [s], below which the run stops
+  int max_iterations = 12;           // Newton iterations before the step is halved
+  double min_step = 1e-7;            // [s], below which the run stops
 };
 
 struct Detection {
-  enum class Narrow { Gjk };
   double margin = 0.05e-3;  // [m], least distance at which pairs are kept as candidates
-  double bucket_ratio = 1.5;  // n of Eq. 1.5.6, edge lengths a bucket
+  double bucket_ratio = 2;  // n of Eq. 1.5.6, edge lengths a bucket
 };
 
 struct Output {
-  double interval = 10e-3;  // [s] between frames
+  double interval = 10e-3;    // [s] between frames
   double length_unit = 1e-3;  // [m] per unit in the files
   std::string length_unit_name = "mm";
   std::optional<std::filesystem::path> directory;
-  std::optional<double> checkpoint_interval;  // [s]; none = no checkpoints
+  std::optional<double> checkpoint_interval;  // [s]; none = ten times the interval
 };
 
 struct Scenario {
   std::filesystem::path file;
   std::string title;
-  std::string name;  // file name without ending: names the results
+  std::string name;     // file name without ending: names the results
   double duration = 0;  // [s]
   enum class Accuracy { Fast, Balanced, Accurate } accuracy = Accuracy::Balanced;
   Integrator integrator;
@@ -237,18 +242,22 @@ struct Scenario {
   std::vector<Muscle> muscles;
   std::vector<Ligament> ligaments;
   std::vector<Load> loads;
-  bool contact = true;              // `contact = false`: nothing touches
+  bool contact = true;  // `contact = false`: nothing touches
   std::vector<ContactPair> contacts;
   std::vector<Probe> probes;
   Output output;
   /// The settings after presets and overrides, as JSON text, for summary.json.
   std::string settings_json;
+  /// What the file says after overrides, without comments and layout: checkpoints belong to it.
+  std::string content;
 };
 
 /// Reads and checks a scenario file.
-/// @param overrides  "path=value", e.g. "duration=0.1 s", "body.disc_left.material.poisson_ratio=0.3",
+/// @param overrides  "path=value", e.g. "duration=0.1 s",
+/// "body.disc_left.material.poisson_ratio=0.3",
 ///                   "integrator.step=0.5 ms"; entries of arrays of tables by their name or number
 /// @throws InputError with file:line:column for anything that is not a valid scenario
-Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+Scenario read_scenario(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides = {});
 
 }  // namespace articular::sim

@@ -52,11 +52,9 @@ void read_integrator(const Node& node, Integrator& integrator) {
 }
 
 void read_detection(const Node& node, Detection& detection) {
-  const TableReader table(node, "[detection]", {"narrow", "margin", "bucket_ratio"});
+  const TableReader table(node, "[detection]", {"margin", "bucket_ratio"});
   // The only choice so far, so that nothing is kept of it.
-  if (const Node* narrow = table.find("narrow"))
-    read_choice<Detection::Narrow>(*narrow, {{"gjk", Detection::Narrow::Gjk}});
-  table.may("margin", detection.margin, as_quantity(kLength, kNotNegative));
+  table.may("margin", detection.margin, as_quantity(kLength, kPositive));
   table.may("bucket_ratio", detection.bucket_ratio, as_number(kPositive));
 }
 
@@ -119,8 +117,7 @@ std::string settings_as_json(const Scenario& scenario) {
       {"position_tolerance_m", integrator.position_tolerance},
       {"max_iterations", integrator.max_iterations},
       {"min_step_s", integrator.min_step}};
-  json["detection"] = {{"narrow", "gjk"},
-                       {"margin_m", scenario.detection.margin},
+  json["detection"] = {{"margin_m", scenario.detection.margin},
                        {"bucket_ratio", scenario.detection.bucket_ratio}};
   json["output"] = {{"interval_s", output.interval}, {"length_unit", output.length_unit_name}};
   if (output.directory) json["output"]["directory"] = output.directory->string();

@@ -93,7 +93,8 @@ void place(const Placement& placement, Positions& X) {
   Mat3 R = Mat3::Identity();
   if (const double angle = placement.rotation.norm(); angle > 0)
     R = Eigen::AngleAxisd(angle, placement.rotation / angle).toRotationMatrix();
-  const Vec3 shift = placement.about + placement.translation - placement.scale * (R * placement.about);
+  const Vec3 shift =
+      placement.about + placement.translation - placement.scale * (R * placement.about);
   X = ((placement.scale * R) * X).colwise() + shift;
 }
 

@@ -15,9 +15,9 @@ struct EnergyLedger {
 };
 
 struct Counts {
-  std::int64_t steps = 0;              // taken by SUNDIALS
-  std::int64_t rejected_newton = 0;    // Newton's iteration did not converge: step halved
-  std::int64_t rejected_motion = 0;    // something moved farther than the detection covered
+  std::int64_t steps = 0;            // taken by SUNDIALS
+  std::int64_t rejected_newton = 0;  // Newton's iteration did not converge: step halved
+  std::int64_t rejected_motion = 0;  // something moved farther than the detection covered
   std::int64_t newton_iterations = 0;
   std::int64_t factorizations = 0;
   std::int64_t projected_tangents = 0;
@@ -33,8 +33,9 @@ struct State {
   double t = 0;       // [s]
   Eigen::VectorXd y;  // in the order of Layout
   double next_step = 0;  // [s]
+  double next_margin = 0;  // [m] of the next detection
   double max_penetration = 0;  // [m] largest so far
-  int frames = 0;     // written
+  int frames = 0;              // written
   EnergyLedger energy;
   Counts counts;
 };

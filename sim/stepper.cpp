@@ -9,10 +9,9 @@
 namespace articular::sim {
 namespace {
 
-/// The detection covers twice what the fastest node will probably move in the step.
-constexpr double kMarginPerMotion = 3;
-/// A step that moved something farther than half the margin is done again with this times the motion.
-constexpr double kMarginRetry = 2.5;
+/// The next detection covers this times what something strayed from where this one looked; half of it
+/// would just do.
+constexpr double kMarginPerStray = 4;
 
 Counts operator+(Counts c, const IntegratorCounts& i) {
   c.steps += i.steps;
@@ -41,6 +40,7 @@ State Stepper::initial() {
   State state;
   state.y = initial_state(model_);
   state.next_step = model_.scenario.integrator.step;
+  state.next_margin = model_.scenario.detection.margin;
   restart(state);
   state.energy.start = stored_energy().total();
   return state;
@@ -48,15 +48,16 @@ State Stepper::initial() {
 
 void Stepper::restart(const State& state) {
   dynamics_->forget();
-  find_contacts(state, model_.scenario.detection.margin);
+  integrator_->forget();
+  Configuration now;
+  read_state(model_, state.y.data(), state.t, now);
+  find_contacts(now, state.next_margin);
   dynamics_->evaluate(state.y.data(), state.t);
 }
 
-void Stepper::find_contacts(const State& state, double margin) {
+void Stepper::find_contacts(const Configuration& where, double margin) {
   if (!search_) return;
-  Configuration now;
-  read_state(model_, state.y.data(), state.t, now);
-  search_->find(now, margin);
+  search_->find(where, margin);
   dynamics_->set_candidates(search_->candidates());
 }
 
@@ -64,19 +65,16 @@ void Stepper::step(State& state, double t_target) {
   const double nominal = model_.scenario.integrator.step;
   const double remaining = t_target - state.t;
   double h = std::min(state.next_step, nominal);
-  h = remaining / std::ceil(remaining / h - 1e-9);
+  h = remaining / std::max(1.0, std::ceil(remaining / h - 1e-9));
   const bool last = h >= remaining * (1 - 1e-12);
 
   const SearchCounts search_before = search_ ? search_->counts() : SearchCounts{};
   const IntegratorCounts integrator_before = integrator_->counts();
-  double margin = model_.scenario.detection.margin;
-  if (search_)
-    margin = std::max(
-        margin, kMarginPerMotion * h * search_->largest_speed(dynamics_->configuration()));
+  remember_start(state);
 
   double tried = h;
   for (;;) {
-    if (try_step(state, tried, margin)) break;
+    if (try_step(state, tried)) break;
     tried *= 0.5;
     if (tried < model_.scenario.integrator.min_step) fail(state, tried);
   }
@@ -99,30 +97,41 @@ void Stepper::step(State& state, double t_target) {
   }
 }
 
-bool Stepper::try_step(State& state, double h, double& margin) {
-  find_contacts(state, margin);
-  // What the ledger needs of the start: forces there, with the candidates of this step.
-  dynamics_->evaluate(state.y.data(), state.t);
+void Stepper::remember_start(const State& state) {
   lines_before_ = dynamics_->lines();
-  poses_before_ = dynamics_->configuration().poses;
   forces_before_ = dynamics_->forces();
+  start_ = dynamics_->configuration();
   t_before_ = state.t;
   loads_before_.clear();
   for (const ForceModel& force : model_.forces)
-    loads_before_.push_back(dynamics_->configuration().position(force.point));
+    loads_before_.push_back(start_.position(force.point));
+}
 
-  y_ = state.y;
-  if (!integrator_->advance(y_, state.t, h)) return false;
-  for (int r = 0; r < model_.layout.num_rigid; ++r)
-    y_.segment<4>(model_.layout.bone_q(r)).normalize();
-  dynamics_->evaluate(y_.data(), state.t + h);
-  if (search_) {
-    const double motion = search_->motion_since(dynamics_->configuration());
-    if (motion > 0.5 * margin) {
-      ++state.counts.rejected_motion;
-      margin = kMarginRetry * motion;
-      return try_step(state, h, margin);
-    }
+double Stepper::margin_for(double stray) const {
+  // In steps of two, so that what stands still need not be mapped again for every new margin.
+  double margin = model_.scenario.detection.margin;
+  while (margin < kMarginPerStray * stray) margin *= 2;
+  return margin;
+}
+
+bool Stepper::try_step(State& state, double h) {
+  // Implicit Euler needs contacts where the step ends: they are looked for where everything will be if
+  // it moves on as now. A scheme with stages between needs them on the whole way.
+  const bool only_end = model_.scenario.integrator.scheme == Integrator::Scheme::ImplicitEuler;
+  const Configuration where = only_end ? predicted(model_, start_, h) : start_;
+  for (;;) {
+    find_contacts(where, state.next_margin);
+    y_ = state.y;
+    if (!integrator_->advance(y_, state.t, h)) return false;
+    for (int r = 0; r < model_.layout.num_rigid; ++r)
+      y_.segment<4>(model_.layout.bone_q(r)).normalize();
+    dynamics_->evaluate(y_.data(), state.t + h);
+    if (!search_) break;
+    const double stray = search_->motion_since(dynamics_->configuration());
+    const bool covered = stray <= 0.5 * state.next_margin;
+    state.next_margin = margin_for(stray);
+    if (covered) break;
+    ++state.counts.rejected_motion;
   }
   state.y = y_;
   state.t += h;
@@ -148,13 +157,13 @@ void Stepper::account(State& after) {
   for (std::size_t b = 0; b < model_.bones.size(); ++b) {
     const Bone& bone = model_.bones[b];
     if (!bone.motion) continue;
-    const Eigen::AngleAxisd turn(now.poses[b].R * poses_before_[b].R.transpose());
+    const Eigen::AngleAxisd turn(now.poses[b].R * start_.poses[b].R.transpose());
     const Eigen::VectorXd& f = dynamics_->forces();
     const Vec3 force = 0.5 * (forces_before_.segment<3>(3 * bone.block) + f.segment<3>(3 * bone.block));
     const Vec3 moment =
         0.5 * (forces_before_.segment<3>(3 * bone.block + 3) + f.segment<3>(3 * bone.block + 3));
     ledger.motion_work -=
-        force.dot(now.poses[b].p - poses_before_[b].p) + moment.dot(turn.angle() * turn.axis());
+        force.dot(now.poses[b].p - start_.poses[b].p) + moment.dot(turn.angle() * turn.axis());
   }
   for (const ContactSummary& contact : dynamics_->contacts())
     after.max_penetration = std::max(after.max_penetration, contact.max_depth);

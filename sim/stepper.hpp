@@ -14,8 +14,8 @@ struct StoredEnergy {
   double total() const { return kinetic + elastic + gravity + contact + lines; }
 };
 
-/// What the balance start + work − losses = stored energy leaves: dissipation of the time integration
-/// (positive: lost) [J].
+/// What the balance start + work − losses = stored energy leaves: dissipation of the time
+/// integration (positive: lost) [J].
 double numerical_loss(const State& state, const StoredEnergy& now);
 
 /// Wall time by phase [s].
@@ -46,8 +46,10 @@ class Stepper {
   PhaseTimes times();
 
  private:
-  void find_contacts(const State& state, double margin);
-  bool try_step(State& state, double h, double& margin);
+  void find_contacts(const Configuration& where, double margin);
+  void remember_start(const State& state);
+  bool try_step(State& state, double h);
+  double margin_for(double stray) const;
   void account(State& after);
   [[noreturn]] void fail(const State& state, double h) const;
 
@@ -57,9 +59,9 @@ class Stepper {
   std::unique_ptr<ImplicitIntegrator> integrator_;
   Eigen::VectorXd y_;  // being tried
 
-  /// What the ledger needs of the step's start.
+  /// What the step started from, for the prediction and the ledger.
+  Configuration start_;
   std::vector<LineState> lines_before_;
-  std::vector<Pose> poses_before_;
   std::vector<Vec3> loads_before_;
   Eigen::VectorXd forces_before_;
   double t_before_ = 0;

@@ -68,33 +68,33 @@ std::string summary_json(const Model& model, const State& state, const Stepper& 
                          const std::string& outcome) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  Json json = {{"outcome", outcome},
-               {"scenario", model.scenario.file.filename().string()},
-               {"simulated_time_s", state.t},
-               {"settings", Json::parse(model.scenario.settings_json)},
-               {"size", sizes(model)},
-               {"counts", counts(state.counts)},
-               {"frames", state.frames},
-               {"max_penetration_m", state.max_penetration},
-               {"energy", energy(state, stepper.stored_energy())},
-               {"wall_time_s",
-                {{"total", wall.total},
-                 {"collision_update", phases.collision_update},
-                 {"collision_traversal", phases.collision_traversal},
-                 {"collision_narrow", phases.collision_narrow},
-                 {"elastic_force", phases.elastic_force},
-                 {"contact_force", phases.contact_force},
-                 {"assembly", phases.assembly},
-                 {"solve", phases.solve},
-                 {"output", wall.output}}},
-               {"peak_memory_MB", static_cast<double>(usage.ru_maxrss) / 1024},
-               {"warnings", model.warnings},
-               {"versions",
-                {{"articular", kVersion},
-                 {"SUNDIALS", SUNDIALS_VERSION},
-                 {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." +
-                               std::to_string(EIGEN_MAJOR_VERSION) + "." +
-                               std::to_string(EIGEN_MINOR_VERSION)}}}};
+  Json json = {
+      {"outcome", outcome},
+      {"scenario", model.scenario.file.filename().string()},
+      {"simulated_time_s", state.t},
+      {"settings", Json::parse(model.scenario.settings_json)},
+      {"size", sizes(model)},
+      {"counts", counts(state.counts)},
+      {"frames", state.frames},
+      {"max_penetration_m", state.max_penetration},
+      {"energy", energy(state, stepper.stored_energy())},
+      {"wall_time_s",
+       {{"total", wall.total},
+        {"collision_update", phases.collision_update},
+        {"collision_traversal", phases.collision_traversal},
+        {"collision_narrow", phases.collision_narrow},
+        {"elastic_force", phases.elastic_force},
+        {"contact_force", phases.contact_force},
+        {"assembly", phases.assembly},
+        {"solve", phases.solve},
+        {"output", wall.output}}},
+      {"peak_memory_MB", static_cast<double>(usage.ru_maxrss) / 1024},
+      {"warnings", model.warnings},
+      {"versions",
+       {{"articular", kVersion},
+        {"SUNDIALS", SUNDIALS_VERSION},
+        {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
+                      "." + std::to_string(EIGEN_MINOR_VERSION)}}}};
   return json.dump(2) + "\n";
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "fem/block_matrix.hpp"
 #include "sim/configuration.hpp"
 
@@ -18,5 +20,11 @@ struct Stencils {
 /// call it for (j, i) with the transpose too.
 void add_stiffness(const Model& model, const Configuration& configuration, const NodeRef& i,
                    const NodeRef& j, const Mat3& stiffness, fem::BlockMatrix& A);
+
+/// A += the 18 x 18 stiffness of six nodes. Nodes of one bone are gathered first: its two blocks are
+/// written once.
+void add_stiffness(const Model& model, const Configuration& configuration,
+                   const std::array<const NodeRef*, 6>& nodes,
+                   const Eigen::Matrix<double, 18, 18>& stiffness, fem::BlockMatrix& A);
 
 }  // namespace articular::sim

@@ -108,6 +108,26 @@ Node read_toml(const std::filesystem::path& file) {
   }
 }
 
+std::string plain_text(const Node& node) {
+  if (const std::string* text = node.text()) return fmt::format("{}\"{}\"", text->size(), *text);
+  if (const auto* integer = std::get_if<std::int64_t>(&node.value))
+    return fmt::format("{}", *integer);
+  if (const auto* number = std::get_if<double>(&node.value)) return fmt::format("{}", *number);
+  if (const auto* boolean = std::get_if<bool>(&node.value)) return *boolean ? "true" : "false";
+  std::string result;
+  if (const Node::List* list = node.list()) {
+    for (const Node& element : *list) result += plain_text(element) + ",";
+    return "[" + result + "]";
+  }
+  if (const TomlTable* table = node.table()) {
+    for (const Member& member : table->members)
+      result +=
+          fmt::format("{}\"{}\"=", member.key.size(), member.key) + plain_text(member.node) + ",";
+    return "{" + result + "}";
+  }
+  return "date";
+}
+
 Node parse_toml_value(std::string_view text, const std::string& name, const Location& where) {
   Node node{std::string(text), name, where};
   try {

@@ -50,6 +50,10 @@ struct Member {
 /// @throws InputError  if it cannot be read or is not valid TOML
 Node read_toml(const std::filesystem::path& file);
 
+/// The values of a tree as one text, without comments, layout and places: equal for equal
+/// documents.
+std::string plain_text(const Node& node);
+
 /// A value as it would stand behind `key = `; text that is no TOML value is taken as a string, so
 /// that `0.1 s` needs no quotes. Every node of it gets the name and location given.
 Node parse_toml_value(std::string_view text, const std::string& name, const Location& where);

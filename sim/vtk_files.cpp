@@ -6,7 +6,6 @@
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
-#include <vtkPLYReader.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
@@ -30,7 +29,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr std::array<std::string_view, 5> kEndings = {".vtu", ".vtp", ".vtk", ".stl", ".ply"};
+constexpr std::array<std::string_view, 4> kEndings = {".vtu", ".vtp", ".vtk", ".stl"};
 
 /// VTK reads any bytes as triangles, so the count in a binary file is held against its size here.
 void check_stl(const std::string& file) {
@@ -160,8 +159,7 @@ vtkSmartPointer<vtkPointSet> read_vtk_file(const std::filesystem::path& file) {
       ending == ".vtu"   ? read_with<vtkXMLUnstructuredGridReader>(name)
       : ending == ".vtp" ? read_with<vtkXMLPolyDataReader>(name)
       : ending == ".vtk" ? read_with<vtkDataSetReader>(name)
-      : ending == ".stl" ? read_with<vtkSTLReader>(name)
-                         : read_with<vtkPLYReader>(name);
+                         : read_with<vtkSTLReader>(name);
   if (vtk.failed()) throw InputError({name}, "not readable as " + ending + ": " + vtk.message());
   if (set == nullptr)
     throw InputError(

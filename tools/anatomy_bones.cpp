@@ -28,7 +28,13 @@ Vec3 position(const Knot& k) { return {k.x, k.y, k.z}; }
 /// A triangle thickened by a radius that varies linearly over it. Two equal corners make a tapered
 /// rod.
 struct ThickTriangle {
+  ThickTriangle(const Knot& a_, const Knot& b_, const Knot& c_) : a(a_), b(b_), c(c_) {
+    center = (position(a) + position(b) + position(c)) / 3;
+    for (const Knot& k : {a, b, c}) reach = std::max(reach, (position(k) - center).norm() + k.r);
+  }
   Knot a, b, c;
+  Vec3 center;
+  double reach = 0;  // everything of it lies within this distance of the centre
 };
 
 /// A tooth crown: |u/su|^4 + |v/sv|^4 + |w/sw|^4 <= 1, u along the arch, v across it, w up.
@@ -82,11 +88,29 @@ double smooth_min(double a, double b, double width) {
 
 using Sheet = std::vector<ThickTriangle>;
 
+constexpr double kFar = 1e3;  // more than any distance that matters
+
+double distance(const Sheet& sheet, const Vec3& p) {
+  double least = kFar;
+  for (const ThickTriangle& t : sheet)
+    if ((p - t.center).norm() - t.reach < least) least = std::min(least, distance(t, p));
+  return least;
+}
+
+double distance(const std::vector<Crown>& crowns, const Vec3& p) {
+  constexpr double kNear = 5;  // further off nothing of a crown shows in the surface
+  double least = kFar;
+  for (const Crown& crown : crowns)
+    if ((p - crown.center).norm() - crown.half_size.norm() < kNear)
+      least = std::min(least, distance(crown, p));
+  return least;
+}
+
 /// Two triangles a quadrilateral, between two rows of knots of equal length.
 void add_strip(Sheet& sheet, const std::vector<Knot>& lower, const std::vector<Knot>& upper) {
   for (std::size_t i = 0; i + 1 < lower.size(); ++i) {
-    sheet.push_back({lower[i], lower[i + 1], upper[i + 1]});
-    sheet.push_back({lower[i], upper[i + 1], upper[i]});
+    sheet.emplace_back(lower[i], lower[i + 1], upper[i + 1]);
+    sheet.emplace_back(lower[i], upper[i + 1], upper[i]);
   }
 }
 
@@ -415,11 +439,8 @@ Mesh mandible_surface(double h) {
   const Sheet sheet = mandible_sheet();
   const std::vector<Crown> teeth = crowns(false);
   const auto distance_to = [&](const Vec3& p) {
-    double bone = 1e3, enamel = 1e3;
-    for (const ThickTriangle& t : sheet) bone = std::min(bone, distance(t, p));
-    bone = smooth_min(bone, head_distance(p), 2.5);
-    for (const Crown& crown : teeth) enamel = std::min(enamel, distance(crown, p));
-    return smooth_min(bone, enamel, 0.5);
+    const double bone = smooth_min(distance(sheet, p), head_distance(p), 2.5);
+    return smooth_min(bone, distance(teeth, p), 0.5);
   };
   return contour(distance_to, {-62, -56, 0}, {62, 44, 92}, h);
 }
@@ -428,11 +449,8 @@ Mesh skull_surface(double h) {
   const Sheet sheet = skull_sheet();
   const std::vector<Crown> teeth = crowns(true);
   const auto distance_to = [&](const Vec3& p) {
-    double bone = 1e3, enamel = 1e3;
-    for (const ThickTriangle& t : sheet) bone = std::min(bone, distance(t, p));
-    bone = smooth_min(bone, temporal_block_distance(p), 2.0);
-    for (const Crown& crown : teeth) enamel = std::min(enamel, distance(crown, p));
-    const double solid = smooth_min(bone, enamel, 0.5);
+    const double bone = smooth_min(distance(sheet, p), temporal_block_distance(p), 2.0);
+    const double solid = smooth_min(bone, distance(teeth, p), 0.5);
     const Vec3 d = p - kCondyle;  // nothing may stand in the joint
     const bool joint =
         std::abs(d.x()) < 12 && d.y() < 9 && d.y() > -26 && d.z() > -12 && d.z() < 14;

@@ -19,7 +19,8 @@ void add_check_command(CLI::App& app, int& exit_code) {
   command->add_option("scenario", arguments->scenario, "Scenario file (.toml)")->required();
   command->add_option("--set", arguments->overrides, "Override a value, as in run")
       ->allow_extra_args(false);
-  command->footer("Runs nothing and writes nothing. Exit code 0: `run` will start; 2: it would not.");
+  command->footer(
+      "Runs nothing and writes nothing. Exit code 0: `run` will start; 2: it would not.");
   command->callback([arguments, &exit_code] {
     const sim::Model model =
         sim::build_model(sim::read_scenario(arguments->scenario, arguments->overrides));

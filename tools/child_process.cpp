@@ -60,6 +60,7 @@ Pipe::Pipe() {
 ChildProcess::Started ChildProcess::start(const std::vector<std::string>& command, int inherited,
                                           int as, ChildProcess& child) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& argument : command)
     arguments.push_back(const_cast<char*>(argument.c_str()));  // exec changes nothing
   arguments.push_back(nullptr);

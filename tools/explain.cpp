@@ -97,18 +97,21 @@ void print(const Json& json) {
     fmt::print("  {:<18} {:<32} {:>7} unknowns  {:>7} collision tetrahedra\n",
                body["name"].get<std::string>(), body["modelled_as"].get<std::string>(),
                body["unknowns"].get<long>(), body["collision_tetrahedra"].get<long>());
-  fmt::print("  {} muscles, {} ligaments\n", json["muscles"].get<int>(), json["ligaments"].get<int>());
-  if (!json["contact_pairs"].empty()) fmt::print("\nContact pairs (stiffness chosen from the tissue):\n");
+  fmt::print("  {} muscles, {} ligaments\n", json["muscles"].get<int>(),
+             json["ligaments"].get<int>());
+  if (!json["contact_pairs"].empty())
+    fmt::print("\nContact pairs (stiffness chosen from the tissue):\n");
   for (const Json& pair : json["contact_pairs"])
-    fmt::print("  {} - {}: {:.3g} Pa/m\n", pair["a"].get<std::string>(), pair["b"].get<std::string>(),
-               pair["stiffness_Pa_per_m"].get<double>());
+    fmt::print("  {} - {}: {:.3g} Pa/m\n", pair["a"].get<std::string>(),
+               pair["b"].get<std::string>(), pair["stiffness_Pa_per_m"].get<double>());
   fmt::print("\nLeft out:\n");
   for (const Json& item : json["left_out"]) fmt::print("  {}\n", item.get<std::string>());
   fmt::print("\n{} unknown velocities, {} muscle activations; about {:.0f} MB\n",
              json["unknown_velocities"].get<int>(), json["muscle_activations"].get<int>(),
              json["estimated_memory_MB"].get<double>());
   fmt::print("Settings: {}\n", json["settings"].dump());
-  for (const Json& warning : json["warnings"]) fmt::print("warning: {}\n", warning.get<std::string>());
+  for (const Json& warning : json["warnings"])
+    fmt::print("warning: {}\n", warning.get<std::string>());
 }
 
 }  // namespace
@@ -127,8 +130,8 @@ void add_explain_command(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   command->add_flag("--json", arguments->json, "Machine-readable");
   command->callback([arguments, &exit_code] {
-    const Json json = explain(
-        sim::build_model(sim::read_scenario(arguments->scenario, arguments->overrides)));
+    const Json json =
+        explain(sim::build_model(sim::read_scenario(arguments->scenario, arguments->overrides)));
     if (arguments->json)
       fmt::print("{}\n", json.dump(2));
     else

@@ -37,9 +37,10 @@ void Progress::print(const sim::State& state, double duration) const {
   const double done = state.t / duration;
   const double rate = static_cast<double>(state.counts.steps - first_step_) / wall;
   const double left = wall * (duration - state.t) / std::max(state.t - first_time_, 1e-12);
-  std::string line = fmt::format("{:3.0f} %  t = {:.1f} ms  {:.1f} steps/s  {:.0f} s left  largest "
-                                 "penetration {:.1f} um",
-                                 100 * done, 1e3 * state.t, rate, left, 1e6 * state.max_penetration);
+  std::string line = fmt::format(
+      "{:3.0f} %  t = {:.1f} ms  {:.1f} steps/s  {:.0f} s left  largest "
+      "penetration {:.1f} um",
+      100 * done, 1e3 * state.t, rate, left, 1e6 * state.max_penetration);
   if (terminal_) {
     constexpr int kWidth = 24;
     const auto filled = static_cast<std::size_t>(std::lround(kWidth * done));

@@ -66,16 +66,19 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("scenario", arguments->scenario, "Scenario file (.toml)")->required();
   command->add_option("--out", arguments->out,
                       "Folder of the results (default: output.directory, else out/NAME)");
-  command->add_option("--set", arguments->overrides,
-                      "Override a value by its path, e.g. --set duration='0.1 s' "
-                      "--set body.disc_left.material.young_modulus='3 MPa'")
+  command
+      ->add_option("--set", arguments->overrides,
+                   "Override a value by its path, e.g. --set duration='0.1 s' "
+                   "--set body.disc_left.material.young_modulus='3 MPa'")
       ->allow_extra_args(false);
   command->add_flag("--resume", arguments->resume,
                     "Go on from the folder's last checkpoint, if there is one");
   command->add_flag("--quiet", arguments->quiet, "No progress on stderr");
   command->footer(
-      "Writes DIR/NAME.pvd (open it in ParaView), DIR/frames/, DIR/history.csv (probes over time),\n"
-      "DIR/summary.json (settings, counts, wall time by phase, energy balance) and DIR/checkpoint/.\n"
+      "Writes DIR/NAME.pvd (open it in ParaView), DIR/frames/, DIR/history.csv (probes over "
+      "time),\n"
+      "DIR/summary.json (settings, counts, wall time by phase, energy balance) and "
+      "DIR/checkpoint/.\n"
       "Prints the names of these files.");
   command->callback([arguments, &exit_code] { exit_code = run_scenario(*arguments); });
 }

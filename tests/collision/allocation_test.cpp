@@ -12,13 +12,14 @@ namespace {
 std::atomic<std::int64_t> num_allocations = 0;
 }
 
-void* operator new(std::size_t size) {
+// Not inlined: GCC would see malloc() meet delete, or new meet free(), and warn.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++num_allocations;
   if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace articular::collision::testing {
 namespace {

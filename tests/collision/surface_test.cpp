@@ -71,6 +71,21 @@ TEST(Surface, IsClosedAndItsFacesTurnCounterClockwiseFromOutside) {
   }
 }
 
+// In box_mesh only faces opposite the first and last node are on the surface.
+TEST(Surface, EachOfTheFourFacesOfATetrahedronTurnsCounterClockwiseFromOutside) {
+  Eigen::Matrix4Xi tet(4, 1);
+  tet << 0, 1, 2, 3;
+  Eigen::Matrix<double, 3, 4> X;
+  X << Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity();
+  const Surface surface = build_surface(tet, 4);
+  ASSERT_EQ(surface.faces.cols(), 4);
+  for (int f = 0; f < 4; ++f) {
+    const Eigen::Vector3d a = X.col(surface.faces(0, f)), b = X.col(surface.faces(1, f)),
+                          c = X.col(surface.faces(2, f)), inside = X.rowwise().mean();
+    EXPECT_LT((b - a).cross(c - a).dot(inside - a), 0) << "face " << f;
+  }
+}
+
 TEST(Surface, BadConnectivityIsNamed) {
   Eigen::Matrix4Xi tets(4, 1);
   tets << 0, 1, 2, 4;

@@ -73,6 +73,10 @@ TEST(BlockMatrix, PatternIdsAreEqualForEqualPatternsOnly) {
   stencils.back() = 6;
   EXPECT_NE(BlockMatrix(7, stencils, kOffsets).pattern_id(), A.pattern_id());
   EXPECT_NE(BlockMatrix().pattern_id(), A.pattern_id());
+  // Two blocks in each row, in other columns.
+  const std::vector<int> pairs{0, 2, 4};
+  EXPECT_NE(BlockMatrix(4, std::vector<int>{0, 1, 2, 3}, pairs).pattern_id(),
+            BlockMatrix(4, std::vector<int>{0, 2, 1, 3}, pairs).pattern_id());
 }
 
 TEST(BlockMatrix, MayBeEmpty) {

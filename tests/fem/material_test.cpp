@@ -184,6 +184,19 @@ TEST(NeoHookean, UniaxialTensionNearIncompressibilityFollowsTheClosedForm) {
   }
 }
 
+// The known price of leaving out the barrier: under F = s I the slope of the energy is
+// tr P = 3 λ s (1 − s)(1 − 2ν − s − s² − s³), with the shifted λ = μ/(1 − 2ν).
+TEST(NeoHookean, UniformlyCrushedElementReturnsOnlyFromAboveTheSecondMinimum) {
+  for (const double nu : {0.0, 0.3, 0.45}) {
+    const NeoHookean material(kE, nu);
+    const double mu = lame_parameters(kE, nu).mu, lambda = mu / (1 - 2 * nu);
+    for (const double s : {0.05, 0.1, 0.3, 0.6, 0.9}) {
+      const double expected = 3 * lambda * s * (1 - s) * (1 - 2 * nu - s - s * s - s * s * s);
+      EXPECT_NEAR(material.first_piola(s * Mat3::Identity()).trace(), expected, kIdentity * lambda);
+    }
+  }
+}
+
 std::string message_of(double E, double nu) {
   try {
     (void)lame_parameters(E, nu);

@@ -14,7 +14,6 @@
 #include <fstream>
 #include <map>
 #include <numbers>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -386,18 +385,18 @@ class Subject : public testing::Test {
     data_ = data;
     std::ifstream stream(scenario_folder() / "subject.toml");
     const std::string text(std::istreambuf_iterator<char>(stream), {});
-    static const std::regex place(
-        "rotation = \"(\\S+) (\\S+) (\\S+) deg\", about = \"(\\S+) (\\S+) (\\S+) mm\", "
-        "translation = \"(\\S+) (\\S+) (\\S+) mm\"");
-    std::smatch m;
-    ASSERT_TRUE(std::regex_search(text, m, place));
-    const auto vector = [&m](std::size_t i) {
-      return Vec3(std::stod(m[i]), std::stod(m[i + 1]), std::stod(m[i + 2]));
+    const auto vector = [&text](const std::string& key) {  // the first one of the file
+      const std::size_t at = text.find(key + " = \"", text.find("place = {"));
+      std::istringstream numbers(text.substr(at + key.size() + 4));
+      Vec3 v;
+      numbers >> v.x() >> v.y() >> v.z();
+      EXPECT_TRUE(numbers) << key;
+      return v;
     };
-    const Vec3 rotation = vector(1) * kDegree;
+    const Vec3 rotation = vector("rotation") * kDegree;
     R_ = Eigen::AngleAxisd(rotation.norm(), rotation.normalized());
-    about_ = vector(4);
-    translation_ = vector(7);
+    about_ = vector("about");
+    translation_ = vector("translation");
   }
   Vec3 placed(const Vec3& p) const { return R_ * (p - about_) + about_ + translation_; }
   Positions placed(const Positions& X) const {

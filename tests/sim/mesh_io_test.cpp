@@ -173,16 +173,62 @@ TEST(MeshIo, CoincidentVerticesOfStlAreMergedInTextAndInBinary) {
   }
 }
 
-TEST(MeshIo, PlyIsRead) {
+TEST(MeshIo, PlyIsReadInTextAndInBinaryOfEitherByteOrder) {
   const TemporaryFolder folder;
-  const auto file =
-      folder.file("m.ply",
-                  "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-                  "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                  "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
-  const MeshData mesh = read_mesh(file, 2);
-  EXPECT_EQ(mesh.triangles.cols(), 2);
-  EXPECT_EQ(mesh.X.col(2), Vec3(2, 2, 0));
+  const auto header = [](const std::string& layout) {
+    return "ply\nformat " + layout +
+           " 1.0\ncomment a square\nelement vertex 4\nproperty double x\nproperty double y\n"
+           "property double z\nproperty uchar red\nelement face 1\n"
+           "property list uchar int vertex_indices\nend_header\n";
+  };
+  const std::vector<std::array<double, 3>> points = {
+      {0.1234567890123456, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  std::string little, big;
+  const auto append = [&](auto value) {
+    const std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
+    little += bytes;  // on the machines that this runs on
+    big.append(bytes.rbegin(), bytes.rend());
+  };
+  for (const auto& point : points) {
+    for (const double x : point) append(x);
+    append(std::uint8_t{255});
+  }
+  append(std::uint8_t{4});
+  for (const std::int32_t corner : {0, 1, 2, 3}) append(corner);
+  for (const auto& file :
+       {folder.file("text.ply", header("ascii") + "0.1234567890123456 0 0 255\n1 0 0 255\n"
+                                                  "1 1 0 255\n0 1 0 255\n4 0 1 2 3\n"),
+        folder.file("little.ply", header("binary_little_endian") + little),
+        folder.file("big.ply", header("binary_big_endian") + big)}) {
+    const MeshData mesh = read_mesh(file, 2);
+    ASSERT_EQ(mesh.triangles.cols(), 2) << file;
+    EXPECT_EQ(mesh.triangles.col(1), Eigen::Vector3i(0, 2, 3));
+    EXPECT_EQ(mesh.X.col(2), Vec3(2, 2, 0));
+    EXPECT_EQ(mesh.X(0, 0), 2 * 0.1234567890123456);
+  }
+}
+
+TEST(MeshIo, DamagedPlyIsAnInputErrorOrASoundMesh) {
+  const TemporaryFolder folder;
+  const std::string whole =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  std::mt19937 random(11);
+  int errors = 0;
+  constexpr int kTrials = 300;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::string text = whole;
+    text[random() % text.size()] = static_cast<char>(random() & 0xff);
+    try {
+      const MeshData mesh = read_mesh(folder.file("m.ply", text), 1);
+      EXPECT_LT(mesh.triangles.maxCoeff(), mesh.X.cols());
+    } catch (const InputError&) {
+      ++errors;
+    }
+  }
+  EXPECT_GT(errors, kTrials / 4);  // both cases occur
+  EXPECT_LT(errors, kTrials);
 }
 
 TEST(MeshIo, ObjKeepsSharedVerticesWithSeveralNormalsAndFullPrecision) {

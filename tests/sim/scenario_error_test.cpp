@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"UnknownKeyInAnEntry", tissue("@densitty = \"1 g/cm^3\"\n"),
                 "body `extra`: unknown key `densitty`; did you mean `density`?"},
         Mistake{"UnknownKeyFarFromAny", "duration = \"1 s\"\n[detection]\n@colour = 1\n" + kBodies,
-                "[detection]: unknown key `colour`; expected one of `narrow`, `margin`, "
+                "[detection]: unknown key `colour`; expected one of `margin`, "
                 "`bucket_ratio`"},
         Mistake{"MissingKey", "@title = \"x\"\n" + kBodies, "scenario: `duration` is missing"},
         Mistake{"MissingKeyInAnEntry", kStart + "@[[body]]\nname = \"extra\"\n",

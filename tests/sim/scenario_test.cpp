@@ -28,7 +28,6 @@ max_iterations = 9
 min_step = "0.2 us"
 
 [detection]
-narrow = "gjk"
 margin = "0.3 mm"
 bucket_ratio = 2
 
@@ -517,14 +516,14 @@ TEST_F(Presets, SetStepAndTolerance) {
   EXPECT_EQ(read("accuracy = \"balanced\"\n" + kStart).integrator.step, 1e-3);
   const Integrator accurate = read("accuracy = \"accurate\"\n" + kStart).integrator;
   EXPECT_EQ(accurate.step, 0.5e-3);
-  EXPECT_EQ(accurate.position_tolerance, 0.02e-6);
+  EXPECT_EQ(accurate.position_tolerance, 0.1e-6);
 }
 
 TEST_F(Presets, GiveWayToTheIntegratorTable) {
   const Integrator integrator =
       read("accuracy = \"accurate\"\n" + kStart + "[integrator]\nstep = \"4 ms\"\n").integrator;
   EXPECT_EQ(integrator.step, 4e-3);
-  EXPECT_EQ(integrator.position_tolerance, 0.02e-6);
+  EXPECT_EQ(integrator.position_tolerance, 0.1e-6);
 }
 
 using MeshPaths = ScenarioTest;

@@ -1,0 +1,313 @@
+#include "sim/contact_patch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "scene.hpp"
+
+namespace articular::sim {
+namespace {
+
+constexpr double kStiffness = 3, kRestArea = 0.7, kReach = 10;
+
+/// A triangle with its normal along −z, and a face that looks along +z.
+struct Pair {
+  Mat3 s, f;
+};
+
+Mat3 large_face() {
+  Mat3 f;
+  f << -20, 20, 0, -20, -20, 30, 0, 0, 0;
+  return f;
+}
+
+Mat3 small_triangle(double depth) {
+  Mat3 s;
+  s << 0, 0, 1, 0, 1, 0, -depth, -depth, -depth;
+  return s;
+}
+
+/// Triangles wholly behind a face that covers them.
+Pair covered_pair(Random& random) {
+  Pair pair{small_triangle(0.5), large_face()};
+  for (Mat3* m : {&pair.s, &pair.f})
+    for (int i = 0; i < 3; ++i) m->col(i) += 0.2 * random.vec3();
+  return pair;
+}
+
+/// Triangles and faces of like size that overlap in part and cross each other.
+Pair partial_pair(Random& random) {
+  Pair pair{small_triangle(0.1), large_face() / 20};
+  for (Mat3* m : {&pair.s, &pair.f})
+    for (int i = 0; i < 3; ++i) m->col(i) += 0.3 * random.vec3();
+  return pair;
+}
+
+double energy(const Pair& pair) {
+  ContactPatch patch;
+  return contact_patch(pair.s, pair.f, kRestArea, kReach, patch) ? contact_energy(patch, kStiffness)
+                                                                 : 0;
+}
+
+Vec18 gradient(const Pair& pair) {
+  ContactPatch patch;
+  return contact_patch(pair.s, pair.f, kRestArea, kReach, patch)
+             ? contact_gradient(patch, kStiffness)
+             : Vec18::Zero();
+}
+
+double& entry(Pair& pair, int i) { return i < 9 ? pair.s.reshaped()[i] : pair.f.reshaped()[i - 9]; }
+
+/// Central differences in one coordinate of the pair.
+template <class Result>
+Result difference(Result (*function)(const Pair&), const Pair& pair, int i, double h) {
+  Pair plus = pair, minus = pair;
+  entry(plus, i) += h;
+  entry(minus, i) -= h;
+  return (function(plus) - function(minus)) / (2 * h);
+}
+
+double gradient_error(const Pair& pair) {
+  const Vec18 g = gradient(pair);
+  double best = std::numeric_limits<double>::infinity();
+  for (const double h : {1e-4, 1e-5, 1e-6}) {
+    Vec18 numeric;
+    for (int i = 0; i < 18; ++i) numeric[i] = difference(energy, pair, i, h);
+    best = std::min(best, (numeric - g).norm() / g.norm());
+  }
+  return best;
+}
+
+TEST(ContactPatch, UnderALargeFaceTheGradientIsTheDerivativeOfTheEnergy) {
+  Random random(1);
+  for (int n = 0; n < 50; ++n) {
+    const Pair pair = covered_pair(random);
+    ASSERT_GT(energy(pair), 0);
+    EXPECT_LT(gradient_error(pair), 1e-8);
+  }
+}
+
+// Where the triangle dips in and out, the energy vanishes at the polygon's moving edge.
+TEST(ContactPatch, TheGradientIsExactToWhereTheTriangleComesOutOfTheFace) {
+  Random random(2);
+  int crossing = 0;
+  for (int n = 0; n < 50; ++n) {
+    Pair pair = covered_pair(random);
+    pair.s.row(2).array() += 0.5;
+    ContactPatch patch;
+    if (!contact_patch(pair.s, pair.f, kRestArea, kReach, patch) || patch.area < 0.1) continue;
+    crossing += patch.area < 0.99 * kRestArea ? 1 : 0;
+    EXPECT_LT(gradient_error(pair), 1e-6);  // the energy's third derivative jumps
+  }
+  EXPECT_GT(crossing, 15);
+}
+
+// Six faces about a node, all uneven: the depth is continuous from face to face, so that nothing is
+// left over at the edges which move over the triangle.
+TEST(ContactPatch, UnderAnUnevenSheetTheSummedGradientIsTheDerivativeOfTheSummedEnergy) {
+  Random random(3);
+  for (int n = 0; n < 20; ++n) {
+    Positions x(3, 10);  // three of the triangle, the sheet's middle, its six outer nodes
+    x.leftCols(3) = small_triangle(0.3);
+    x.leftCols(3).row(0).array() -= 0.3;
+    x.leftCols(3).row(1).array() -= 0.3;
+    x.col(3).setZero();
+    for (int k = 0; k < 6; ++k)
+      x.col(4 + k) = 3 * Vec3(std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0);
+    for (int i = 0; i < 10; ++i) x.col(i) += 0.1 * random.vec3();
+    const auto sheet = [](const Positions& at, Positions* g) {
+      double sum = 0;
+      for (int k = 0; k < 6; ++k) {
+        const int nodes[3] = {3, 4 + k, 4 + (k + 1) % 6};
+        Pair pair;
+        pair.s = at.leftCols(3);
+        for (int m = 0; m < 3; ++m) pair.f.col(m) = at.col(nodes[m]);
+        sum += energy(pair);
+        if (g == nullptr) continue;
+        const Vec18 part = gradient(pair);
+        for (int i = 0; i < 3; ++i) {
+          g->col(i) += part.segment<3>(3 * i);
+          g->col(nodes[i]) += part.segment<3>(9 + 3 * i);
+        }
+      }
+      return sum;
+    };
+    Positions g = Positions::Zero(3, 10);
+    sheet(x, &g);
+    double best = std::numeric_limits<double>::infinity();
+    for (const double h : {1e-4, 1e-5, 1e-6}) {
+      Positions numeric(3, 10);
+      for (int i = 0; i < 30; ++i) {
+        Positions plus = x, minus = x;
+        plus.reshaped()[i] += h;
+        minus.reshaped()[i] -= h;
+        numeric.reshaped()[i] = (sheet(plus, nullptr) - sheet(minus, nullptr)) / (2 * h);
+      }
+      best = std::min(best, (numeric - g).norm() / g.norm());
+    }
+    EXPECT_LT(best, 1e-8);
+  }
+}
+
+TEST(ContactPatch, ForcesAreEqualAndOppositeWithoutNetMoment) {
+  Random random(4);
+  int in_contact = 0;
+  for (int n = 0; n < 400; ++n) {
+    const Pair pair = partial_pair(random);
+    const Vec18 g = gradient(pair);
+    if (g.isZero(0)) continue;
+    ++in_contact;
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+      force += g.segment<3>(3 * i) + g.segment<3>(9 + 3 * i);
+      moment +=
+          pair.s.col(i).cross(g.segment<3>(3 * i)) + pair.f.col(i).cross(g.segment<3>(9 + 3 * i));
+    }
+    // Weights beyond the face's corners are up to tens: their round-off counts.
+    EXPECT_LT(force.norm(), 1e-13 * g.norm());
+    EXPECT_LT(moment.norm(), 1e-13 * g.norm());
+  }
+  // Both outcomes occur.
+  EXPECT_GT(in_contact, 120);
+  EXPECT_LT(in_contact, 390);
+}
+
+TEST(ContactPatch, ARigidMotionTurnsTheForcesAndKeepsTheEnergy) {
+  Random random(5);
+  for (int n = 0; n < 100; ++n) {
+    const Pair pair = partial_pair(random);
+    const Mat3 R = rotation_matrix(3 * random.vec3());
+    const Vec3 shift = random.vec3();
+    const Pair moved{(R * pair.s).colwise() + shift, (R * pair.f).colwise() + shift};
+    const Vec18 g = gradient(pair), turned = gradient(moved);
+    EXPECT_NEAR(energy(moved), energy(pair), 1e-12 * kStiffness);
+    for (int i = 0; i < 6; ++i)
+      EXPECT_LT((turned.segment<3>(3 * i) - R * g.segment<3>(3 * i)).norm(),
+                1e-11 * std::max(1e-3, g.norm()));
+  }
+}
+
+TEST(ContactPatch, TheHessianIsSymmetricAndPositiveSemidefinite) {
+  Random random(6);
+  for (int n = 0; n < 100; ++n) {
+    const Pair pair = partial_pair(random);
+    ContactPatch patch;
+    if (!contact_patch(pair.s, pair.f, kRestArea, kReach, patch)) continue;
+    const Mat18 H = contact_hessian(patch, kStiffness);
+    EXPECT_LT((H - H.transpose()).norm(), 1e-14 * H.norm());
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Mat18>(H).eigenvalues().minCoeff(), -1e-12 * H.norm());
+  }
+}
+
+/// ‖Hessian by differences − contact_hessian‖ over its norm, for a triangle parallel to the face.
+double hessian_error(double depth) {
+  Pair pair{small_triangle(depth), large_face()};
+  const Mat3 R = rotation_matrix({0.3, -0.5, 0.8});
+  pair = {R * pair.s, R * pair.f};
+  ContactPatch patch;
+  EXPECT_TRUE(contact_patch(pair.s, pair.f, kRestArea, kReach, patch));
+  const Mat18 H = contact_hessian(patch, kStiffness);
+  Mat18 numeric;
+  for (int i = 0; i < 18; ++i) numeric.col(i) = difference(gradient, pair, i, 1e-3 * depth);
+  return (numeric - H).norm() / H.norm();
+}
+
+// What it leaves out is k ∫ d ∇²d, proportional to a uniform depth.
+TEST(ContactPatch, TheHessianLacksOnlyATermThatVanishesWithTheDepth) {
+  const double error = hessian_error(1e-3);
+  EXPECT_LT(error, 0.01);
+  EXPECT_NEAR(error / hessian_error(0.5e-3), 2, 0.02);
+}
+
+TEST(ContactPatch, AParallelTriangleHasTheWholeAreaAndTheUniformDepth) {
+  ContactPatch patch;
+  ASSERT_TRUE(contact_patch(small_triangle(0.25), large_face(), kRestArea, kReach, patch));
+  EXPECT_NEAR(patch.area, kRestArea, 1e-15);
+  EXPECT_NEAR(patch.depth_max, 0.25, 1e-15);
+  EXPECT_NEAR(contact_energy(patch, 2), 0.25 * 0.25 * kRestArea, 1e-15);
+  // It is pushed out along the face's normal by k d A.
+  const Vec18 g = contact_gradient(patch, 2);
+  EXPECT_NEAR(-(g[2] + g[5] + g[8]), 2 * 0.25 * kRestArea, 1e-14);
+}
+
+TEST(ContactPatch, AFaceOverPartOfTheTriangleTakesThatPart) {
+  Mat3 f;  // covers x < 1/2
+  f << 0.5, 0.5, -20, -50, 50, 0, 0, 0, 0;
+  ContactPatch patch;
+  ASSERT_TRUE(contact_patch(small_triangle(0.1), f, 0.5, kReach, patch));
+  EXPECT_NEAR(patch.area, 0.5 - 0.125, 1e-14);
+  EXPECT_NEAR(contact_energy(patch, 1), 0.5 * 0.01 * 0.375, 1e-14);
+}
+
+TEST(ContactPatch, ATriangleThatComesOutOfTheFaceCountsUpToThere) {
+  Mat3 s = small_triangle(0);
+  s(2, 0) = -0.1;  // only this corner is behind the face, the others' depths are 0 and −0.1
+  s(2, 2) = 0.1;
+  ContactPatch patch;
+  ASSERT_TRUE(contact_patch(s, large_face(), 0.5, kReach, patch));
+  EXPECT_NEAR(patch.area, 0.25, 1e-14);
+  EXPECT_NEAR(patch.depth_max, 0.1, 1e-15);
+}
+
+TEST(ContactPatch, InFrontOfTheFaceOrBesideItOrDeeperThanTheReachIsNoContact) {
+  ContactPatch patch;
+  EXPECT_FALSE(contact_patch(small_triangle(-0.1), large_face(), 1, kReach, patch));
+  EXPECT_FALSE(contact_patch(small_triangle(0.1), large_face(), 1, 0.05, patch));
+  Mat3 beside = small_triangle(0.1);
+  beside.row(0).array() += 100;
+  EXPECT_FALSE(contact_patch(beside, large_face(), 1, kReach, patch));
+  Mat3 back = small_triangle(0.1);
+  back.col(1).swap(back.col(2));
+  EXPECT_FALSE(contact_patch(back, large_face(), 1, kReach, patch));
+}
+
+TEST(ContactPatch, TrianglesWithoutAreaTouchNothing) {
+  Mat3 line;
+  line << 0, 1, 2, 0, 1, 2, -0.1, -0.1, -0.1;
+  const Mat3 point = Vec3(0, 0, -0.1) * Eigen::RowVector3d::Ones();
+  const Mat3 nan = Mat3::Constant(std::numeric_limits<double>::quiet_NaN());
+  ContactPatch patch;
+  for (const Mat3& bad : {line, point, nan}) {
+    EXPECT_FALSE(contact_patch(bad, large_face(), 1, kReach, patch));
+    EXPECT_FALSE(contact_patch(small_triangle(0.1), bad, 1, kReach, patch));
+  }
+}
+
+TEST(ContactPatch, NearlyFlatTrianglesGiveFiniteForces) {
+  for (const double width : {1e-6, 1e-9, 1e-12, 1e-15}) {
+    Mat3 s = small_triangle(0.1);
+    s(1, 1) = width;
+    ContactPatch patch;
+    if (!contact_patch(s, large_face(), 1, kReach, patch)) continue;
+    EXPECT_TRUE(contact_gradient(patch, 1).allFinite()) << width;
+    EXPECT_TRUE(contact_hessian(patch, 1).allFinite()) << width;
+  }
+}
+
+// Corners on the face's edges, within round-off of them on either side.
+TEST(ContactPatch, CornersOnTheFacesEdgesAreSafe) {
+  Random random(7);
+  const Mat3 f = large_face();
+  for (int n = 0; n < 2000; ++n) {
+    Mat3 s;
+    for (int i = 0; i < 3; ++i) {
+      const double along = 0.5 + 0.5 * random();
+      s.col(i) = (1 - along) * f.col(i) + along * f.col((i + 1) % 3) + 1e-15 * random.vec3();
+      s(2, i) -= 0.1;
+    }
+    s.col(1).swap(s.col(2));
+    ContactPatch patch;
+    if (!contact_patch(s, f, 1, kReach, patch)) continue;
+    EXPECT_LE(patch.area, 1 + 1e-12);
+    EXPECT_TRUE(contact_gradient(patch, 1).allFinite());
+  }
+}
+
+}  // namespace
+}  // namespace articular::sim

@@ -1,0 +1,341 @@
+// run(): checkpoints, history, summary, frames.
+#include "sim/run.hpp"
+
+#include <gtest/gtest.h>
+#include <vtkCellData.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "scene.hpp"
+#include "sim/checkpoint.hpp"
+#include "sim/frame_series.hpp"
+#include "temporary_folder.hpp"
+
+namespace articular::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A block falls on a table while a rigid plate, held by a muscle and a ligament, comes down on it.
+const std::string kScenario = R"(
+title = "Everything at once"
+duration = "60 ms"
+[integrator]
+step = "1 ms"
+[[body]]
+name = "table"
+kind = "fixed"
+geometry = { box = { size = "20 20 4 mm", cells = [2, 2, 1], center = "0 0 -2.1 mm" } }
+[[body]]
+name = "block"
+kind = "tissue"
+geometry = { box = { size = "10 10 10 mm", cells = [2, 2, 2], center = "0 0 5 mm" } }
+density = "1000 kg/m^3"
+material = { law = "neo-hookean", young_modulus = "20 kPa", poisson_ratio = 0.4 }
+[[body]]
+name = "plate"
+kind = "rigid"
+geometry = { box = { size = "14 12 2 mm", cells = [2, 2, 1], center = "0.5 0 11.1 mm" } }
+density = "2000 kg/m^3"
+velocity = "0 0 -50 mm/s"
+angular_velocity = "0 1 2 rad/s"
+[[muscle]]
+name = "puller"
+path = [{ body = "table", point = "0 0 -3 mm" }, { body = "plate", point = "3 1 12 mm" }]
+max_force = "0.05 N"
+excitation = { time = ["0 s", "15.3 ms", "40 ms"], value = [0, 1, 0] }
+[[ligament]]
+name = "band"
+path = [{ body = "table", point = "0 9 20 mm" }, { body = "plate", point = "0 5 12 mm" }]
+stiffness = "5 N/m"
+damping = "0.01 N s/m"
+[[load]]
+kind = "gravity"
+acceleration = "0 0 -9.81 m/s^2"
+[[probe]]
+name = "plate"
+kind = "point"
+body = "plate"
+point = "0 0 12 mm"
+[[probe]]
+name = "table_block"
+kind = "contact"
+bodies = ["table", "block"]
+[[probe]]
+name = "puller"
+kind = "line"
+line = "puller"
+[[probe]]
+name = "band"
+kind = "line"
+line = "band"
+[[probe]]
+name = "table"
+kind = "reaction"
+body = "table"
+[[probe]]
+name = "tilt"
+kind = "angle"
+body = "plate"
+axis = [0, 1, 0]
+[[probe]]
+name = "energy"
+kind = "energy"
+[output]
+interval = "6 ms"
+checkpoint_interval = "20 ms"
+)";
+
+class RunTest : public ::testing::Test {
+ protected:
+  Model model(const std::vector<std::string>& overrides = {}) const {
+    return build_model(read_scenario(folder_.file("scene.toml", kScenario), overrides));
+  }
+  fs::path out(const std::string& name) const { return folder_ / name; }
+
+  /// Runs until `until`, then as if interrupted.
+  RunOutcome run_until(double until, const std::string& name, bool resume,
+                       const std::vector<std::string>& overrides = {}) const {
+    RunOptions options;
+    options.directory = out(name);
+    options.resume = resume;
+    options.after_step = [until](const State& state, double) { return state.t >= until; };
+    return run(model(overrides), options);
+  }
+  RunOutcome run_all(const std::string& name, bool resume = false,
+                     const std::vector<std::string>& overrides = {}) const {
+    return run_until(1e300, name, resume, overrides);
+  }
+  std::string refusal(const std::string& name,
+                      const std::vector<std::string>& overrides = {}) const {
+    try {
+      run_all(name, true, overrides);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  TemporaryFolder folder_;
+};
+
+/// The files below a folder, but for the summary, which holds wall times.
+std::map<std::string, std::string> files(const fs::path& folder) {
+  std::map<std::string, std::string> result;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().filename() != "summary.json")
+      result[fs::relative(entry.path(), folder).string()] = content(entry.path());
+  return result;
+}
+
+void expect_same_files(const fs::path& a, const fs::path& b) {
+  const auto expected = files(a), found = files(b);
+  EXPECT_GT(expected.size(), 30U);
+  ASSERT_EQ(expected.size(), found.size());
+  for (const auto& [name, bytes] : expected) {
+    ASSERT_TRUE(found.count(name)) << name;
+    EXPECT_TRUE(found.at(name) == bytes) << name << " differs";
+  }
+}
+
+class Resumed : public RunTest, public ::testing::WithParamInterface<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Run, Resumed,
+                         ::testing::Values("integrator.scheme=implicit-euler",
+                                           "integrator.scheme=tr-bdf2",
+                                           "integrator.solver=conjugate-gradients"));
+
+// Interrupted between two checkpoints, twice; every byte of checkpoint, history and frames.
+TEST_P(Resumed, AnInterruptedRunGivesTheSameFilesBitForBit) {
+  const std::vector<std::string> overrides = {GetParam()};
+  EXPECT_EQ(run_all("whole", false, overrides), RunOutcome::Finished);
+  EXPECT_EQ(run_until(0.0275, "parts", false, overrides), RunOutcome::Interrupted);
+  EXPECT_EQ(run_until(0.043, "parts", true, overrides), RunOutcome::Interrupted);
+  EXPECT_EQ(run_all("parts", true, overrides), RunOutcome::Finished);
+  expect_same_files(out("whole"), out("parts"));
+}
+
+// A checkpoint at 2/3 of something: its time has no end in decimals, and is printed rounded up.
+TEST_F(RunTest, ACheckpointAtATimeThatIsPrintedRoundedUpKeepsItsRow) {
+  const std::vector<std::string> overrides = {"output.checkpoint_interval=6.666666666666667 ms",
+                                              "duration=30 ms"};
+  run_all("whole", false, overrides);
+  run_until(0.0085, "parts", false, overrides);
+  run_all("parts", true, overrides);
+  EXPECT_EQ(content(out("whole") / "history.csv"), content(out("parts") / "history.csv"));
+}
+
+TEST_F(RunTest, ResumingWithoutACheckpointStartsAfresh) {
+  EXPECT_EQ(run_all("afresh", true), RunOutcome::Finished);
+  EXPECT_TRUE(fs::exists(out("afresh") / "summary.json"));
+}
+
+TEST_F(RunTest, ADamagedCheckpointIsRefusedInOneLine) {
+  run_until(0.03, "run", false);
+  const fs::path file = out("run") / "checkpoint" / "state.bin";
+  const std::string whole = content(file);
+  ASSERT_GT(whole.size(), 500U);
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{7}, whole.size() / 2, whole.size() - 1}) {
+    std::ofstream(file, std::ios::binary) << whole.substr(0, size);
+    EXPECT_NE(refusal("run").find("not a whole checkpoint"), std::string::npos) << size;
+  }
+  std::string flipped = whole;
+  flipped[whole.size() / 2] ^= 1;
+  std::ofstream(file, std::ios::binary) << flipped;
+  EXPECT_NE(refusal("run").find("not a whole checkpoint"), std::string::npos);
+  EXPECT_EQ(refusal("run").find('\n'), std::string::npos);
+}
+
+TEST_F(RunTest, ACheckpointOfAnotherScenarioIsRefusedInOneLine) {
+  run_until(0.03, "run", false);
+  for (const char* change :
+       {"integrator.step=0.5 ms", "body.block.material.young_modulus=30 kPa",
+        "body.block.density=900 kg/m^3", "muscle.puller.max_force=1 N",
+        "load.0.acceleration=0 0 -9 m/s^2", "probe.plate.point=1 0 12 mm",
+        "body.block.geometry.box.cells=[2, 2, 3]", "ligament.band.stiffness=6 N/m"}) {
+    const std::string message = refusal("run", {change});
+    EXPECT_NE(message.find("belongs to another scenario"), std::string::npos) << change;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+  }
+  EXPECT_EQ(refusal("run"), "");
+}
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, at);) parts.push_back(part);
+  return parts;
+}
+
+TEST_F(RunTest, TheHistoryHasAColumnWithItsUnitForEveryProbeValueAndARowForEveryStep) {
+  run_all("run");
+  const auto lines = split(content(out("run") / "history.csv"), '\n');
+  const auto columns = split(lines.at(0), ',');
+  EXPECT_EQ(columns.front(), "time [s]");
+  for (const char* name :
+       {"plate.position.z [mm]", "table_block.force.x [N]", "table_block.area [mm^2]",
+        "table_block.max_pressure [Pa]", "table_block.max_penetration [mm]", "puller.force [N]",
+        "puller.length [mm]", "puller.activation [-]", "band.force [N]", "table.moment.y [N m]",
+        "tilt.angle [deg]", "energy.numerical_loss [J]"})
+    EXPECT_NE(std::find(columns.begin(), columns.end(), name), columns.end()) << name;
+  EXPECT_EQ(std::find(columns.begin(), columns.end(), "band.activation [-]"), columns.end());
+  double last = -1;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const auto values = split(lines[i], ',');
+    ASSERT_EQ(values.size(), columns.size());
+    EXPECT_GT(std::stod(values[0]), last);
+    last = std::stod(values[0]);
+  }
+  EXPECT_EQ(last, 0.06);
+  EXPECT_GE(lines.size(), 62U);
+}
+
+TEST_F(RunTest, TheSummaryCountsWhatTheSceneNeedsAndBalancesTheEnergy) {
+  run_all("run");
+  const auto summary = nlohmann::json::parse(content(out("run") / "summary.json"));
+  EXPECT_EQ(summary["outcome"], "finished");
+  EXPECT_EQ(summary["simulated_time_s"], 0.06);
+  EXPECT_EQ(summary["frames"], 11);
+  for (const char* count : {"sundials_steps", "newton_iterations", "factorizations",
+                            "force_evaluations", "tree_updates", "narrow_tests", "reported_pairs"})
+    EXPECT_GT(summary["counts"][count], 0) << count;
+  EXPECT_EQ(summary["size"]["tetrahedra"], 48);
+  EXPECT_EQ(summary["size"]["rigid_bones"], 1);
+  EXPECT_EQ(summary["size"]["unknown_velocities"], 3 * 27 + 6);
+  EXPECT_GT(summary["max_penetration_m"], 0);
+  for (const char* phase : {"total", "collision_update", "collision_narrow", "elastic_force",
+                            "contact_force", "assembly", "solve", "output"})
+    EXPECT_GT(summary["wall_time_s"][phase], 0) << phase;
+  const auto& e = summary["energy"];
+  const double balance = e["start"].get<double>() + e["muscle_work"].get<double>() +
+                         e["load_work"].get<double>() + e["motion_work"].get<double>() -
+                         e["ligament_loss"].get<double>() - e["numerical_loss"].get<double>() -
+                         e["end"]["total"].get<double>();
+  EXPECT_NEAR(balance, 0, 1e-15);
+  EXPECT_GT(e["numerical_loss"], 0);
+  EXPECT_GT(e["muscle_work"], 0);
+}
+
+template <class Reader>
+auto read(const fs::path& file) {
+  const vtkNew<Reader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  return vtkSmartPointer(reader->GetOutput());
+}
+
+void expect_arrays(vtkFieldData& data, const std::vector<std::pair<const char*, int>>& arrays) {
+  for (const auto& [name, components] : arrays) {
+    vtkDataArray* const array = data.GetArray(name);
+    ASSERT_NE(array, nullptr) << name;
+    EXPECT_EQ(array->GetNumberOfComponents(), components) << name;
+  }
+}
+
+TEST_F(RunTest, TheSeriesOpensInVtkWithEveryArray) {
+  run_all("run");
+  const std::vector<SeriesEntry> entries = read_series(out("run") / "scene.pvd");
+  EXPECT_EQ(entries.size(), 11U * 4U);  // three bodies and the lines
+  double greatest_pressure = 0;
+  for (const SeriesEntry& entry : entries) {
+    const fs::path file = out("run") / entry.file;
+    EXPECT_NEAR(entry.time, std::min(0.006 * entry.index, 0.06), 1e-12);
+    if (entry.part == "block") {
+      const auto grid = read<vtkXMLUnstructuredGridReader>(file);
+      EXPECT_EQ(grid->GetNumberOfPoints(), 27);
+      EXPECT_EQ(grid->GetNumberOfCells(), 48);
+      expect_arrays(
+          *grid->GetPointData(),
+          {{"displacement", 3}, {"velocity", 3}, {"contact_force", 3}, {"contact_pressure", 1}});
+      expect_arrays(*grid->GetCellData(), {{"cauchy_stress", 6},
+                                           {"von_mises", 1},
+                                           {"volume_ratio", 1},
+                                           {"strain_energy_density", 1}});
+      greatest_pressure = std::max(
+          greatest_pressure, grid->GetPointData()->GetArray("contact_pressure")->GetRange()[1]);
+    } else {
+      const auto poly = read<vtkXMLPolyDataReader>(file);
+      EXPECT_GT(poly->GetNumberOfPoints(), 0);
+      if (entry.part == "lines")
+        expect_arrays(*poly->GetCellData(), {{"activation", 1}, {"force", 1}, {"length", 1}});
+      else
+        expect_arrays(*poly->GetPointData(), {{"displacement", 3}, {"velocity", 3}});
+    }
+  }
+  EXPECT_GT(greatest_pressure, 0);
+}
+
+TEST_F(RunTest, ARunThatCannotGoOnSaysUntilWhenAndLeavesValidFiles) {
+  RunOptions options;
+  options.directory = out("run");
+  // Two Newton iterations are not enough for contact at these steps.
+  const Model m = model({"integrator.max_iterations=1", "integrator.min_step=0.9 ms",
+                         "integrator.position_tolerance=1e-9 um"});
+  EXPECT_THROW(run(m, options), SimulationError);
+  const auto summary = nlohmann::json::parse(content(out("run") / "summary.json"));
+  EXPECT_NE(summary["outcome"].get<std::string>().find("cannot go on at t ="), std::string::npos);
+  EXPECT_FALSE(read_series(out("run") / "scene.pvd").empty());
+}
+
+TEST_F(RunTest, StepsEndAtEveryKink) {
+  const std::vector<double> kinks = kink_times(model());
+  ASSERT_EQ(kinks.size(), 2U);
+  EXPECT_EQ(kinks[0], 0.0153);
+  run_all("run");
+  EXPECT_NE(content(out("run") / "history.csv").find("\n0.0153,"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace articular::sim
