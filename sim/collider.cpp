@@ -46,40 +46,67 @@ Positions vertex_normals(const Positions& X, const Triangles& triangles) {
 
 }  // namespace
 
-Tetrahedra shell_under(Positions& X, const Triangles& triangles, double thickness) {
+namespace {
+
+Tetrahedra prisms_under(const Triangles& triangles, int below) {
+  Tetrahedra tets(4, 3 * triangles.cols());
+  for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
+    const auto three = prism(triangles.col(f), below);
+    for (int k = 0; k < 3; ++k) tets.col(3 * f + k) = three[static_cast<std::size_t>(k)];
+  }
+  return tets;
+}
+
+/// Triangles whose prism has a tetrahedron that is turned inside out, or next to flat.
+std::vector<char> folded_prisms(const Positions& X, const Triangles& triangles,
+                                const Tetrahedra& tets, const Eigen::VectorXd& depth) {
+  // Of the volume that the prism would have on a flat surface.
+  constexpr double kLeastVolume = 0.02;
+  std::vector<char> folded(static_cast<std::size_t>(triangles.cols()), 0);
+  for (Eigen::Index t = 0; t < tets.cols(); ++t) {
+    const auto face = triangles.col(t / 3);
+    const Vec3 area = (X.col(face[1]) - X.col(face[0])).cross(X.col(face[2]) - X.col(face[0]));
+    const double least_depth = std::min({depth[face[0]], depth[face[1]], depth[face[2]]});
+    if (!(six_volumes(X, tets.col(t)) > kLeastVolume * area.norm() * least_depth))
+      folded[static_cast<std::size_t>(t / 3)] = 1;
+  }
+  return folded;
+}
+
+void drop(const std::vector<char>& dropped, Triangles& triangles) {
+  std::vector<int> kept;
+  for (std::size_t f = 0; f < dropped.size(); ++f)
+    if (dropped[f] == 0) kept.push_back(static_cast<int>(f));
+  const Triangles rest = triangles(Eigen::all, kept);
+  triangles = rest;
+}
+
+}  // namespace
+
+Tetrahedra shell_under(Positions& X, Triangles& triangles, double thickness) {
   const auto n = static_cast<int>(X.cols());
   const Positions normals = vertex_normals(X, triangles);
   Eigen::VectorXd depth = Eigen::VectorXd::Constant(n, thickness);
   X.conservativeResize(3, 2 * n);
-  Tetrahedra tets(4, 3 * triangles.cols());
-  for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
-    const auto three = prism(triangles.col(f), n);
-    for (int k = 0; k < 3; ++k) tets.col(3 * f + k) = three[static_cast<std::size_t>(k)];
-  }
-  // Folded prisms get thinner until none is left; a vertex that needs more halvings than this has
-  // faces on all sides of it.
-  constexpr int kMostHalvings = 20;
-  for (int round = 0; round <= kMostHalvings; ++round) {
+  // A shell thinner than this part of the thickness would hide a contact from the search.
+  constexpr int kMostHalvings = 5;
+  for (int round = 0;; ++round) {
     X.rightCols(n) = X.leftCols(n) - normals * depth.asDiagonal();
-    std::vector<char> folded(static_cast<std::size_t>(n), 0);
-    bool any = false;
-    for (Eigen::Index t = 0; t < tets.cols(); ++t) {
-      // Of the volume that the prism would have on a flat surface.
-      constexpr double kLeastVolume = 0.02;
-      const auto face = triangles.col(t / 3);
-      const Vec3 area = (X.col(face[1]) - X.col(face[0])).cross(X.col(face[2]) - X.col(face[0]));
-      double least_depth = depth[face[0]];
-      for (int k = 1; k < 3; ++k) least_depth = std::min(least_depth, depth[face[k]]);
-      if (six_volumes(X, tets.col(t)) > kLeastVolume * area.norm() * least_depth) continue;
-      any = true;
-      for (int k = 0; k < 3; ++k) folded[static_cast<std::size_t>(face[k])] = 1;
+    const Tetrahedra tets = prisms_under(triangles, n);
+    const std::vector<char> folded = folded_prisms(X, triangles, tets, depth);
+    if (std::find(folded.begin(), folded.end(), 1) == folded.end()) return tets;
+    if (round >= kMostHalvings) {
+      drop(folded, triangles);
+      continue;
     }
-    if (!any) return tets;
+    std::vector<char> thinner(static_cast<std::size_t>(n), 0);
+    for (std::size_t f = 0; f < folded.size(); ++f)
+      if (folded[f] != 0)
+        for (const int node : triangles.col(static_cast<Eigen::Index>(f)))
+          thinner[static_cast<std::size_t>(node)] = 1;
     for (int i = 0; i < n; ++i)
-      if (folded[static_cast<std::size_t>(i)] != 0) depth[i] *= 0.5;
+      if (thinner[static_cast<std::size_t>(i)] != 0) depth[i] *= 0.5;
   }
-  throw InputError(
-      "a contact surface folds back onto itself at a vertex; expected a smooth surface");
 }
 
 namespace {

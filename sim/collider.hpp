@@ -4,11 +4,11 @@
 
 namespace articular::sim {
 
-/// A shell of tetrahedra under a surface: each triangle sinks along the vertex normals into a prism
-/// of three tetrahedra. Where the surface bends so sharply that prisms would fold, the shell is
-/// thinner. Nodes 0 .. n-1 are the surface's, n .. 2n-1 those below them.
-/// @throws InputError when a vertex has no depth that leaves its prisms unfolded
-Tetrahedra shell_under(Positions& X, const Triangles& triangles, double thickness);
+/// A shell of tetrahedra under a surface: each triangle sinks along the vertex normals into a prism of
+/// three tetrahedra. Where the surface bends so sharply that prisms would fold, the shell is thinner;
+/// triangles over which no shell is left (slivers, creases) are dropped from `triangles`.
+/// Nodes 0 .. n-1 are the surface's, n .. 2n-1 those below them.
+Tetrahedra shell_under(Positions& X, Triangles& triangles, double thickness);
 
 /// Faces and areas, nearby faces and sizes of a collider whose X, tets and nodes are set.
 /// @param is_outer  per node: on the surface that a shell lies under, the only one that touches;

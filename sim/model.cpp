@@ -400,7 +400,7 @@ class Builder {
     return collider;
   }
 
-  Collider bone_collider(std::size_t b) const {
+  Collider bone_collider(std::size_t b) {
     const Body& body = scenario().bodies[b];
     const Bone& bone = model_.bones[static_cast<std::size_t>(model_.bodies[b].bone)];
     const bool shell = geometry_[b].contact.X.cols() > 0 || geometry_[b].mesh.tets.cols() == 0;
@@ -413,7 +413,9 @@ class Builder {
       if (surface.triangles.cols() == 0) throw InputError("its mesh has no triangles");
       depth = body.shell_thickness.value_or(kDefaultShell);
       collider.X = surface.X;
-      collider.tets = shell_under(collider.X, surface.triangles, depth);
+      Triangles triangles = surface.triangles;
+      collider.tets = shell_under(collider.X, triangles, depth);
+      report_dropped(body, surface.triangles.cols(), triangles.cols());
       is_outer.assign(static_cast<std::size_t>(collider.X.cols()), 0);
       std::fill_n(is_outer.begin(), surface.X.cols(), 1);
     } else {
@@ -434,6 +436,19 @@ class Builder {
       collider.stiffness = 1 / (1 / collider.stiffness + 1 / layer_stiffness);
     }
     return collider;
+  }
+
+  /// Creases and slivers of a scanned surface that can't take part in contact: a few are told, many are
+  /// an error.
+  void report_dropped(const Body& body, Eigen::Index given, Eigen::Index kept) {
+    constexpr double kMostDropped = 0.01;
+    if (kept == given) return;
+    const std::string what =
+        fmt::format("{} of {} faces of the contact surface of `{}` are slivers or lie in creases",
+                    given - kept, given, body.name);
+    if (static_cast<double>(given - kept) > kMostDropped * static_cast<double>(given))
+      throw InputError(what + "; expected a smooth surface with outward normals");
+    model_.warnings.push_back(prefix(body.where) + what + " and are left out of contact");
   }
 
   WeightedPoint resolve(const Anchor& anchor) const {

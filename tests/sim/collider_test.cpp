@@ -53,7 +53,7 @@ Shell shell_of(const MeshData& surface, double thickness) {
   Shell shell;
   shell.surface = surface;
   shell.collider.X = surface.X;
-  shell.collider.tets = shell_under(shell.collider.X, surface.triangles, thickness);
+  shell.collider.tets = shell_under(shell.collider.X, shell.surface.triangles, thickness);
   std::vector<char> outer(static_cast<std::size_t>(shell.collider.X.cols()), 0);
   std::fill_n(outer.begin(), surface.X.cols(), 1);
   complete_collider(shell.collider, outer);

@@ -1,0 +1,123 @@
+// The jaw of scenarios/mandible/: it opens and closes, and only contact, muscles and ligaments make
+// it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+
+#include "tests/scenarios/scenario_results.hpp"
+
+namespace articular {
+namespace {
+
+/// Long steps: these runs are about where the jaw goes, not about its last tenth of a millimetre.
+const std::vector<std::string> kCoarse = {"integrator.step=4 ms"};
+
+ScenarioResults run_changed(const std::string& file, const std::vector<std::string>& overrides,
+                            const std::function<void(sim::Scenario&)>& change) {
+  const TemporaryFolder folder;
+  sim::Scenario scenario = sim::read_scenario(
+      std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios" / file, overrides);
+  change(scenario);
+  sim::RunOptions options;
+  options.directory = folder.path() / "out";
+  sim::run(sim::build_model(scenario), options);
+  return ScenarioResults(options.directory);
+}
+
+/// Incisor's way down from the start [mm].
+double opening(const ScenarioResults& results, double time) {
+  const std::string z = "incisor.position.z [mm]";
+  return results.column(z).front() - results.at(z, time);
+}
+
+/// Condyle's way forward from the start [mm].
+double translation(const ScenarioResults& results, const std::string& side, double time) {
+  const std::string y = "condyle_" + side + ".position.y [mm]";
+  return results.column(y).front() - results.at(y, time);
+}
+
+void expect_opens_and_closes(const ScenarioResults& results, double open_time, double end_time,
+                             double least_opening) {
+  EXPECT_EQ(results.summary().at("outcome"), "finished");
+  for (const char* count : {"sundials_steps", "tree_updates", "narrow_tests", "reported_pairs"})
+    EXPECT_GT(results.count(count), 0) << count;
+  EXPECT_GT(opening(results, open_time), least_opening);
+  EXPECT_GT(translation(results, "left", open_time), 8);
+  EXPECT_GT(translation(results, "right", open_time), 8);
+  EXPECT_LT(std::abs(opening(results, end_time)), 2);
+  // Nothing takes energy but ligaments and, less than 1 % of the muscles' work beyond what the
+  // first 25 ms lose in settling onto the discs, the time integration.
+  const auto& time = results.column("time [s]");
+  const auto& loss = results.column("energy.numerical_loss [J]");
+  const auto& work = results.column("energy.muscle_work [J]");
+  const auto settled =
+      static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), 0.025) - time.begin());
+  double all_work = 0;  // what muscles gave and took
+  for (std::size_t i = settled + 1; i < work.size(); ++i)
+    all_work += std::abs(work[i] - work[i - 1]);
+  EXPECT_LT(std::abs(loss.back() - loss[settled]), 0.01 * all_work);
+  // The discs are 1.2 mm and more thick.
+  EXPECT_LT(results.summary().at("max_penetration_m").get<double>(), 0.1e-3);
+}
+
+TEST(JawOpening, TheMouthOpensByTensOfMillimetresAndClosesAgain) {
+  const ScenarioResults results = run_scenario("mandible/opening.toml", kCoarse);
+  expect_opens_and_closes(results, 0.4, 0.9, 25);
+  // The scene is symmetric, and so is its motion.
+  EXPECT_NEAR(results.at("incisor.position.x [mm]", 0.4), 0, 0.5);
+}
+
+TEST(JawOpening, WithoutContactACondyleLeavesItsFossa) {
+  const ScenarioResults results =
+      run_changed("mandible/opening.toml", {"integrator.step=4 ms", "duration=0.2 s"},
+                  [](sim::Scenario& scenario) {
+                    scenario.contact = false;
+                    scenario.contacts.clear();
+                    std::erase_if(scenario.probes, [](const sim::Probe& probe) {
+                      return probe.kind == sim::Probe::Kind::Contact;
+                    });
+                  });
+  // The fossa's roof is 3 mm above the condyle's disc.
+  const auto& z = results.column("condyle_left.position.z [mm]");
+  const double highest = *std::max_element(z.begin(), z.end()) - z.front();
+  const double lowest = *std::min_element(z.begin(), z.end()) - z.front();
+  EXPECT_GT(std::max(highest, -lowest), 6) << highest << ", " << lowest;
+  EXPECT_EQ(results.count("tree_updates"), 0);
+}
+
+TEST(JawOpening, WithoutDiscsTheCondyleTakesAnotherPath) {
+  const auto without_discs = [](sim::Scenario& scenario) {
+    const auto is_disc = [](const std::string& name) { return name.starts_with("disc_"); };
+    std::erase_if(scenario.bodies, [&](const sim::Body& body) { return is_disc(body.name); });
+    std::erase_if(scenario.contacts,
+                  [&](const sim::ContactPair& pair) { return is_disc(pair.a) || is_disc(pair.b); });
+    std::erase_if(scenario.ligaments, [&](const sim::Ligament& ligament) {
+      return std::any_of(ligament.path.begin(), ligament.path.end(),
+                         [&](const sim::Anchor& anchor) { return is_disc(anchor.body); });
+    });
+    std::erase_if(scenario.probes, [&](const sim::Probe& probe) {
+      return is_disc(probe.body) || is_disc(probe.other) || !probe.line.empty();
+    });
+  };
+  const std::vector<std::string> overrides = {"integrator.step=4 ms", "duration=0.3 s"};
+  const ScenarioResults bare = run_changed("mandible/opening.toml", overrides, without_discs);
+  const ScenarioResults whole = run_scenario("mandible/opening.toml", overrides);
+  const std::string z = "condyle_left.position.z [mm]";
+  double largest = 0;
+  for (const double t : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3})
+    largest = std::max(largest, std::abs(bare.at(z, t) - whole.at(z, t)));
+  EXPECT_GT(largest, 0.5);  // [mm]
+}
+
+TEST(JawOpening, TheRealJawOpensAndClosesOnItsRealDiscs) {
+  if (std::getenv("ARTICULAR_DATA") == nullptr)
+    GTEST_SKIP() << "ARTICULAR_DATA does not name the folder with the real anatomy";
+  const ScenarioResults results = run_scenario("mandible/subject.toml", kCoarse);
+  expect_opens_and_closes(results, 0.4, 0.9, 20);
+}
+
+}  // namespace
+}  // namespace articular
