@@ -26,6 +26,8 @@ TEST(HangingBeam, EndGoesDownByItsClosedForm) {
   const double drop = -100 - results.last("end.position.z [mm]");
   EXPECT_NEAR(drop, kHangingDrop, 1e-3 * kHangingDrop);
   EXPECT_NEAR(results.last("end.position.x [mm]"), 0, 1e-3 * kHangingDrop);
+  const double weight = 1000 * kGravity * 0.1 * 1e-4;  // [N]
+  EXPECT_NEAR(results.last("clamp.force.z [N]"), -weight, 1e-3 * weight);
   EXPECT_EQ(results.summary().at("outcome"), "finished");
   EXPECT_GT(results.count("sundials_steps"), 0);
 }

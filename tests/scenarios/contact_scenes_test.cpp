@@ -31,6 +31,8 @@ TEST(BlockOnBlock, ContactCarriesTheWeightOfTheUpperBlock) {
   }
   EXPECT_NEAR(results.last("between.force.x [N]"), 0, 1e-3 * weight);
   EXPECT_NEAR(results.last("between.force.y [N]"), 0, 1e-3 * weight);
+  const double both = 1060 * 9.81 * (1e-6 + 16 * 16 * 8e-9);  // [N]
+  EXPECT_NEAR(results.last("floor.force.z [N]"), -both, 2e-3 * both);
   EXPECT_NEAR(results.last("between.area [mm^2]"), 100, 2);   // a little more: it bulges
   EXPECT_NEAR(results.last("top.position.x [mm]"), 0, 1e-3);  // slides nowhere
 }
