@@ -4,7 +4,7 @@
 
 #include "collision/aabb.hpp"
 #include "collision/element_pair.hpp"
-#include "collision/gjk.hpp"
+#include "collision/narrow_test.hpp"
 #include "collision/penetrations.hpp"
 #include "collision/surface.hpp"
 
@@ -32,7 +32,8 @@ std::vector<Penetration> brute_force_pairs(const MeshView& F, const MeshView& W,
     for (int tet = 0; tet < W.tets.cols(); ++tet) {
       const Eigen::Vector4i tet_nodes = W.tets.col(tet);
       if (!admit(face, tet) || !overlap(face_box, element_box(W.x, tet_nodes, margin))) continue;
-      if (gjk_overlap(triangle, corners<4>(W.x, tet_nodes), margin)) pairs.push_back({face, tet});
+      if (elements_overlap(triangle, corners<4>(W.x, tet_nodes), margin))
+        pairs.push_back({face, tet});
     }
   }
   return pairs;

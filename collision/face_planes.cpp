@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 
 namespace articular::collision {
 namespace {
@@ -25,7 +26,10 @@ PlaneVerdict face_planes(const Eigen::Matrix3d& triangle,
   const Eigen::Vector3d normal =
       (triangle.col(1) - triangle.col(0)).cross(triangle.col(2) - triangle.col(0));
   const Eigen::RowVector4d heights = normal.transpose() * (tetrahedron.colwise() - triangle.col(0));
-  const double beyond = apart * normal.norm();
+  // Squares of tiny or enormous lengths leave the range of numbers: GJK scales, it decides then.
+  const double normal_length = normal.norm();
+  if (!(normal_length > 0) || !std::isfinite(normal_length)) return PlaneVerdict::Unknown;
+  const double beyond = apart * normal_length;
   if (heights.minCoeff() > beyond || heights.maxCoeff() < -beyond) return PlaneVerdict::Apart;
 
   Eigen::Array3d depth = Eigen::Array3d::Constant(size);  // of the triangle's corners, least so far
@@ -36,7 +40,8 @@ PlaneVerdict face_planes(const Eigen::Matrix3d& triangle,
     const double length = outward.norm();
     const double opposite = outward.dot(tetrahedron.col(static_cast<Eigen::Index>(k)) - a);
     // A flat tetrahedron has faces without an outside.
-    if (!(std::abs(opposite) > kSafe * size * length)) return PlaneVerdict::Unknown;
+    if (!(length > 0) || !(std::abs(opposite) > kSafe * size * length))
+      return PlaneVerdict::Unknown;
     outward *= (opposite > 0 ? -1 : 1) / length;
     const Eigen::Array3d above =
         (outward.transpose() * (triangle.colwise() - a)).transpose().array();

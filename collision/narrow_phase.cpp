@@ -4,22 +4,9 @@
 #include <chrono>
 
 #include "collision/element_pair.hpp"
-#include "collision/face_planes.hpp"
-#include "collision/gjk.hpp"
+#include "collision/narrow_test.hpp"
 
 namespace articular::collision {
-namespace {
-
-/// GJK, where the planes of the elements do not tell already.
-bool elements_overlap(const Eigen::Matrix3d& triangle,
-                      const Eigen::Matrix<double, 3, 4>& tetrahedron, double margin) {
-  const PlaneVerdict verdict = face_planes(triangle, tetrahedron, margin);
-  if (verdict != PlaneVerdict::Unknown) return verdict == PlaneVerdict::Overlapping;
-  return gjk_overlap(triangle, tetrahedron, margin);
-}
-
-}  // namespace
-
 void narrow_phase(const BucketTree& F, const BucketTree& W, Reports& reports,
                   std::vector<Penetration>& pairs, QueryCounts& counts) {
   const auto start = std::chrono::steady_clock::now();

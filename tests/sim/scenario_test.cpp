@@ -433,8 +433,8 @@ TEST_F(CompleteScenario, KnowsWhereEveryEntryStands) {
     EXPECT_GT(place.line, 0);
     EXPECT_GT(place.column, 0);
   }
-  EXPECT_EQ(scenario_.bodies[0].where.line, 18);
-  EXPECT_EQ(scenario_.bodies[0].mesh->where.line, 21);
+  EXPECT_EQ(scenario_.bodies[0].where.line, 17);
+  EXPECT_EQ(scenario_.bodies[0].mesh->where.line, 20);
   EXPECT_EQ(scenario_.bodies[0].mesh->where.column, 17);
 }
 
