@@ -4,9 +4,9 @@
 
 namespace articular::sim {
 
-/// A shell of tetrahedra under a surface: each triangle sinks along the vertex normals into a prism of
-/// three tetrahedra. Where the surface bends so sharply that prisms would fold, the shell is thinner;
-/// triangles over which no shell is left (slivers, creases) are dropped from `triangles`.
+/// A shell of tetrahedra under a surface: each triangle sinks along the vertex normals into a prism
+/// of three tetrahedra. Where the surface bends so sharply that prisms would fold, the shell is
+/// thinner; triangles over which no shell is left (slivers, creases) are dropped from `triangles`.
 /// Nodes 0 .. n-1 are the surface's, n .. 2n-1 those below them.
 Tetrahedra shell_under(Positions& X, Triangles& triangles, double thickness);
 

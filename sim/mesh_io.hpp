@@ -28,4 +28,8 @@ MeshData read_mesh(const std::filesystem::path& file, double unit);
 /// @throws SystemError when it can't be written, InputError when the file's ending is another
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh, double unit);
 
+/// A surface with about `faces` triangles in place of more: quadric decimation, which leaves out
+/// what is flat first. Tetrahedra are dropped.
+MeshData simplified(const MeshData& surface, int faces);
+
 }  // namespace articular::sim

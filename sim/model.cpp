@@ -105,7 +105,9 @@ Geometry read_geometry(const Body& body) {
     if (part.triangles.cols() == 0)
       throw InputError(file.where, fmt::format("contact mesh {} of `{}` has no triangles",
                                                file.path.string(), body.name));
-    append(file.facing ? facing_part(part, *file.facing) : part, geometry.contact);
+    if (file.facing) part = facing_part(part, *file.facing);
+    if (file.faces) part = simplified(part, *file.faces);
+    append(part, geometry.contact);
   }
   return geometry;
 }
@@ -441,7 +443,7 @@ class Builder {
   /// Creases and slivers of a scanned surface that can't take part in contact: a few are told, many are
   /// an error.
   void report_dropped(const Body& body, Eigen::Index given, Eigen::Index kept) {
-    constexpr double kMostDropped = 0.01;
+    constexpr double kMostDropped = 0.03;
     if (kept == given) return;
     const std::string what =
         fmt::format("{} of {} faces of the contact surface of `{}` are slivers or lie in creases",

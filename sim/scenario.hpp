@@ -94,6 +94,7 @@ struct MeshFile {
   std::filesystem::path path;  // as resolved against the scenario's folder, variables replaced
   double unit = 1e-3;          // [m] per unit of the file
   Placement placement;
+  std::optional<int> faces;    // contact: simplify to about this many triangles (after `facing`)
   std::optional<Vec3> facing;  // unit vector, in the placed frame
   Location where;
 };
@@ -212,7 +213,7 @@ struct Integrator {
   Solver solver = Solver::Cholesky;
   double step = 1e-3;                // [s]
   double position_tolerance = 1e-6;  // [m], of the Newton iteration
-  int max_iterations = 12;           // Newton iterations before the step is halved
+  int max_iterations = 20;           // Newton iterations before the step is halved
   double min_step = 1e-7;            // [s], below which the run stops
 };
 

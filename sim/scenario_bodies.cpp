@@ -17,10 +17,10 @@ double read_length_unit(const Node& node) {
   }
 }
 
-/// @param is_contact_mesh  allows `facing`
+/// @param is_contact_mesh  allows `facing` and `faces`
 MeshFile read_mesh(const Node& node, const std::filesystem::path& folder, bool is_contact_mesh) {
   const auto table = is_contact_mesh
-                         ? TableReader(node, "contact mesh", {"file", "unit", "place", "facing"})
+                         ? TableReader(node, "contact mesh", {"file", "unit", "place", "facing", "faces"})
                          : TableReader(node, "mesh", {"file", "unit", "place"});
   MeshFile mesh;
   mesh.where = table.at("file").where;
@@ -28,6 +28,9 @@ MeshFile read_mesh(const Node& node, const std::filesystem::path& folder, bool i
   table.may("unit", mesh.unit, read_length_unit);
   table.may("place", mesh.placement, read_placement);
   table.may("facing", mesh.facing, read_direction);
+  constexpr int kFewestFaces = 20, kMostFaces = 10'000'000;
+  table.may("faces", mesh.faces,
+            [](const Node& n) { return read_integer(n, kFewestFaces, kMostFaces); });
   return mesh;
 }
 
