@@ -61,6 +61,7 @@ void add_contact_force(const Model& model, const Configuration& configuration,
   summaries.assign(model.contacts.size(), {});
   for (const CandidateList& list : candidates) {
     ContactSummary& summary = summaries[static_cast<std::size_t>(list.contact)];
+    const ContactModel& contact = model.contacts[static_cast<std::size_t>(list.contact)];
     for_each_patch(
         model, configuration, list,
         [&](const SixNodes& nodes, const ContactPatch& patch, double k, const ContactCandidate&) {
@@ -68,7 +69,9 @@ void add_contact_force(const Model& model, const Configuration& configuration,
           for (std::size_t i = 0; i < 6; ++i)
             add_force(configuration, *nodes[i], -g.segment<3>(3 * static_cast<Eigen::Index>(i)), f);
           const Vec3 on_triangles = -(g.segment<3>(0) + g.segment<3>(3) + g.segment<3>(6));
-          summary.force += list.reversed ? Vec3(-on_triangles) : on_triangles;
+          // Of a body with itself both sides are its own: no net force.
+          if (contact.a != contact.b)
+            summary.force += list.reversed ? Vec3(-on_triangles) : on_triangles;
           summary.area += 0.5 * patch.area;
           summary.max_depth = std::max(summary.max_depth, patch.depth_max);
           summary.max_pressure = std::max(summary.max_pressure, 2 * k * patch.depth_max);

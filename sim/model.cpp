@@ -29,6 +29,11 @@ constexpr double kLeastForceAtRest = 0.1;
 
 double constrained_modulus(double E, double nu) { return E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)); }
 
+/// " (FILE)" of a body that comes from a file.
+std::string mesh_name(const Body& body) {
+  return body.mesh ? " (" + body.mesh->path.string() + ")" : "";
+}
+
 MeshData load(const MeshFile& file) {
   MeshData mesh;
   try {
@@ -92,9 +97,9 @@ Geometry read_geometry(const Body& body) {
   const Location& where = body.mesh ? body.mesh->where : body.where;
   const bool tissue = body.kind == Body::Kind::Tissue;
   if (tissue && geometry.mesh.tets.cols() == 0)
-    throw InputError(where, fmt::format("the mesh of tissue `{}` has no tetrahedra; expected a "
-                                        "tetrahedral mesh (.vtu, .vtk or .inp)",
-                                        body.name));
+    throw InputError(where, fmt::format("the mesh of tissue `{}`{} has no tetrahedra; expected "
+                                        "a tetrahedral mesh (.vtu, .vtk or .inp)",
+                                        body.name, mesh_name(body)));
   if (!tissue && geometry.mesh.X.cols() > 0 && geometry.mesh.tets.cols() > 0) {
     const auto surface =
         collision::build_surface(geometry.mesh.tets, static_cast<int>(geometry.mesh.X.cols()));
@@ -275,7 +280,8 @@ class Builder {
         model_.tissues.push_back(std::move(tissue));
         surface_.push_back(collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())));
       } catch (const std::invalid_argument& error) {
-        throw InputError(where, fmt::format("tissue `{}`: {}", body.name, error.what()));
+        throw InputError(
+            where, fmt::format("tissue `{}`{}: {}", body.name, mesh_name(body), error.what()));
       }
     }
   }
@@ -440,8 +446,8 @@ class Builder {
     return collider;
   }
 
-  /// Creases and slivers of a scanned surface that can't take part in contact: a few are told, many are
-  /// an error.
+  /// Creases and slivers of a scanned surface that can't take part in contact: a few are told, many
+  /// are an error.
   void report_dropped(const Body& body, Eigen::Index given, Eigen::Index kept) {
     constexpr double kMostDropped = 0.03;
     if (kept == given) return;
