@@ -17,6 +17,9 @@ namespace {
 /// Contact stiffness of a side is this times constrained modulus / element height: the mean
 /// penetration is then about a tenth of the element's own compression.
 constexpr double kContactFactor = 10;
+/// A tissue's face counts as crossed up to this part of an element's height. Contact keeps depths far
+/// below it; what lies deeper is seen from beyond an edge, and was not entered through that face.
+constexpr double kTissueReach = 0.5;
 /// Cortical bone, where a bone meets a bone without a layer between: E [Pa], nu.
 constexpr double kBoneModulus = 15e9, kBonePoisson = 0.3;
 /// Depth of the collision elements under a bone's surface where the scenario names none [m].
@@ -404,7 +407,7 @@ class Builder {
     collider.stiffness = kContactFactor *
                          constrained_modulus(material.young_modulus, material.poisson_ratio) /
                          collider.size;
-    collider.reach = 2 * collider.size;
+    collider.reach = kTissueReach * collider.size;
     return collider;
   }
 
