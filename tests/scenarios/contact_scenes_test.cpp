@@ -69,12 +69,12 @@ TEST(ToolOnTissue, ForceIsThatOfABallOnABondedLayer) {
 }
 
 TEST(TwoVShapes, PushEachOtherAsideWithEqualAndOppositeForces) {
-  const ScenarioResults results = run_scenario("v-shapes/two.toml", {"duration=0.8 s"});
+  const ScenarioResults results = run_scenario("v-shapes/two.toml", {"duration=0.5 s"});
   expect_contact_was_searched(results);
   EXPECT_EQ(results.at("between.area [mm^2]", 0), 0);
   const double force = -results.last("lower hand.force.y [N]");
   EXPECT_GT(std::abs(force), 1e-2);
-  // Dragged at 16 mm/s, inertia plays no part.
+  // Dragged at 26 mm/s, inertia plays no part.
   EXPECT_NEAR(results.last("upper hand.force.y [N]"), force, 0.02 * std::abs(force));
   EXPECT_NEAR(results.last("upper hand.force.z [N]"), -results.last("lower hand.force.z [N]"),
               0.02 * std::abs(force));
@@ -85,11 +85,12 @@ TEST(TwoVShapes, PushEachOtherAsideWithEqualAndOppositeForces) {
 
 // Where edges slip off each other, opposing faces must not be taken for crossed ones at a depth of
 // millimetres: that would make energy out of nothing.
-TEST(TwoVShapes, SlideOverTheEdgeWithoutGainingEnergy) {
+TEST(TwoVShapes, SlipOffEachOtherWithoutGainingEnergy) {
   const ScenarioResults results = run_scenario("v-shapes/two.toml");
   expect_contact_was_searched(results);
+  EXPECT_EQ(results.last("between.area [mm^2]"), 0);
   EXPECT_LT(results.count("rejected_newton"), 20);
-  EXPECT_LT(results.largest("between.max_penetration [mm]"), 0.4);
+  EXPECT_LT(results.largest("between.max_penetration [mm]"), 0.7);
   EXPECT_GT(results.smallest("energy.numerical_loss [J]"),
             -0.01 * results.largest("energy.motion_work [J]"));
 }

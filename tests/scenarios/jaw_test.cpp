@@ -39,13 +39,14 @@ double translation(const ScenarioResults& results, const std::string& side, doub
   return results.column(y).front() - results.at(y, time);
 }
 
-void expect_opens(const ScenarioResults& results, double open_time, double least_opening) {
+void expect_opens(const ScenarioResults& results, double open_time, double least_opening,
+                  double least_translation) {
   EXPECT_EQ(results.summary().at("outcome"), "finished");
   for (const char* count : {"sundials_steps", "tree_updates", "narrow_tests", "reported_pairs"})
     EXPECT_GT(results.count(count), 0) << count;
   EXPECT_GT(opening(results, open_time), least_opening);
-  EXPECT_GT(translation(results, "left", open_time), 8);
-  EXPECT_GT(translation(results, "right", open_time), 8);
+  EXPECT_GT(translation(results, "left", open_time), least_translation);
+  EXPECT_GT(translation(results, "right", open_time), least_translation);
   // Nothing takes energy but ligaments and the time integration: while the mouth opens, after the
   // jaw has settled onto the discs. Implicit Euler loses in proportion to its step: with these long
   // ones less than 3 % of what the muscles gave and took.
@@ -65,7 +66,7 @@ void expect_opens(const ScenarioResults& results, double open_time, double least
 
 TEST(JawOpening, TheMouthOpensByTensOfMillimetresAndClosesAgain) {
   const ScenarioResults results = run_scenario("mandible/opening.toml", kCoarse);
-  expect_opens(results, 0.4, 25);
+  expect_opens(results, 0.4, 25, 8);
   EXPECT_LT(std::abs(opening(results, 0.9)), 2);
   // The scene is symmetric, and so is its motion.
   EXPECT_NEAR(results.at("incisor.position.x [mm]", 0.4), 0, 0.5);
@@ -113,12 +114,12 @@ TEST(JawOpening, WithoutDiscsTheCondyleTakesAnotherPath) {
   EXPECT_GT(largest, 0.5);  // [mm]
 }
 
-// As far as it opens; that it closes again takes minutes to show: scenarios/mandible/README.md.
+// Only the first half of the way: the whole takes many minutes, see scenarios/mandible/README.md.
 TEST(JawOpening, TheRealJawOpensOnItsRealDiscs) {
   if (std::getenv("ARTICULAR_DATA") == nullptr)
     GTEST_SKIP() << "ARTICULAR_DATA does not name the folder with the real anatomy";
-  expect_opens(run_scenario("mandible/subject.toml", {"integrator.step=4 ms", "duration=0.24 s"}),
-               0.24, 20);
+  expect_opens(run_scenario("mandible/subject.toml", {"integrator.step=4 ms", "duration=0.16 s"}),
+               0.16, 15, 4);
 }
 
 }  // namespace
