@@ -7,9 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/body_geometry.hpp"
 #include "sim/collider.hpp"
 #include "sim/muscle_law.hpp"
-#include "sim/shapes.hpp"
+#include "sim/region.hpp"
 
 namespace articular::sim {
 namespace {
@@ -17,186 +18,19 @@ namespace {
 /// Contact stiffness of a side is this times constrained modulus / element height: the mean
 /// penetration is then about a tenth of the element's own compression.
 constexpr double kContactFactor = 10;
-/// A tissue's face counts as crossed up to this part of an element's height. Contact keeps depths far
-/// below it; what lies deeper is seen from beyond an edge, and was not entered through that face.
+/// A tissue's face counts as crossed up to this part of an element's height. Contact keeps depths
+/// far below it; what lies deeper is seen from beyond an edge, and was not entered through that
+/// face.
 constexpr double kTissueReach = 0.5;
 /// Cortical bone, where a bone meets a bone without a layer between: E [Pa], nu.
 constexpr double kBoneModulus = 15e9, kBonePoisson = 0.3;
 /// Depth of the collision elements under a bone's surface where the scenario names none [m].
 constexpr double kDefaultShell = 1e-3;
-/// Faces of a contact mesh within 80 degrees of `facing` take part.
-const double kFacingLimit = std::cos(80 * M_PI / 180);
 /// A muscle that gives less than this part of its maximal force at rest and full activation is
 /// probably a table applied to another subject.
 constexpr double kLeastForceAtRest = 0.1;
 
 double constrained_modulus(double E, double nu) { return E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)); }
-
-/// " (FILE)" of a body that comes from a file.
-std::string mesh_name(const Body& body) {
-  return body.mesh ? " (" + body.mesh->path.string() + ")" : "";
-}
-
-MeshData load(const MeshFile& file) {
-  MeshData mesh;
-  try {
-    mesh = read_mesh(file.path, file.unit);
-  } catch (const InputError& error) {
-    throw InputError(file.where, error.what());
-  }
-  place(file.placement, mesh.X);
-  return mesh;
-}
-
-void append(const MeshData& part, MeshData& whole) {
-  const auto nodes = static_cast<int>(whole.X.cols());
-  const auto triangles = whole.triangles.cols();
-  whole.X.conservativeResize(3, nodes + part.X.cols());
-  whole.X.rightCols(part.X.cols()) = part.X;
-  whole.triangles.conservativeResize(3, triangles + part.triangles.cols());
-  whole.triangles.rightCols(part.triangles.cols()) = part.triangles.array() + nodes;
-}
-
-/// The faces of a surface that face a direction, with the nodes that they use.
-MeshData facing_part(const MeshData& mesh, const Vec3& direction) {
-  std::vector<int> kept, new_index(static_cast<std::size_t>(mesh.X.cols()), -1);
-  MeshData part;
-  part.triangles.resize(3, mesh.triangles.cols());
-  Eigen::Index count = 0;
-  for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-    const Eigen::Vector3i t = mesh.triangles.col(f);
-    const Vec3 area =
-        (mesh.X.col(t[1]) - mesh.X.col(t[0])).cross(mesh.X.col(t[2]) - mesh.X.col(t[0]));
-    if (area.dot(direction) <= kFacingLimit * area.norm()) continue;
-    for (int k = 0; k < 3; ++k) {
-      int& index = new_index[static_cast<std::size_t>(t[k])];
-      if (index < 0) {
-        index = static_cast<int>(kept.size());
-        kept.push_back(t[k]);
-      }
-      part.triangles(k, count) = index;
-    }
-    ++count;
-  }
-  part.triangles.conservativeResize(3, count);
-  part.X = mesh.X(Eigen::all, kept);
-  return part;
-}
-
-/// What was read of one body.
-struct Geometry {
-  MeshData mesh;     // drawn; tissue: with tetrahedra
-  MeshData contact;  // surfaces that touch, without tetrahedra; empty: the mesh
-};
-
-Geometry read_geometry(const Body& body) {
-  Geometry geometry;
-  if (body.mesh) geometry.mesh = load(*body.mesh);
-  if (body.box) geometry.mesh = box_mesh(*body.box);
-  if (body.sphere) geometry.mesh = sphere_mesh(*body.sphere);
-  if (body.v_shape) geometry.mesh = v_shape_mesh(*body.v_shape);
-  if (!body.mesh) place(body.placement, geometry.mesh.X);
-
-  const Location& where = body.mesh ? body.mesh->where : body.where;
-  const bool tissue = body.kind == Body::Kind::Tissue;
-  if (tissue && geometry.mesh.tets.cols() == 0)
-    throw InputError(where, fmt::format("the mesh of tissue `{}`{} has no tetrahedra; expected "
-                                        "a tetrahedral mesh (.vtu, .vtk or .inp)",
-                                        body.name, mesh_name(body)));
-  if (!tissue && geometry.mesh.X.cols() > 0 && geometry.mesh.tets.cols() > 0) {
-    const auto surface =
-        collision::build_surface(geometry.mesh.tets, static_cast<int>(geometry.mesh.X.cols()));
-    geometry.mesh.triangles = surface.faces;
-  }
-  for (const MeshFile& file : body.contact_meshes) {
-    MeshData part = load(file);
-    if (part.triangles.cols() == 0)
-      throw InputError(file.where, fmt::format("contact mesh {} of `{}` has no triangles",
-                                               file.path.string(), body.name));
-    if (file.facing) part = facing_part(part, *file.facing);
-    if (file.faces) part = simplified(part, *file.faces);
-    append(part, geometry.contact);
-  }
-  return geometry;
-}
-
-MassProperties rigid_mass(const Body& body, const MeshData& mesh) {
-  MassProperties mass;
-  const bool from_mesh = !(body.mass && body.center_of_mass && body.inertia);
-  if (from_mesh) {
-    if (mesh.triangles.cols() == 0)
-      throw InputError(body.where, fmt::format("rigid body `{}` needs a mesh, or mass, "
-                                               "center_of_mass and inertia",
-                                               body.name));
-    mass = solid_mass_properties(mesh.X, mesh.triangles, body.density.value_or(1.0));
-    if (!(mass.mass > 0))
-      throw InputError(body.where,
-                       fmt::format("the surface of `{}` encloses no volume; expected a closed "
-                                   "surface with outward normals",
-                                   body.name));
-    if (body.mass) {
-      mass.inertia *= *body.mass / mass.mass;
-    }
-  }
-  if (body.mass) mass.mass = *body.mass;
-  if (body.center_of_mass) mass.center = *body.center_of_mass;
-  if (body.inertia) mass.inertia = *body.inertia;
-  return mass;
-}
-
-/// Squared distance of a point from the triangle a b c. [Ericson 2005, Real-Time Collision
-/// Detection, 5.1.5: by the part of the plane that the point projects to]
-double squared_distance(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto from_edge = [&](const Vec3& p, const Vec3& q) {
-    const Vec3 edge = q - p;
-    const double length = edge.squaredNorm();
-    const double s = length > 0 ? std::clamp((x - p).dot(edge) / length, 0.0, 1.0) : 0.0;
-    return (x - p - s * edge).squaredNorm();
-  };
-  const Vec3 n = (b - a).cross(c - a);
-  const bool inside = n.squaredNorm() > 0 && (b - a).cross(x - a).dot(n) >= 0 &&
-                      (c - b).cross(x - b).dot(n) >= 0 && (a - c).cross(x - c).dot(n) >= 0;
-  if (inside) return std::pow((x - a).dot(n), 2) / n.squaredNorm();
-  return std::min({from_edge(a, b), from_edge(b, c), from_edge(c, a)});
-}
-
-bool is_near(const MeshData& mesh, const Vec3& x, double distance) {
-  for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-    const Vec3 a = mesh.X.col(mesh.triangles(0, f)), b = mesh.X.col(mesh.triangles(1, f)),
-               c = mesh.X.col(mesh.triangles(2, f));
-    if (squared_distance(x, a, b, c) <= distance * distance) return true;
-  }
-  return false;
-}
-
-/// A region's nodes, tested in the geometry at the start.
-class RegionTest {
- public:
-  RegionTest(const Region& region, const Model& model, const std::vector<Geometry>& geometry)
-      : region_(region) {
-    if (!region.near_body) return;
-    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      if (model.bodies[b].name != region.near_body->first) continue;
-      const Geometry& near = geometry[b];
-      near_ = near.contact.X.cols() > 0 ? near.contact : near.mesh;
-      if (near_.tets.cols() > 0)
-        near_.triangles =
-            collision::build_surface(near_.tets, static_cast<int>(near_.X.cols())).faces;
-    }
-  }
-  bool contains(const Vec3& x, bool on_surface) const {
-    if (region_.surface_only && !on_surface) return false;
-    if (region_.box &&
-        ((x - region_.box->first).minCoeff() < 0 || (region_.box->second - x).minCoeff() < 0))
-      return false;
-    if (region_.sphere && (x - region_.sphere->first).norm() > region_.sphere->second) return false;
-    return !region_.near_body || is_near(near_, x, region_.near_body->second);
-  }
-
- private:
-  const Region& region_;
-  MeshData near_;
-};
 
 class Builder {
  public:
@@ -636,7 +470,7 @@ class Builder {
   }
 
   Model model_;
-  std::vector<Geometry> geometry_;           // one a body
+  std::vector<BodyGeometry> geometry_;       // one a body
   std::vector<collision::Surface> surface_;  // one a tissue
   mutable Positions free_start_;             // of the free tissue nodes, by block
 };

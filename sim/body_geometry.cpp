@@ -1,0 +1,126 @@
+#include "sim/body_geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "collision/surface.hpp"
+#include "sim/shapes.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Faces of a contact mesh within 80 degrees of `facing` take part.
+const double kFacingLimit = std::cos(80 * std::numbers::pi / 180);
+
+MeshData load(const MeshFile& file) {
+  MeshData mesh;
+  try {
+    mesh = read_mesh(file.path, file.unit);
+  } catch (const InputError& error) {
+    throw InputError(file.where, error.what());
+  }
+  place(file.placement, mesh.X);
+  return mesh;
+}
+
+void append(const MeshData& part, MeshData& whole) {
+  const auto nodes = static_cast<int>(whole.X.cols());
+  const auto triangles = whole.triangles.cols();
+  whole.X.conservativeResize(3, nodes + part.X.cols());
+  whole.X.rightCols(part.X.cols()) = part.X;
+  whole.triangles.conservativeResize(3, triangles + part.triangles.cols());
+  whole.triangles.rightCols(part.triangles.cols()) = part.triangles.array() + nodes;
+}
+
+/// The faces of a surface that face a direction, with the nodes that they use.
+MeshData facing_part(const MeshData& mesh, const Vec3& direction) {
+  std::vector<int> kept, new_index(static_cast<std::size_t>(mesh.X.cols()), -1);
+  MeshData part;
+  part.triangles.resize(3, mesh.triangles.cols());
+  Eigen::Index count = 0;
+  for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+    const Eigen::Vector3i t = mesh.triangles.col(f);
+    const Vec3 area =
+        (mesh.X.col(t[1]) - mesh.X.col(t[0])).cross(mesh.X.col(t[2]) - mesh.X.col(t[0]));
+    if (area.dot(direction) <= kFacingLimit * area.norm()) continue;
+    for (int k = 0; k < 3; ++k) {
+      int& index = new_index[static_cast<std::size_t>(t[k])];
+      if (index < 0) {
+        index = static_cast<int>(kept.size());
+        kept.push_back(t[k]);
+      }
+      part.triangles(k, count) = index;
+    }
+    ++count;
+  }
+  part.triangles.conservativeResize(3, count);
+  part.X = mesh.X(Eigen::all, kept);
+  return part;
+}
+
+}  // namespace
+
+std::string mesh_name(const Body& body) {
+  return body.mesh ? " (" + body.mesh->path.string() + ")" : "";
+}
+
+BodyGeometry read_geometry(const Body& body) {
+  BodyGeometry geometry;
+  if (body.mesh) geometry.mesh = load(*body.mesh);
+  if (body.box) geometry.mesh = box_mesh(*body.box);
+  if (body.sphere) geometry.mesh = sphere_mesh(*body.sphere);
+  if (body.v_shape) geometry.mesh = v_shape_mesh(*body.v_shape);
+  if (!body.mesh) place(body.placement, geometry.mesh.X);
+
+  const Location& where = body.mesh ? body.mesh->where : body.where;
+  const bool tissue = body.kind == Body::Kind::Tissue;
+  if (tissue && geometry.mesh.tets.cols() == 0)
+    throw InputError(where, fmt::format("the mesh of tissue `{}`{} has no tetrahedra; expected "
+                                        "a tetrahedral mesh (.vtu, .vtk or .inp)",
+                                        body.name, mesh_name(body)));
+  if (!tissue && geometry.mesh.X.cols() > 0 && geometry.mesh.tets.cols() > 0) {
+    const auto surface =
+        collision::build_surface(geometry.mesh.tets, static_cast<int>(geometry.mesh.X.cols()));
+    geometry.mesh.triangles = surface.faces;
+  }
+  for (const MeshFile& file : body.contact_meshes) {
+    MeshData part = load(file);
+    if (part.triangles.cols() == 0)
+      throw InputError(file.where, fmt::format("contact mesh {} of `{}` has no triangles",
+                                               file.path.string(), body.name));
+    if (file.facing) part = facing_part(part, *file.facing);
+    if (file.faces) part = simplified(part, *file.faces);
+    append(part, geometry.contact);
+  }
+  return geometry;
+}
+
+MassProperties rigid_mass(const Body& body, const MeshData& mesh) {
+  MassProperties mass;
+  const bool from_mesh = !(body.mass && body.center_of_mass && body.inertia);
+  if (from_mesh) {
+    if (mesh.triangles.cols() == 0)
+      throw InputError(body.where, fmt::format("rigid body `{}` needs a mesh, or mass, "
+                                               "center_of_mass and inertia",
+                                               body.name));
+    mass = solid_mass_properties(mesh.X, mesh.triangles, body.density.value_or(1.0));
+    if (!(mass.mass > 0))
+      throw InputError(body.where,
+                       fmt::format("the surface of `{}` encloses no volume; expected a closed "
+                                   "surface with outward normals",
+                                   body.name));
+    if (body.mass) {
+      mass.inertia *= *body.mass / mass.mass;
+    }
+  }
+  if (body.mass) mass.mass = *body.mass;
+  if (body.center_of_mass) mass.center = *body.center_of_mass;
+  if (body.inertia) mass.inertia = *body.inertia;
+  return mass;
+}
+
+}  // namespace articular::sim
