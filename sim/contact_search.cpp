@@ -59,8 +59,9 @@ bool tied(const Collider& a, int triangle, const Collider& b, int face) {
   return false;
 }
 
-/// Keeps the candidates whose face itself meets the triangle's body. A triangle that passes the edge of
-/// a body also faces that body's far side, which it can't have come through: that side is outside.
+/// Keeps the candidates whose face itself meets the triangle's body. A triangle that passes the
+/// edge of a body also faces that body's far side, which it can't have come through: that side is
+/// outside.
 void drop_far_faces(const std::vector<collision::Penetration>& faces_in_triangles_body,
                     std::size_t num_faces, std::vector<ContactCandidate>& pairs) {
   if (pairs.empty()) return;
@@ -128,10 +129,10 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     CandidateList& list = candidates_[i];
     const ContactModel& contact = model_.contacts[static_cast<std::size_t>(list.contact)];
-    const Moving& a = moving_[static_cast<std::size_t>(
-        moving_of_body_[static_cast<std::size_t>(contact.a)])];
-    const Moving& b = moving_[static_cast<std::size_t>(
-        moving_of_body_[static_cast<std::size_t>(contact.b)])];
+    const Moving& a =
+        moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(contact.a)])];
+    const Moving& b =
+        moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(contact.b)])];
     const auto num_faces = [&](const Moving& moving) {
       return model_.bodies[static_cast<std::size_t>(moving.body)].collider->face_area.size();
     };

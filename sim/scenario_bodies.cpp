@@ -19,9 +19,9 @@ double read_length_unit(const Node& node) {
 
 /// @param is_contact_mesh  allows `facing` and `faces`
 MeshFile read_mesh(const Node& node, const std::filesystem::path& folder, bool is_contact_mesh) {
-  const auto table = is_contact_mesh
-                         ? TableReader(node, "contact mesh", {"file", "unit", "place", "facing", "faces"})
-                         : TableReader(node, "mesh", {"file", "unit", "place"});
+  const auto table = is_contact_mesh ? TableReader(node, "contact mesh",
+                                                   {"file", "unit", "place", "facing", "faces"})
+                                     : TableReader(node, "mesh", {"file", "unit", "place"});
   MeshFile mesh;
   mesh.where = table.at("file").where;
   mesh.path = read_path(table.at("file"), folder);
