@@ -1,36 +1,18 @@
-#include <vtkCellArray.h>
-#include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
+#include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkQuadricDecimation.h>
+#include <vtkSmartPointer.h>
 
 #include "sim/mesh_io.hpp"
+#include "sim/vtk_files.hpp"
 
 namespace articular::sim {
 namespace {
 
 /// VTK merges points by absolute tolerances: it works in millimetres.
 constexpr double kMillimetre = 1e-3;
-
-vtkNew<vtkPolyData> to_vtk(const MeshData& surface) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (Eigen::Index i = 0; i < surface.X.cols(); ++i) {
-    const Eigen::Vector3d x = surface.X.col(i) / kMillimetre;
-    points->InsertNextPoint(x.data());
-  }
-  vtkNew<vtkCellArray> cells;
-  for (Eigen::Index f = 0; f < surface.triangles.cols(); ++f) {
-    cells->InsertNextCell(3);
-    for (const int node : surface.triangles.col(f)) cells->InsertCellPoint(node);
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(cells);
-  return data;
-}
 
 MeshData from_vtk(vtkPolyData& data) {
   MeshData result;
@@ -50,7 +32,7 @@ MeshData from_vtk(vtkPolyData& data) {
 
 MeshData simplified(const MeshData& surface, int faces) {
   if (faces >= surface.triangles.cols()) return surface;
-  const auto input = to_vtk(surface);
+  const auto input = make_surface(surface.X, kMillimetre, surface.triangles);
   vtkNew<vtkQuadricDecimation> decimation;
   decimation->SetInputData(input);
   decimation->SetTargetReduction(1 - static_cast<double>(faces) /

@@ -36,7 +36,7 @@ name = "skull"
 kind = "fixed"
 mesh = { file = "anatomy/skull.vtp", unit = "cm" }
 contact_meshes = [
-  { file = "anatomy/fossa_left.vtp", facing = [0, 0, -2] },
+  { file = "anatomy/fossa_left.vtp", facing = [0, 0, -2], faces = 500 },
   { file = "anatomy/fossa_right.vtp", unit = "m", place = { scale = 2 } },
 ]
 layer = { thickness = "0.4 mm", young_modulus = "2.7 MPa", poisson_ratio = 0.49 }
@@ -243,6 +243,7 @@ TEST_F(CompleteScenario, HasItsBones) {
   EXPECT_EQ(skull.mesh->unit, 1e-2);
   ASSERT_EQ(skull.contact_meshes.size(), 2U);
   EXPECT_EQ(skull.contact_meshes[0].facing, Vec3(0, 0, -1));
+  EXPECT_EQ(skull.contact_meshes[0].faces, 500);
   EXPECT_EQ(skull.contact_meshes[0].unit, 1e-3);
   EXPECT_EQ(skull.contact_meshes[1].unit, 1);
   EXPECT_EQ(skull.contact_meshes[1].placement.scale, 2);
