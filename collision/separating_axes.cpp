@@ -1,0 +1,283 @@
+// Two stages. A filter evaluates the usual axes in barycentric coordinates of the tetrahedron, with
+// bounds of its own round-off: where these leave no doubt, and that is nearly always, its verdict
+// is that of exact arithmetic. What is left, touching shapes and slivers, goes to all axes on which
+// two nearest points can lie, in coordinates rounded to integers.
+#include "collision/separating_axes.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+
+namespace articular::collision {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Tetrahedron = Eigen::Matrix<double, 3, 4>;
+
+enum class Verdict { Apart, Overlapping, Unknown };
+
+/// Nodes c, d of an edge of the tetrahedron, then a, b of the opposite one.
+constexpr std::array<std::array<int, 4>, 6> kOpposite = {
+    {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
+
+// Bounds of round-off in the filter, from u = 2⁻⁵³ an operation. With s, s_w the largest coordinate
+// of the pair and of the tetrahedron relative to node 0: a component of a normal (≤ 2 s_w²) is off
+// by ≤ 8u s_w², a height (≤ 6 s_w² s) by ≤ 48u s_w² s, the one over face 0, the volume less three
+// heights, by ≤ 264u s_w² s; 2⁻⁴⁴ = 512u. Two products of a height (≤ 24 s_w² s) and a difference
+// of heights (≤ 48 s_w² s, off by ≤ 550u s_w² s) are then off by ≤ 56 400u (s_w² s)²; 2⁻³⁷ = 65
+// 536u.
+constexpr double kHeightRoundOff = 0x1p-44;
+constexpr double kProductRoundOff = 0x1p-37;
+
+// The bounds above are relative: they hold while no product leaves the range of numbers. Sizes in
+// this range have sixth powers of 1e-180 to 1e180; the last bound is for one shape much smaller.
+constexpr double kSmallest = 1e-30, kLargest = 1e30, kSmallestProduct = 1e-250;
+
+/// The tetrahedron relative to its node 0, and the triangle as its barycentric coordinates tell.
+struct Heights {
+  double volume;  // six times that of the tetrahedron, ≥ 0 [m³]
+  // Over face k of corner i of the triangle: its barycentric coordinate k times the volume.
+  std::array<std::array<double, 3>, 4> over;
+  std::array<Vector3d, 4> normals;  // inward, of twice the face's area [m²]
+};
+
+Heights heights(const Matrix3d& triangle, const Matrix3d& edges) {
+  Heights h;
+  h.normals[1] = edges.col(1).cross(edges.col(2));
+  h.normals[2] = edges.col(2).cross(edges.col(0));
+  h.normals[3] = edges.col(0).cross(edges.col(1));
+  h.volume = h.normals[1].dot(edges.col(0));
+  if (h.volume < 0) {
+    h.volume = -h.volume;
+    for (std::size_t k = 1; k < 4; ++k) h.normals[k] = -h.normals[k];
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3d corner = triangle.col(static_cast<Eigen::Index>(i));
+    for (std::size_t k = 1; k < 4; ++k) h.over[k][i] = h.normals[k].dot(corner);
+    h.over[0][i] = h.volume - h.over[1][i] - h.over[2][i] - h.over[3][i];
+  }
+  return h;
+}
+
+/// The plane of the triangle: Overlapping means that it cuts the tetrahedron.
+Verdict triangle_plane(const Vector3d& normal, const Vector3d& corner, const Matrix3d& edges,
+                       double margin, double round_off) {
+  const double of_triangle = normal.dot(corner);
+  double low = 0, high = 0;  // of the tetrahedron, over node 0
+  for (int k = 0; k < 3; ++k) {
+    const double height = normal.dot(edges.col(k));
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  const double gap = std::max(low - of_triangle, of_triangle - high);
+  if (gap > round_off && (margin == 0 || gap - round_off > margin * normal.norm()))
+    return Verdict::Apart;
+  return gap < -round_off ? Verdict::Overlapping : Verdict::Unknown;
+}
+
+/// The planes of the tetrahedron's faces: Overlapping means that none has the triangle outside.
+Verdict face_planes(const Heights& h, double margin, double round_off) {
+  double least = h.volume;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double highest = std::max({h.over[k][0], h.over[k][1], h.over[k][2]});
+    if (highest < -round_off) {
+      const Vector3d normal = k > 0 ? h.normals[k] : h.normals[1] + h.normals[2] + h.normals[3];
+      if (margin == 0 || -highest - round_off > margin * normal.norm()) return Verdict::Apart;
+    }
+    least = std::min(least, highest);
+  }
+  return least > round_off ? Verdict::Overlapping : Verdict::Unknown;
+}
+
+bool corner_is_inside(const Heights& h, double round_off) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (std::min({h.over[0][i], h.over[1][i], h.over[2][i], h.over[3][i]}) > round_off) return true;
+  return false;
+}
+
+/// Gap along edge i of the triangle × the edge of the tetrahedron opposite to that of c and d,
+/// times the volume: with barycentric coordinates λ, differences Δ along edge i and the origin on
+/// the tetrahedron's edge, the product's component along x is volume (λ_c Δλ_d - λ_d Δλ_c)(x), so
+/// that the other nodes of the tetrahedron and both ends of edge i need no product of their own.
+double edge_gap(const Heights& h, std::size_t i, std::size_t c, std::size_t d) {
+  const std::size_t j = (i + 1) % 3, corner = (i + 2) % 3;
+  const double along_c = h.over[c][j] - h.over[c][i], along_d = h.over[d][j] - h.over[d][i];
+  const double of_edge = h.over[c][i] * along_d - h.over[d][i] * along_c;
+  const double of_corner = h.over[c][corner] * along_d - h.over[d][corner] * along_c;
+  const double of_c = h.volume * along_d, of_d = -h.volume * along_c;
+  const double low = std::min(std::min(of_c, of_d), 0.0);
+  const double high = std::max(std::max(of_c, of_d), 0.0);
+  return std::max(std::min(of_edge, of_corner) - high, low - std::max(of_edge, of_corner));
+}
+
+Verdict edge_products(const Heights& h, const Matrix3d& triangle, const Tetrahedron& tetrahedron,
+                      double margin, double round_off) {
+  double largest = -h.volume * h.volume;
+  for (const auto& [c, d, a, b] : kOpposite)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double gap = edge_gap(h, i, static_cast<std::size_t>(c), static_cast<std::size_t>(d));
+      largest = std::max(largest, gap);
+      if (!(gap > round_off)) continue;
+      if (margin == 0) return Verdict::Apart;
+      const Eigen::Index from = static_cast<Eigen::Index>(i), to = (from + 1) % 3;
+      const Vector3d axis =
+          (triangle.col(to) - triangle.col(from)).cross(tetrahedron.col(b) - tetrahedron.col(a));
+      if (gap - round_off > margin * h.volume * axis.norm()) return Verdict::Apart;
+    }
+  return largest < -round_off ? Verdict::Overlapping : Verdict::Unknown;
+}
+
+/// The usual 23 axes. For a tetrahedron with volume these are the normals of all faces that the
+/// difference of the two shapes can have, so that no gap along any of them means overlap.
+/// @param corners, edges  of the triangle and of the tetrahedron, relative to its node 0
+Verdict filter(const Matrix3d& triangle, const Tetrahedron& tetrahedron, const Matrix3d& corners,
+               const Matrix3d& edges, double margin) {
+  const Vector3d side = triangle.col(1) - triangle.col(0),
+                 other = triangle.col(2) - triangle.col(0);
+  const double size_w = edges.cwiseAbs().maxCoeff();
+  const double size_t = std::max(side.cwiseAbs().maxCoeff(), other.cwiseAbs().maxCoeff());
+  const double size = std::max(size_w, corners.cwiseAbs().maxCoeff());
+  const double unit = size_w * size_w * size, unit_t = size_t * size_t * size;
+  if (!(size > kSmallest && size < kLargest && unit_t > kSmallestProduct &&
+        unit * unit > kSmallestProduct))
+    return Verdict::Unknown;
+
+  // The bounds are for sums of products, in which the margin's part is round-off as well.
+  margin *= 1 + kHeightRoundOff;
+  const Verdict by_triangle =
+      triangle_plane(side.cross(other), corners.col(0), edges, margin, kHeightRoundOff * unit_t);
+  if (by_triangle == Verdict::Apart) return Verdict::Apart;
+  const double height_round_off = kHeightRoundOff * unit;
+  const Heights h = heights(corners, edges);
+  if (!(h.volume > height_round_off)) return Verdict::Unknown;
+  const Verdict by_faces = face_planes(h, margin, height_round_off);
+  if (by_faces == Verdict::Apart) return Verdict::Apart;
+  if (corner_is_inside(h, height_round_off)) return Verdict::Overlapping;
+  const Verdict by_edges =
+      edge_products(h, triangle, tetrahedron, margin, kProductRoundOff * unit * unit);
+  if (by_edges == Verdict::Apart) return Verdict::Apart;
+  const bool certain = by_triangle == Verdict::Overlapping && by_faces == Verdict::Overlapping;
+  return certain ? by_edges : Verdict::Unknown;
+}
+
+// Corners of a pair are rounded to integers of up to 2⁵¹, so that differences are exact: the
+// rounded shapes, off by 2⁻⁵⁰ of the pair's size, are decided as they are, however thin.
+constexpr int kBits = 51;
+
+// A gap may be round-off up to this number of units. Rounding the corners moves them by √3 each;
+// a component along a unit axis, three products with up to 2⁵¹, is off by about 1.5, a difference
+// of two by 3; the axis itself, off by a few 2⁻⁵³, turns that away by another 3.
+constexpr double kTouching = 16;
+
+/// a × b, each component with a relative error of 2⁻⁵² at most however much of it cancels
+/// [Jeannerod, Louvet, Muller: Further analysis of Kahan's algorithm for the accurate computation
+/// of 2×2 determinants. Mathematics of Computation 82 (2013)]: parallel integer vectors give 0.
+Vector3d accurate_cross(const Vector3d& a, const Vector3d& b) {
+  const auto component = [&](int i, int j) {
+    const double product = a[j] * b[i];
+    return std::fma(a[i], b[j], -product) + std::fma(-a[j], b[i], product);
+  };
+  return {component(1, 2), component(2, 0), component(0, 1)};
+}
+
+/// A pair in integer coordinates, and whether an axis separates it.
+class IntegerPair {
+ public:
+  /// Corners relative to a common origin, with the largest coordinate > 0.
+  IntegerPair(const Matrix3d& triangle, const Tetrahedron& tetrahedron, double size,
+              double margin) {
+    // In two factors, as the whole one may be out of range.
+    const int exponent = kBits - 1 - std::ilogb(size);
+    const double first = std::ldexp(1.0, exponent / 2);
+    const double second = std::ldexp(1.0, exponent - exponent / 2);
+    const auto rounded = [&](double x) {
+      return static_cast<double>(static_cast<std::int64_t>(x * first * second));
+    };
+    triangle_ = triangle.unaryExpr(rounded);
+    tetrahedron_ = tetrahedron.unaryExpr(rounded);
+    least_gap_ = margin * first * second * (1 + 4 * 0x1p-52) + kTouching;
+  }
+
+  bool overlap() const {
+    return !(by_faces() || by_edges() || by_perpendiculars(triangle_, tetrahedron_) ||
+             by_perpendiculars(tetrahedron_, triangle_) || by_corners());
+  }
+
+ private:
+  bool separates(const Vector3d& axis) const {
+    const Eigen::RowVector3d t = axis.transpose() * triangle_;
+    const Eigen::RowVector4d w = axis.transpose() * tetrahedron_;
+    const double gap = std::max(t.minCoeff() - w.maxCoeff(), w.minCoeff() - t.maxCoeff());
+    return gap > 0 && gap > least_gap_ * axis.norm();
+  }
+
+  bool by_face(const Vector3d& p0, const Vector3d& p1, const Vector3d& p2) const {
+    return separates(accurate_cross(p1 - p0, p2 - p0));
+  }
+
+  bool by_faces() const {
+    const Tetrahedron& w = tetrahedron_;
+    return by_face(triangle_.col(0), triangle_.col(1), triangle_.col(2)) ||
+           by_face(w.col(1), w.col(2), w.col(3)) || by_face(w.col(0), w.col(2), w.col(3)) ||
+           by_face(w.col(0), w.col(1), w.col(3)) || by_face(w.col(0), w.col(1), w.col(2));
+  }
+
+  bool by_edges() const {
+    for (int i = 0; i < 3; ++i) {
+      const Vector3d edge = triangle_.col((i + 1) % 3) - triangle_.col(i);
+      for (int a = 0; a < 4; ++a)
+        for (int b = a + 1; b < 4; ++b)
+          if (separates(accurate_cross(edge, tetrahedron_.col(b) - tetrahedron_.col(a))))
+            return true;
+    }
+    return false;
+  }
+
+  /// From a corner of one shape to an edge of the other. The second product is of vectors at right
+  /// angles: nothing cancels.
+  template <class Edges, class Corners>
+  bool by_perpendiculars(const Edges& edges, const Corners& corners) const {
+    for (int a = 0; a < edges.cols(); ++a)
+      for (int b = a + 1; b < edges.cols(); ++b) {
+        const Vector3d edge = edges.col(b) - edges.col(a);
+        for (int k = 0; k < corners.cols(); ++k)
+          if (separates(accurate_cross(corners.col(k) - edges.col(a), edge).cross(edge)))
+            return true;
+      }
+    return false;
+  }
+
+  bool by_corners() const {
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 4; ++k)
+        if (separates(triangle_.col(i) - tetrahedron_.col(k))) return true;
+    return false;
+  }
+
+  Matrix3d triangle_;
+  Tetrahedron tetrahedron_;
+  double least_gap_;  // along a unit axis that separates
+};
+
+}  // namespace
+
+bool separating_axes_overlap(const Matrix3d& triangle, const Tetrahedron& tetrahedron,
+                             double margin) {
+  assert(margin >= 0);
+  const Vector3d origin = tetrahedron.col(0);
+  const Matrix3d corners = triangle.colwise() - origin;
+  const Matrix3d edges = tetrahedron.rightCols<3>().colwise() - origin;
+  const Verdict verdict = filter(triangle, tetrahedron, corners, edges, margin);
+  if (verdict != Verdict::Unknown) return verdict == Verdict::Overlapping;
+
+  const double size = std::max(edges.cwiseAbs().maxCoeff(), corners.cwiseAbs().maxCoeff());
+  if (size == 0) return true;  // one point
+  const Tetrahedron local = tetrahedron.colwise() - origin;
+  return IntegerPair(corners, local, size, margin).overlap();
+}
+
+}  // namespace articular::collision
