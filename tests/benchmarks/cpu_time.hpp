@@ -1,0 +1,15 @@
+#pragma once
+
+#include <time.h>
+
+namespace articular::benchmarks {
+
+/// Processor time of this process [s], of all its threads: other programs do not count, and nobody
+/// gains by threads.
+inline double cpu_seconds() {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace articular::benchmarks
