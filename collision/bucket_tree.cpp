@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
+
+#include "collision/bad_input.hpp"
 
 namespace articular::collision {
 namespace {
@@ -13,9 +13,6 @@ namespace {
 // A rest element is flat if its volume is below this part of its longest edge cubed. A regular one
 // has 0.118; slivers that mesh generators leave have 1e-6.
 constexpr double kFlatVolume = 1e-12;
-
-// Beyond this the square of a length, or a difference of two, may overflow [m].
-constexpr double kMaxCoordinate = 1e150;
 
 // The smallest root [m]: its inverse must be finite. Smaller meshes are points to the mapping.
 constexpr double kMinRootEdge = 1e-290;
@@ -26,23 +23,6 @@ constexpr double kMappingRoundOff = 8;
 
 // A refitted root is at most this times as large as the mesh, however small the mesh became.
 constexpr double kMaxRootSlack = 4;
-
-template <class... Parts>
-[[noreturn]] void bad_input(const Parts&... parts) {
-  std::ostringstream message;
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
-}
-
-void check_positions(const Eigen::Matrix3Xd& x, Eigen::Index num_nodes, const char* what) {
-  if (x.cols() != num_nodes) bad_input(what, ": ", x.cols(), " nodes, expected ", num_nodes);
-  // NaN fails every comparison, so that one condition rejects all that is not finite.
-  if ((x.array().abs() <= kMaxCoordinate).all()) return;
-  for (Eigen::Index a = 0; a < x.cols(); ++a)
-    if (!(x.col(a).array().abs() <= kMaxCoordinate).all())
-      bad_input(what, " of node ", a, " is (", x(0, a), ", ", x(1, a), ", ", x(2, a),
-                ") m; each coordinate must be finite and within ±", kMaxCoordinate, " m");
-}
 
 Aabb cube(const Eigen::Vector3d& min, double edge) {
   Aabb box;

@@ -65,6 +65,7 @@ class BroadPhase {
 /// The broad phase with the narrow test that all have in common behind it.
 std::unique_ptr<Peer> with_narrow_test(std::unique_ptr<BroadPhase> broad_phase);
 
+std::unique_ptr<Peer> block_tree_peer(std::span<const MeshView> bodies);
 std::unique_ptr<Peer> article_peer(std::span<const MeshView> bodies);
 std::unique_ptr<BroadPhase> spatial_hash();
 std::unique_ptr<BroadPhase> cgal_box_intersection();

@@ -12,7 +12,7 @@ PeerEntry broad(std::string name, std::unique_ptr<BroadPhase> (*make)()) {
 
 std::vector<PeerEntry> all_peers() {
   std::vector<PeerEntry> peers;
-  // The block tree of collision/ comes here.
+  peers.push_back({"block tree", block_tree_peer});
   peers.push_back({"article's algorithm", article_peer});
   peers.push_back(broad("spatial hash", spatial_hash));
 #ifdef ARTICULAR_HAS_CGAL

@@ -1,0 +1,308 @@
+#include "collision/block_collide.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include "collision/box_group.hpp"
+#include "collision/narrow_rule.hpp"
+
+namespace articular::collision {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Boxes with the number of what is in them, in groups for the vectorised test.
+struct BoxList {
+  std::vector<BoxGroup> groups;
+  std::vector<int> ids;
+
+  void clear() {
+    groups.clear();
+    ids.clear();
+  }
+  void push(const FloatBox& box, int id) {
+    const std::size_t lane = ids.size() % kLanes;
+    if (lane == 0) groups.push_back(empty_group());
+    put(box, groups.back(), lane);
+    ids.push_back(id);
+  }
+};
+
+/// From one tree's frame into another's. The result is not rounded outward: boxes have room for it.
+struct FrameChange {
+  double factor;
+  Eigen::Vector3d shift;
+
+  FrameChange(const BlockTree& from, const BlockTree& to)
+      : factor(from.scale() / to.scale()), shift((from.origin() - to.origin()) / to.scale()) {}
+  FloatBox operator()(const FloatBox& box) const {
+    FloatBox moved;
+    for (int axis = 0; axis < 3; ++axis) {
+      moved.low[axis] = static_cast<float>(box.low[axis] * factor + shift[axis]);
+      moved.high[axis] = static_cast<float>(box.high[axis] * factor + shift[axis]);
+    }
+    return moved;
+  }
+};
+
+template <class Visit>
+void for_each_bit(unsigned mask, Visit&& visit) {
+  for (; mask != 0; mask &= mask - 1) visit(static_cast<std::size_t>(__builtin_ctz(mask)));
+}
+
+/// Sixteen blocks of tetrahedra, and which face blocks they may meet.
+struct Task {
+  int group;
+  std::size_t begin, end;  // in Parts::task_faces
+  const struct Worker* found_by = nullptr;
+  std::size_t first_pair = 0, num_pairs = 0;
+};
+
+struct Worker {
+  BoxList faces;  // of one task: blocks of faces
+  // Of one block of tetrahedra: faces that reach into its box.
+  std::vector<int> face_blocks;
+  std::vector<std::uint16_t> face_masks;
+  std::vector<std::uint32_t> accepted, doubtful;
+  std::vector<Penetration> pairs;
+  std::int64_t candidates = 0, doubts = 0;
+};
+
+}  // namespace
+
+struct BlockQueryScratch::Parts {
+  std::vector<BoxGroup> face_boxes;  // of the face blocks within reach, in the frame of W
+  std::vector<int> face_blocks;
+  std::vector<BoxList> lists;  // a level
+  std::vector<Task> tasks;
+  std::vector<int> task_faces;  // indices into face_blocks
+  std::vector<Worker> workers;
+};
+
+BlockQueryScratch::BlockQueryScratch() : parts_(std::make_unique<Parts>()) {}
+BlockQueryScratch::~BlockQueryScratch() = default;
+BlockQueryScratch::BlockQueryScratch(BlockQueryScratch&&) noexcept = default;
+BlockQueryScratch& BlockQueryScratch::operator=(BlockQueryScratch&&) noexcept = default;
+
+namespace {
+
+/// One direction of a query: faces of F in tetrahedra of W.
+class Search {
+ public:
+  Search(const BlockTree& F, const BlockTree& W, bool one_mesh, const BlockQueryOptions& options,
+         BlockQueryScratch::Parts& scratch)
+      : F_(F),
+        W_(W),
+        one_mesh_(one_mesh),
+        narrow_(options.narrow),
+        kernels_(block_kernels(options.instruction_set)),
+        s_(scratch) {}
+
+  /// Fills s.tasks.
+  void find_tasks() const {
+    s_.tasks.clear();
+    s_.task_faces.clear();
+    s_.lists.resize(W_.tet_levels().size() + 1);
+    BoxList& top = s_.lists.back();
+    collect_faces(top);
+    if (top.ids.empty()) return;
+    descend(W_.tet_levels().size() - 1, 0, top);
+  }
+
+  void run_task(const Task& task, Worker& worker) const {
+    worker.faces.clear();
+    for (std::size_t i = task.begin; i < task.end; ++i) {
+      const int face_block = s_.task_faces[i];
+      const BoxGroup& group = s_.face_boxes[static_cast<std::size_t>(face_block)];
+      worker.faces.push(union_of(group), face_block);
+    }
+    const BoxGroup& blocks = W_.tet_levels()[0][static_cast<std::size_t>(task.group)];
+    const int first = task.group * kBlockSize;
+    const int num = std::min(kBlockSize, W_.num_tet_blocks() - first);
+    for (int i = 0; i < num; ++i)
+      test_block(first + i, box_in(blocks, static_cast<std::size_t>(i)), worker);
+  }
+
+ private:
+  /// The face blocks of F that reach into the box of W.
+  void collect_faces(BoxList& list) const {
+    const FrameChange into_w(F_, W_);
+    const FloatBox root = union_of(W_.tet_levels().back()[0]);
+    s_.face_boxes.clear();
+    s_.face_blocks.clear();
+    list.clear();
+    for (int block = 0; block < F_.num_face_blocks(); ++block) {
+      const BoxGroup& group = F_.face_boxes()[static_cast<std::size_t>(block)];
+      const FloatBox box = into_w(union_of(group));
+      if (!overlap(box, root)) continue;
+      list.push(box, static_cast<int>(s_.face_blocks.size()));
+      s_.face_blocks.push_back(block);
+      BoxGroup& moved = s_.face_boxes.emplace_back();
+      for (std::size_t lane = 0; lane < kLanes; ++lane)
+        put(into_w(box_in(group, lane)), moved, lane);
+    }
+  }
+
+  /// Of the boxes in the list those that overlap the box.
+  void filter(const BoxList& list, const FloatBox& box, BoxList& result) const {
+    result.clear();
+    for (std::size_t g = 0; g < list.groups.size(); ++g)
+      for_each_bit(kernels_.overlapping(list.groups[g], box), [&](std::size_t lane) {
+        result.push(box_in(list.groups[g], lane), list.ids[kLanes * g + lane]);
+      });
+  }
+
+  /// Down a group of the tree over W's blocks, with the face blocks that may meet it.
+  void descend(std::size_t level, std::size_t group, const BoxList& faces) const {
+    if (level == 0) {
+      const std::size_t begin = s_.task_faces.size();
+      s_.task_faces.insert(s_.task_faces.end(), faces.ids.begin(), faces.ids.end());
+      s_.tasks.push_back({static_cast<int>(group), begin, s_.task_faces.size()});
+      return;
+    }
+    const BoxGroup& children = W_.tet_levels()[level][group];
+    const std::size_t num = std::min(kLanes, W_.tet_levels()[level - 1].size() - kLanes * group);
+    for (std::size_t lane = 0; lane < num; ++lane) {
+      BoxList& below = s_.lists[level - 1];
+      filter(faces, box_in(children, lane), below);
+      if (!below.ids.empty()) descend(level - 1, kLanes * group + lane, below);
+    }
+  }
+
+  void test_block(int block, const FloatBox& box, Worker& worker) const {
+    worker.face_blocks.clear();
+    worker.face_masks.clear();
+    for (std::size_t g = 0; g < worker.faces.groups.size(); ++g)
+      for_each_bit(kernels_.overlapping(worker.faces.groups[g], box), [&](std::size_t lane) {
+        const auto i = static_cast<std::size_t>(worker.faces.ids[kLanes * g + lane]);
+        const unsigned mask = kernels_.overlapping(s_.face_boxes[i], box);
+        if (mask == 0) return;
+        worker.face_blocks.push_back(s_.face_blocks[i]);
+        worker.face_masks.push_back(static_cast<std::uint16_t>(mask));
+      });
+    if (worker.face_blocks.empty()) return;
+
+    BlockQuery query;
+    W_.describe_block(block, query);
+    query.face_corners = F_.face_corner_lanes();
+    query.face_nodes = F_.face_node_lanes();
+    query.face_blocks = worker.face_blocks.data();
+    query.face_masks = worker.face_masks.data();
+    query.num_face_blocks = static_cast<int>(worker.face_blocks.size());
+    query.one_mesh = one_mesh_;
+    query.boxes_only = narrow_ == NarrowTest::Gjk;
+    const std::size_t room = kLanes * kLanes * worker.face_blocks.size();
+    if (worker.accepted.size() < room) worker.accepted.resize(room);
+    if (worker.doubtful.size() < room) worker.doubtful.resize(room);
+    query.accepted = worker.accepted.data();
+    query.doubtful = worker.doubtful.data();
+    query.num_accepted = query.num_doubtful = query.num_candidates = 0;
+    kernels_.test_block(query);
+
+    worker.candidates += query.num_candidates;
+    worker.doubts += query.num_doubtful;
+    for (int i = 0; i < query.num_accepted; ++i) report(query.accepted[i], block, worker);
+    for (int i = 0; i < query.num_doubtful; ++i) {
+      const std::uint32_t id = query.doubtful[i];
+      if (elements_meet(F_.face_corners(face_slot(id, worker)), W_.tet_corners(tet_slot(id, block)),
+                        W_.margin(), narrow_))
+        report(id, block, worker);
+    }
+  }
+
+  // The ids of BlockQuery.
+  static int face_slot(std::uint32_t id, const Worker& worker) {
+    return worker.face_blocks[id / 256] * kBlockSize + static_cast<int>(id / kLanes % kLanes);
+  }
+  static int tet_slot(std::uint32_t id, int block) {
+    return block * kBlockSize + static_cast<int>(id % kLanes);
+  }
+  void report(std::uint32_t id, int block, Worker& worker) const {
+    worker.pairs.push_back({F_.face_in(face_slot(id, worker)), W_.tet_in(tet_slot(id, block))});
+  }
+
+  const BlockTree& F_;
+  const BlockTree& W_;
+  bool one_mesh_;
+  NarrowTest narrow_;
+  const BlockKernels& kernels_;
+  BlockQueryScratch::Parts& s_;
+};
+
+/// Tasks go to whoever is free. Each worker keeps the pairs that it finds.
+void run_tasks(const Search& search, BlockQueryScratch::Parts& s, int threads) {
+  const auto num = static_cast<std::size_t>(threads);
+  if (s.workers.size() < num) s.workers.resize(num);
+  std::atomic<std::size_t> next{0};
+  const auto work = [&](Worker& worker) {
+    worker.pairs.clear();
+    worker.candidates = worker.doubts = 0;
+    for (std::size_t i = next++; i < s.tasks.size(); i = next++) {
+      const std::size_t begin = worker.pairs.size();
+      search.run_task(s.tasks[i], worker);
+      s.tasks[i].found_by = &worker;
+      s.tasks[i].first_pair = begin;
+      s.tasks[i].num_pairs = worker.pairs.size() - begin;
+    }
+  };
+  std::vector<std::jthread> others;
+  for (std::size_t w = 1; w < num; ++w) others.emplace_back(work, std::ref(s.workers[w]));
+  work(s.workers[0]);
+}
+
+/// The pairs in the order of the tasks, whoever found them.
+void gather(BlockQueryScratch::Parts& s, int threads, std::vector<Penetration>& pairs) {
+  pairs.clear();
+  if (threads == 1) {
+    pairs.swap(s.workers[0].pairs);
+    return;
+  }
+  for (const Task& task : s.tasks) {
+    const auto first = task.found_by->pairs.begin() + static_cast<std::ptrdiff_t>(task.first_pair);
+    pairs.insert(pairs.end(), first, first + static_cast<std::ptrdiff_t>(task.num_pairs));
+  }
+}
+
+void query(const BlockTree& F, const BlockTree& W, bool one_mesh, std::vector<Penetration>& pairs,
+           BlockQueryCounts& counts, BlockQueryScratch& scratch, const BlockQueryOptions& options) {
+  BlockQueryScratch::Parts& s = scratch.parts();
+  const Clock::time_point start = Clock::now();
+  const Search search(F, W, one_mesh, options, s);
+  search.find_tasks();
+  counts.traverse_seconds += seconds_since(start);
+
+  const Clock::time_point narrow_start = Clock::now();
+  const int threads = std::clamp(options.threads, 1, std::max(1, static_cast<int>(s.tasks.size())));
+  run_tasks(search, s, threads);
+  gather(s, threads, pairs);
+  counts.narrow_seconds += seconds_since(narrow_start);
+  for (int w = 0; w < threads; ++w) {
+    counts.candidates += s.workers[static_cast<std::size_t>(w)].candidates;
+    counts.doubtful += s.workers[static_cast<std::size_t>(w)].doubts;
+  }
+  counts.pairs += static_cast<std::int64_t>(pairs.size());
+}
+
+}  // namespace
+
+void faces_in_body(const BlockTree& F, const BlockTree& W, std::vector<Penetration>& pairs,
+                   BlockQueryCounts& counts, BlockQueryScratch& scratch,
+                   const BlockQueryOptions& options) {
+  query(F, W, false, pairs, counts, scratch, options);
+}
+
+void faces_in_own_body(const BlockTree& tree, std::vector<Penetration>& pairs,
+                       BlockQueryCounts& counts, BlockQueryScratch& scratch,
+                       const BlockQueryOptions& options) {
+  query(tree, tree, true, pairs, counts, scratch, options);
+}
+
+}  // namespace articular::collision

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "collision/block_tree.hpp"
+#include "collision/narrow_rule.hpp"
+#include "collision/penetrations.hpp"
+
+/// Penetrations between bodies, each in a BlockTree. Update a tree when its body has moved, then
+/// query.
+namespace articular::collision {
+
+struct BlockQueryOptions {
+  NarrowTest narrow = NarrowTest::SeparatingAxes;
+  int threads = 1;  // the answer is the same with any number, in the same order
+  InstructionSet instruction_set = best_instruction_set();
+};
+
+/// What queries cost; accumulated.
+struct BlockQueryCounts {
+  std::int64_t candidates = 0;  // pairs with overlapping boxes
+  std::int64_t doubtful = 0;    // of these, decided in double precision
+  std::int64_t pairs = 0;
+  double traverse_seconds = 0;  // wall time down to pairs of blocks
+  double narrow_seconds = 0;    // and in the blocks
+};
+
+/// Memory of a query. Kept from call to call, queries do not allocate once it has grown.
+class BlockQueryScratch {
+ public:
+  BlockQueryScratch();
+  ~BlockQueryScratch();
+  BlockQueryScratch(BlockQueryScratch&&) noexcept;
+  BlockQueryScratch& operator=(BlockQueryScratch&&) noexcept;
+  std::size_t memory() const;  // bytes held
+  struct Parts;
+  Parts& parts() { return *parts_; }
+
+ private:
+  std::unique_ptr<Parts> parts_;
+};
+
+/// The pairs (surface face of F, tetrahedron of W) that meet, each once, in no particular order.
+/// What meets is decided by elements_meet() (narrow_rule.hpp), with the margin of the trees.
+void faces_in_body(const BlockTree& F, const BlockTree& W, std::vector<Penetration>& pairs,
+                   BlockQueryCounts& counts, BlockQueryScratch& scratch,
+                   const BlockQueryOptions& options = {});
+
+/// A body with itself, without the pairs that have a common node (erratum 8).
+void faces_in_own_body(const BlockTree& tree, std::vector<Penetration>& pairs,
+                       BlockQueryCounts& counts, BlockQueryScratch& scratch,
+                       const BlockQueryOptions& options = {});
+
+}  // namespace articular::collision

@@ -1,0 +1,37 @@
+#include "collision/narrow_list.hpp"
+
+#include "collision/element_pair.hpp"
+#include "collision/narrow_rule.hpp"
+
+namespace articular::collision {
+
+void narrow_test(const MeshView& F, const MeshView& W, std::span<const Penetration> candidates,
+                 std::vector<Penetration>& pairs, NarrowListScratch& scratch,
+                 InstructionSet instruction_set) {
+  static_assert(sizeof(Penetration) == 2 * sizeof(int));
+  pairs.clear();
+  if (candidates.empty()) return;
+  scratch.accepted.resize(candidates.size());
+  scratch.doubtful.resize(candidates.size());
+  PairList list;
+  list.face_positions = F.x.data();
+  list.tet_positions = W.x.data();
+  list.faces = F.surface.faces.data();
+  list.tets = W.tets.data();
+  list.pairs = &candidates.data()->face;
+  list.num_pairs = static_cast<int>(candidates.size());
+  list.accepted = scratch.accepted.data();
+  list.doubtful = scratch.doubtful.data();
+  list.num_accepted = list.num_doubtful = 0;
+  block_kernels(instruction_set).test_pairs(list);
+
+  for (int i = 0; i < list.num_accepted; ++i) pairs.push_back(candidates[list.accepted[i]]);
+  for (int i = 0; i < list.num_doubtful; ++i) {
+    const Penetration pair = candidates[list.doubtful[i]];
+    if (elements_meet(corners<3>(F.x, F.surface.faces.col(pair.face)),
+                      corners<4>(W.x, W.tets.col(pair.tetrahedron)), 0, NarrowTest::SeparatingAxes))
+      pairs.push_back(pair);
+  }
+}
+
+}  // namespace articular::collision
