@@ -509,29 +509,31 @@ void test_block(BlockQuery& query) {
 /// origin; one scale for all.
 void load_pairs(const PairList& list, int first, int num, TetLanes& tets, FaceLanes& faces) {
   double local[7][3][kBlockSize];
-  double farthest = 1e-290;
   for (int lane = 0; lane < kBlockSize; ++lane) {
     const int* pair = list.pairs + 2 * (first + (lane < num ? lane : 0));
     const int* face = list.faces + 3 * std::int64_t{pair[0]};
     const int* tet = list.tets + 4 * std::int64_t{pair[1]};
-    const double* origin = list.tet_positions + 3 * std::int64_t{tet[0]};
-    for (int k = 0; k < 7; ++k) {
-      const double* p = k < 4 ? list.tet_positions + 3 * std::int64_t{tet[k]}
-                              : list.face_positions + 3 * std::int64_t{face[k - 4]};
-      for (int axis = 0; axis < 3; ++axis) {
-        const double x = p[axis] - origin[axis];
-        local[k][axis][lane] = x;
-        if (k < 4) farthest = x > farthest ? x : -x > farthest ? -x : farthest;
-      }
-    }
+    const double* p[7];
+    for (int k = 0; k < 4; ++k) p[k] = list.tet_positions + 3 * std::int64_t{tet[k]};
+    for (int k = 0; k < 3; ++k) p[4 + k] = list.face_positions + 3 * std::int64_t{face[k]};
+    for (int k = 0; k < 7; ++k)
+      for (int axis = 0; axis < 3; ++axis) local[k][axis][lane] = p[k][axis] - p[0][axis];
   }
-  const double inverse = 1 / farthest;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int lane = 0; lane < kBlockSize; ++lane) {
-      for (int k = 0; k < 4; ++k)
-        tets.corner[k].row[axis][lane] = static_cast<float>(local[k][axis][lane] * inverse);
-      for (int k = 0; k < 3; ++k)
-        faces.corner[k].row[axis][lane] = static_cast<float>(local[4 + k][axis][lane] * inverse);
+  double farthest[kBlockSize] = {};
+  for (int k = 1; k < 4; ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      for (int lane = 0; lane < kBlockSize; ++lane) {
+        const double x = __builtin_fabs(local[k][axis][lane]);
+        farthest[lane] = x > farthest[lane] ? x : farthest[lane];
+      }
+  double scale = 1e-290;
+  for (const double distance : farthest) scale = distance > scale ? distance : scale;
+  const double inverse = 1 / scale;
+  for (int k = 0; k < 7; ++k)
+    for (int axis = 0; axis < 3; ++axis) {
+      float* row = k < 4 ? tets.corner[k].row[axis] : faces.corner[k - 4].row[axis];
+      for (int lane = 0; lane < kBlockSize; ++lane)
+        row[lane] = static_cast<float>(local[k][axis][lane] * inverse);
     }
   tets.margin = 0;
 }

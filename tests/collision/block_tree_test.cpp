@@ -87,7 +87,7 @@ TEST(BlockTree, FindsWhatTheRuleFindsOnTwoDeformedBodies) {
 TEST(BlockTree, FindsWhatTheRuleFindsInOneFoldedBody) {
   std::mt19937 random(2);
   const Mesh bar = testing::box_mesh(24, 3, 3, 1);
-  for (const double angle : {-0.3, 0.0, 0.1}) {
+  for (const double angle : {-0.6, -0.3}) {
     const Eigen::Matrix3Xd x = testing::jittered(testing::bend_to_v(bar, angle), 0.1, random);
     for (const double margin : {0.0, 0.2}) {
       const BlockTree tree = tree_of(bar, x, margin);
