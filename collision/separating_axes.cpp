@@ -20,9 +20,10 @@ using Tetrahedron = Eigen::Matrix<double, 3, 4>;
 
 enum class Verdict { Apart, Overlapping, Unknown };
 
-/// Nodes c, d of an edge of the tetrahedron, then a, b of the opposite one.
-constexpr std::array<std::array<int, 4>, 6> kOpposite = {
-    {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
+/// One value for each edge of the tetrahedron: 01, 02, 03, 12, 13, 23.
+using PerEdge = Eigen::Array<double, 6, 1>;
+constexpr std::array<std::array<int, 2>, 6> kOppositeEdges = {
+    {{2, 3}, {1, 3}, {1, 2}, {0, 3}, {0, 2}, {0, 1}}};
 
 // Bounds of round-off in the filter, from u = 2⁻⁵³ an operation. With s, s_w the largest coordinate
 // of the pair and of the tetrahedron relative to node 0: a component of a normal (≤ 2 s_w²) is off
@@ -40,26 +41,26 @@ constexpr double kSmallest = 1e-30, kLargest = 1e30, kSmallestProduct = 1e-250;
 /// The tetrahedron relative to its node 0, and the triangle as its barycentric coordinates tell.
 struct Heights {
   double volume;  // six times that of the tetrahedron, ≥ 0 [m³]
-  // Over face k of corner i of the triangle: its barycentric coordinate k times the volume.
-  std::array<std::array<double, 3>, 4> over;
-  std::array<Vector3d, 4> normals;  // inward, of twice the face's area [m²]
+  // Row k, column i: corner i of the triangle over face k, which is its barycentric coordinate k
+  // times the volume.
+  Eigen::Array<double, 4, 3> over;
+  Eigen::Matrix<double, 4, 3> normals;  // rows: inward, of twice the face's area [m²]
 };
 
 Heights heights(const Matrix3d& triangle, const Matrix3d& edges) {
+  const Vector3d n1 = edges.col(1).cross(edges.col(2)), n2 = edges.col(2).cross(edges.col(0)),
+                 n3 = edges.col(0).cross(edges.col(1));
+  const double volume = n1.dot(edges.col(0)), sign = volume < 0 ? -1 : 1;
   Heights h;
-  h.normals[1] = edges.col(1).cross(edges.col(2));
-  h.normals[2] = edges.col(2).cross(edges.col(0));
-  h.normals[3] = edges.col(0).cross(edges.col(1));
-  h.volume = h.normals[1].dot(edges.col(0));
-  if (h.volume < 0) {
-    h.volume = -h.volume;
-    for (std::size_t k = 1; k < 4; ++k) h.normals[k] = -h.normals[k];
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector3d corner = triangle.col(static_cast<Eigen::Index>(i));
-    for (std::size_t k = 1; k < 4; ++k) h.over[k][i] = h.normals[k].dot(corner);
-    h.over[0][i] = h.volume - h.over[1][i] - h.over[2][i] - h.over[3][i];
-  }
+  h.volume = sign * volume;
+  for (int k = 0; k < 3; ++k)
+    h.normals.col(k) = sign * Eigen::Vector4d(-(n1[k] + n2[k] + n3[k]), n1[k], n2[k], n3[k]);
+  const Eigen::Array4d at_origin(h.volume, 0, 0, 0);
+  for (int i = 0; i < 3; ++i)
+    h.over.col(i) =
+        at_origin + (h.normals.col(0) * triangle(0, i) + h.normals.col(1) * triangle(1, i) +
+                     h.normals.col(2) * triangle(2, i))
+                        .array();
   return h;
 }
 
@@ -81,54 +82,61 @@ Verdict triangle_plane(const Vector3d& normal, const Vector3d& corner, const Mat
 
 /// The planes of the tetrahedron's faces: Overlapping means that none has the triangle outside.
 Verdict face_planes(const Heights& h, double margin, double round_off) {
-  double least = h.volume;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double highest = std::max({h.over[k][0], h.over[k][1], h.over[k][2]});
-    if (highest < -round_off) {
-      const Vector3d normal = k > 0 ? h.normals[k] : h.normals[1] + h.normals[2] + h.normals[3];
-      if (margin == 0 || -highest - round_off > margin * normal.norm()) return Verdict::Apart;
-    }
-    least = std::min(least, highest);
+  const Eigen::Array4d highest = h.over.col(0).max(h.over.col(1)).max(h.over.col(2));
+  const double least = highest.minCoeff();
+  if (least < -round_off) {
+    if (margin == 0) return Verdict::Apart;
+    for (int k = 0; k < 4; ++k)
+      if (-highest[k] - round_off > margin * h.normals.row(k).norm()) return Verdict::Apart;
   }
   return least > round_off ? Verdict::Overlapping : Verdict::Unknown;
 }
 
 bool corner_is_inside(const Heights& h, double round_off) {
-  for (std::size_t i = 0; i < 3; ++i)
-    if (std::min({h.over[0][i], h.over[1][i], h.over[2][i], h.over[3][i]}) > round_off) return true;
-  return false;
+  return std::max({h.over.col(0).minCoeff(), h.over.col(1).minCoeff(), h.over.col(2).minCoeff()}) >
+         round_off;
 }
 
-/// Gap along edge i of the triangle × the edge of the tetrahedron opposite to that of c and d,
-/// times the volume: with barycentric coordinates λ, differences Δ along edge i and the origin on
-/// the tetrahedron's edge, the product's component along x is volume (λ_c Δλ_d - λ_d Δλ_c)(x), so
-/// that the other nodes of the tetrahedron and both ends of edge i need no product of their own.
-double edge_gap(const Heights& h, std::size_t i, std::size_t c, std::size_t d) {
+/// Gaps along edge i of the triangle × the edges opposite to all edges cd, times the volume. With
+/// barycentric coordinates λ, their differences Δ along edge i, and the origin on the opposite
+/// edge, the product's component along x is volume (λ_c Δλ_d - λ_d Δλ_c)(x): the same for both ends
+/// of edge i, and for the nodes of the tetrahedron just Δλ_d, -Δλ_c and twice 0.
+PerEdge edge_gaps(const std::array<PerEdge, 3>& c, const std::array<PerEdge, 3>& d, double volume,
+                  std::size_t i) {
   const std::size_t j = (i + 1) % 3, corner = (i + 2) % 3;
-  const double along_c = h.over[c][j] - h.over[c][i], along_d = h.over[d][j] - h.over[d][i];
-  const double of_edge = h.over[c][i] * along_d - h.over[d][i] * along_c;
-  const double of_corner = h.over[c][corner] * along_d - h.over[d][corner] * along_c;
-  const double of_c = h.volume * along_d, of_d = -h.volume * along_c;
-  const double low = std::min(std::min(of_c, of_d), 0.0);
-  const double high = std::max(std::max(of_c, of_d), 0.0);
-  return std::max(std::min(of_edge, of_corner) - high, low - std::max(of_edge, of_corner));
+  const PerEdge along_c = c[j] - c[i], along_d = d[j] - d[i];
+  const PerEdge of_edge = c[i] * along_d - d[i] * along_c;
+  const PerEdge of_corner = c[corner] * along_d - d[corner] * along_c;
+  const PerEdge of_c = volume * along_d, of_d = -volume * along_c;
+  const PerEdge low = of_c.min(of_d).min(0.0), high = of_c.max(of_d).max(0.0);
+  return (of_edge.min(of_corner) - high).max(low - of_edge.max(of_corner));
 }
 
 Verdict edge_products(const Heights& h, const Matrix3d& triangle, const Tetrahedron& tetrahedron,
                       double margin, double round_off) {
-  double largest = -h.volume * h.volume;
-  for (const auto& [c, d, a, b] : kOpposite)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double gap = edge_gap(h, i, static_cast<std::size_t>(c), static_cast<std::size_t>(d));
-      largest = std::max(largest, gap);
-      if (!(gap > round_off)) continue;
-      if (margin == 0) return Verdict::Apart;
-      const Eigen::Index from = static_cast<Eigen::Index>(i), to = (from + 1) % 3;
-      const Vector3d axis =
-          (triangle.col(to) - triangle.col(from)).cross(tetrahedron.col(b) - tetrahedron.col(a));
-      if (gap - round_off > margin * h.volume * axis.norm()) return Verdict::Apart;
+  std::array<PerEdge, 3> c, d;  // of each corner of the triangle
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto over = h.over.col(static_cast<Eigen::Index>(i));
+    c[i] << over[0], over[0], over[0], over[1], over[1], over[2];
+    d[i] << over[1], over[2], over[3], over[2], over[3], over[3];
+  }
+  bool certain = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PerEdge gaps = edge_gaps(c, d, h.volume, i);
+    const double largest = gaps.maxCoeff();
+    certain = certain && largest < -round_off;
+    if (!(largest > round_off)) continue;
+    if (margin == 0) return Verdict::Apart;
+    const Eigen::Index from = static_cast<Eigen::Index>(i), to = (from + 1) % 3;
+    const Vector3d side = triangle.col(to) - triangle.col(from);
+    for (std::size_t e = 0; e < kOppositeEdges.size(); ++e) {
+      const auto [a, b] = kOppositeEdges[e];
+      const Vector3d axis = side.cross(tetrahedron.col(b) - tetrahedron.col(a));
+      if (gaps[static_cast<Eigen::Index>(e)] - round_off > margin * h.volume * axis.norm())
+        return Verdict::Apart;
     }
-  return largest < -round_off ? Verdict::Overlapping : Verdict::Unknown;
+  }
+  return certain ? Verdict::Overlapping : Verdict::Unknown;
 }
 
 /// The usual 23 axes. For a tetrahedron with volume these are the normals of all faces that the
@@ -176,12 +184,20 @@ constexpr double kTouching = 16;
 /// a × b, each component with a relative error of 2⁻⁵² at most however much of it cancels
 /// [Jeannerod, Louvet, Muller: Further analysis of Kahan's algorithm for the accurate computation
 /// of 2×2 determinants. Mathematics of Computation 82 (2013)]: parallel integer vectors give 0.
-Vector3d accurate_cross(const Vector3d& a, const Vector3d& b) {
+Vector3d kahan_cross(const Vector3d& a, const Vector3d& b) {
   const auto component = [&](int i, int j) {
     const double product = a[j] * b[i];
     return std::fma(a[i], b[j], -product) + std::fma(-a[j], b[i], product);
   };
   return {component(1, 2), component(2, 0), component(0, 1)};
+}
+
+/// a × b with a relative error of some 2⁻⁵⁰. Kahan's algorithm is a function call per product where
+/// the instruction set has no fused multiply-add; vectors more than 7° apart don't need it.
+Vector3d accurate_cross(const Vector3d& a, const Vector3d& b) {
+  const Vector3d product = a.cross(b);
+  const bool cancels = product.squaredNorm() < 0x1p-6 * a.squaredNorm() * b.squaredNorm();
+  return cancels ? kahan_cross(a, b) : product;
 }
 
 /// A pair in integer coordinates, and whether an axis separates it.
@@ -199,6 +215,8 @@ class IntegerPair {
     };
     triangle_ = triangle.unaryExpr(rounded);
     tetrahedron_ = tetrahedron.unaryExpr(rounded);
+    triangle_rows_ << triangle_.transpose(), triangle_.col(2).transpose();
+    tetrahedron_rows_ = tetrahedron_.transpose();
     least_gap_ = margin * first * second * (1 + 4 * 0x1p-52) + kTouching;
   }
 
@@ -208,9 +226,14 @@ class IntegerPair {
   }
 
  private:
+  using Rows = Eigen::Matrix<double, 4, 3>;  // one a corner: components along an axis vectorise
+
+  static Eigen::Vector4d along(const Vector3d& axis, const Rows& corners) {
+    return corners.col(0) * axis[0] + corners.col(1) * axis[1] + corners.col(2) * axis[2];
+  }
+
   bool separates(const Vector3d& axis) const {
-    const Eigen::RowVector3d t = axis.transpose() * triangle_;
-    const Eigen::RowVector4d w = axis.transpose() * tetrahedron_;
+    const Eigen::Vector4d t = along(axis, triangle_rows_), w = along(axis, tetrahedron_rows_);
     const double gap = std::max(t.minCoeff() - w.maxCoeff(), w.minCoeff() - t.maxCoeff());
     return gap > 0 && gap > least_gap_ * axis.norm();
   }
@@ -260,6 +283,8 @@ class IntegerPair {
 
   Matrix3d triangle_;
   Tetrahedron tetrahedron_;
+  Rows triangle_rows_;  // its last corner twice
+  Rows tetrahedron_rows_;
   double least_gap_;  // along a unit axis that separates
 };
 
