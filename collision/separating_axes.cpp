@@ -181,9 +181,23 @@ constexpr int kBits = 51;
 // of two by 3; the axis itself, off by a few 2⁻⁵³, turns that away by another 3.
 constexpr double kTouching = 16;
 
-/// a × b, each component with a relative error of 2⁻⁵² at most however much of it cancels
-/// [Jeannerod, Louvet, Muller: Further analysis of Kahan's algorithm for the accurate computation
-/// of 2×2 determinants. Mathematics of Computation 82 (2013)]: parallel integer vectors give 0.
+/// Six vectors, one a row: what is done to each vectorises.
+using Six = Eigen::Array<double, 6, 3>;
+
+Six repeated(const Vector3d& v) { return v.transpose().replicate<6, 1>().array(); }
+
+Six cross(const Six& a, const Six& b) {
+  Six product;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    product.col(i) = a.col(j) * b.col(k) - a.col(k) * b.col(j);
+  }
+  return product;
+}
+
+/// a × b, each component with a relative error of 2⁻⁵² at most however much of it cancels: parallel
+/// integer vectors give 0. [Jeannerod, Louvet, Muller: Further analysis of Kahan's algorithm for
+/// the accurate computation of 2×2 determinants. Mathematics of Computation 82 (2013)]
 Vector3d kahan_cross(const Vector3d& a, const Vector3d& b) {
   const auto component = [&](int i, int j) {
     const double product = a[j] * b[i];
@@ -192,18 +206,26 @@ Vector3d kahan_cross(const Vector3d& a, const Vector3d& b) {
   return {component(1, 2), component(2, 0), component(0, 1)};
 }
 
-/// a × b with a relative error of some 2⁻⁵⁰. Kahan's algorithm is a function call per product where
-/// the instruction set has no fused multiply-add; vectors more than 7° apart don't need it.
-Vector3d accurate_cross(const Vector3d& a, const Vector3d& b) {
-  const Vector3d product = a.cross(b);
-  const bool cancels = product.squaredNorm() < 0x1p-6 * a.squaredNorm() * b.squaredNorm();
-  return cancels ? kahan_cross(a, b) : product;
+PerEdge squared_norms(const Six& a) {
+  return a.col(0).square() + a.col(1).square() + a.col(2).square();
+}
+
+/// a × b with a relative error of some 2⁻⁴⁹. Kahan's algorithm is a function call for each product
+/// where the instruction set has no fused multiply-add; vectors more than 7° apart don't need it.
+Six accurate_cross(const Six& a, const Six& b) {
+  Six product = cross(a, b);
+  const PerEdge most = squared_norms(a) * squared_norms(b), least = squared_norms(product);
+  for (int k = 0; k < 6; ++k)
+    if (least[k] < 0x1p-6 * most[k])
+      product.row(k) = kahan_cross(a.row(k).transpose(), b.row(k).transpose()).transpose();
+  return product;
 }
 
 /// A pair in integer coordinates, and whether an axis separates it.
 class IntegerPair {
  public:
-  /// Corners relative to a common origin, with the largest coordinate > 0.
+  /// @param triangle, tetrahedron  relative to a common origin
+  /// @param size  the largest of these coordinates, > 0
   IntegerPair(const Matrix3d& triangle, const Tetrahedron& tetrahedron, double size,
               double margin) {
     // In two factors, as the whole one may be out of range.
@@ -215,76 +237,97 @@ class IntegerPair {
     };
     triangle_ = triangle.unaryExpr(rounded);
     tetrahedron_ = tetrahedron.unaryExpr(rounded);
-    triangle_rows_ << triangle_.transpose(), triangle_.col(2).transpose();
-    tetrahedron_rows_ = tetrahedron_.transpose();
     least_gap_ = margin * first * second * (1 + 4 * 0x1p-52) + kTouching;
   }
 
   bool overlap() const {
-    return !(by_faces() || by_edges() || by_perpendiculars(triangle_, tetrahedron_) ||
-             by_perpendiculars(tetrahedron_, triangle_) || by_corners());
+    return !(normals_separate() || tetrahedron_edges_separate() || triangle_edges_separate() ||
+             lines_between_corners_separate());
   }
 
  private:
-  using Rows = Eigen::Matrix<double, 4, 3>;  // one a corner: components along an axis vectorise
-
-  static Eigen::Vector4d along(const Vector3d& axis, const Rows& corners) {
-    return corners.col(0) * axis[0] + corners.col(1) * axis[1] + corners.col(2) * axis[2];
+  bool any_separates(const Six& axes) const {
+    PerEdge low_t, high_t, low_w, high_w;
+    range(axes, triangle_, low_t, high_t);
+    range(axes, tetrahedron_, low_w, high_w);
+    const PerEdge gaps = (low_t - high_w).max(low_w - high_t);
+    return (gaps > least_gap_ * squared_norms(axes).sqrt()).any();
   }
 
-  bool separates(const Vector3d& axis) const {
-    const Eigen::Vector4d t = along(axis, triangle_rows_), w = along(axis, tetrahedron_rows_);
-    const double gap = std::max(t.minCoeff() - w.maxCoeff(), w.minCoeff() - t.maxCoeff());
-    return gap > 0 && gap > least_gap_ * axis.norm();
+  template <class Corners>
+  static void range(const Six& axes, const Corners& corners, PerEdge& low, PerEdge& high) {
+    for (int k = 0; k < corners.cols(); ++k) {
+      const PerEdge along =
+          axes.col(0) * corners(0, k) + axes.col(1) * corners(1, k) + axes.col(2) * corners(2, k);
+      low = k == 0 ? along : PerEdge(low.min(along));
+      high = k == 0 ? along : PerEdge(high.max(along));
+    }
   }
 
-  bool by_face(const Vector3d& p0, const Vector3d& p1, const Vector3d& p2) const {
-    return separates(accurate_cross(p1 - p0, p2 - p0));
-  }
-
-  bool by_faces() const {
+  bool normals_separate() const {
+    const Matrix3d& t = triangle_;
     const Tetrahedron& w = tetrahedron_;
-    return by_face(triangle_.col(0), triangle_.col(1), triangle_.col(2)) ||
-           by_face(w.col(1), w.col(2), w.col(3)) || by_face(w.col(0), w.col(2), w.col(3)) ||
-           by_face(w.col(0), w.col(1), w.col(3)) || by_face(w.col(0), w.col(1), w.col(2));
+    Six side, other;
+    for (int k = 0; k < 4; ++k) {
+      const Vector3d corner = w.col((k + 1) % 4);
+      side.row(k) = (w.col((k + 2) % 4) - corner).transpose();
+      other.row(k) = (w.col((k + 3) % 4) - corner).transpose();
+    }
+    for (int k = 4; k < 6; ++k) {
+      side.row(k) = (t.col(1) - t.col(0)).transpose();
+      other.row(k) = (t.col(2) - t.col(0)).transpose();
+    }
+    return any_separates(accurate_cross(side, other));
   }
 
-  bool by_edges() const {
+  /// With the edges of the triangle, and from its corners.
+  bool tetrahedron_edges_separate() const {
+    Six from, edge;
+    for (int k = 0; k < 6; ++k) {
+      const auto [a, b] = kOppositeEdges[static_cast<std::size_t>(k)];
+      from.row(k) = tetrahedron_.col(a).transpose();
+      edge.row(k) = (tetrahedron_.col(b) - tetrahedron_.col(a)).transpose();
+    }
     for (int i = 0; i < 3; ++i) {
-      const Vector3d edge = triangle_.col((i + 1) % 3) - triangle_.col(i);
-      for (int a = 0; a < 4; ++a)
-        for (int b = a + 1; b < 4; ++b)
-          if (separates(accurate_cross(edge, tetrahedron_.col(b) - tetrahedron_.col(a))))
-            return true;
+      const Vector3d side = triangle_.col((i + 1) % 3) - triangle_.col(i);
+      if (any_separates(accurate_cross(repeated(side), edge))) return true;
+      if (perpendiculars_separate(repeated(triangle_.col(i)) - from, edge)) return true;
     }
     return false;
   }
 
-  /// From a corner of one shape to an edge of the other. The second product is of vectors at right
-  /// angles: nothing cancels.
-  template <class Edges, class Corners>
-  bool by_perpendiculars(const Edges& edges, const Corners& corners) const {
-    for (int a = 0; a < edges.cols(); ++a)
-      for (int b = a + 1; b < edges.cols(); ++b) {
-        const Vector3d edge = edges.col(b) - edges.col(a);
-        for (int k = 0; k < corners.cols(); ++k)
-          if (separates(accurate_cross(corners.col(k) - edges.col(a), edge).cross(edge)))
-            return true;
+  /// From the corners of the tetrahedron, two at a time.
+  bool triangle_edges_separate() const {
+    for (int k = 0; k < 4; k += 2) {
+      Six to_corner, edge;
+      for (int i = 0; i < 6; ++i) {
+        const Vector3d from = triangle_.col(i % 3);
+        to_corner.row(i) = (tetrahedron_.col(k + i / 3) - from).transpose();
+        edge.row(i) = (triangle_.col((i + 1) % 3) - from).transpose();
       }
+      if (perpendiculars_separate(to_corner, edge)) return true;
+    }
     return false;
   }
 
-  bool by_corners() const {
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 4; ++k)
-        if (separates(triangle_.col(i) - tetrahedron_.col(k))) return true;
+  /// Perpendiculars from edges to corners. The second product is of vectors at right angles:
+  /// nothing cancels.
+  bool perpendiculars_separate(const Six& to_corner, const Six& edge) const {
+    return any_separates(cross(accurate_cross(to_corner, edge), edge));
+  }
+
+  bool lines_between_corners_separate() const {
+    for (int k = 0; k < 4; k += 2) {
+      Six lines;
+      for (int i = 0; i < 6; ++i)
+        lines.row(i) = (tetrahedron_.col(k + i / 3) - triangle_.col(i % 3)).transpose();
+      if (any_separates(lines)) return true;
+    }
     return false;
   }
 
   Matrix3d triangle_;
   Tetrahedron tetrahedron_;
-  Rows triangle_rows_;  // its last corner twice
-  Rows tetrahedron_rows_;
   double least_gap_;  // along a unit axis that separates
 };
 
