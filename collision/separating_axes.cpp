@@ -28,9 +28,10 @@ constexpr std::array<std::array<int, 2>, 6> kOppositeEdges = {
 // Bounds of round-off in the filter, from u = 2⁻⁵³ an operation. With s, s_w the largest coordinate
 // of the pair and of the tetrahedron relative to node 0: a component of a normal (≤ 2 s_w²) is off
 // by ≤ 8u s_w², a height (≤ 6 s_w² s) by ≤ 48u s_w² s, the one over face 0, the volume less three
-// heights, by ≤ 264u s_w² s; 2⁻⁴⁴ = 512u. Two products of a height (≤ 24 s_w² s) and a difference
-// of heights (≤ 48 s_w² s, off by ≤ 550u s_w² s) are then off by ≤ 56 400u (s_w² s)²; 2⁻³⁷ = 65
-// 536u.
+// heights, by ≤ 264u s_w² s; we take 2⁻⁴⁴ = 512u. Two products of a height (≤ 24 s_w² s) and a
+// difference of heights (≤ 48 s_w² s, off by ≤ 550u s_w² s) are then off by ≤ 56 400u (s_w² s)²; we
+// take 2⁻³⁷ = 2¹⁶ u. What is left covers the margin times the length of an axis (off by ≤ 42u s_w²)
+// up to margins of 6 s; no gap is larger than 3.5 s.
 constexpr double kHeightRoundOff = 0x1p-44;
 constexpr double kProductRoundOff = 0x1p-37;
 
@@ -146,21 +147,23 @@ Verdict filter(const Matrix3d& triangle, const Tetrahedron& tetrahedron, const M
                const Matrix3d& edges, double margin) {
   const Vector3d side = triangle.col(1) - triangle.col(0),
                  other = triangle.col(2) - triangle.col(0);
-  const double size_w = edges.cwiseAbs().maxCoeff();
-  const double size_t = std::max(side.cwiseAbs().maxCoeff(), other.cwiseAbs().maxCoeff());
-  const double size = std::max(size_w, corners.cwiseAbs().maxCoeff());
-  const double unit = size_w * size_w * size, unit_t = size_t * size_t * size;
+  const double tetrahedron_size = edges.cwiseAbs().maxCoeff();
+  const double triangle_size = std::max(side.cwiseAbs().maxCoeff(), other.cwiseAbs().maxCoeff());
+  const double size = std::max(tetrahedron_size, corners.cwiseAbs().maxCoeff());
+  const double unit = tetrahedron_size * tetrahedron_size * size,
+               unit_t = triangle_size * triangle_size * size;
   if (!(size > kSmallest && size < kLargest && unit_t > kSmallestProduct &&
         unit * unit > kSmallestProduct))
     return Verdict::Unknown;
 
-  // The bounds are for sums of products, in which the margin's part is round-off as well.
+  // What is compared with the margin times an axis's length: that product is rounded too.
   margin *= 1 + kHeightRoundOff;
   const Verdict by_triangle =
       triangle_plane(side.cross(other), corners.col(0), edges, margin, kHeightRoundOff * unit_t);
   if (by_triangle == Verdict::Apart) return Verdict::Apart;
   const double height_round_off = kHeightRoundOff * unit;
   const Heights h = heights(corners, edges);
+  // Without a sign of the volume, the inside of the faces is not known.
   if (!(h.volume > height_round_off)) return Verdict::Unknown;
   const Verdict by_faces = face_planes(h, margin, height_round_off);
   if (by_faces == Verdict::Apart) return Verdict::Apart;
