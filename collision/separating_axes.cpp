@@ -20,16 +20,18 @@ using Tetrahedron = Eigen::Matrix<double, 3, 4>;
 
 enum class Verdict { Apart, Overlapping, Unknown };
 
-/// Nodes c, d of an edge of the tetrahedron, then a, b of the opposite one.
-constexpr std::array<std::array<int, 4>, 6> kOpposite = {
-    {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
+/// One value for each edge of the tetrahedron: 01, 02, 03, 12, 13, 23.
+using PerEdge = Eigen::Array<double, 6, 1>;
+constexpr std::array<std::array<int, 2>, 6> kOppositeEdges = {
+    {{2, 3}, {1, 3}, {1, 2}, {0, 3}, {0, 2}, {0, 1}}};
 
 // Bounds of round-off in the filter, from u = 2⁻⁵³ an operation. With s, s_w the largest coordinate
 // of the pair and of the tetrahedron relative to node 0: a component of a normal (≤ 2 s_w²) is off
 // by ≤ 8u s_w², a height (≤ 6 s_w² s) by ≤ 48u s_w² s, the one over face 0, the volume less three
-// heights, by ≤ 264u s_w² s; 2⁻⁴⁴ = 512u. Two products of a height (≤ 24 s_w² s) and a difference
-// of heights (≤ 48 s_w² s, off by ≤ 550u s_w² s) are then off by ≤ 56 400u (s_w² s)²; 2⁻³⁷ = 65
-// 536u.
+// heights, by ≤ 264u s_w² s; we take 2⁻⁴⁴ = 512u. Two products of a height (≤ 24 s_w² s) and a
+// difference of heights (≤ 48 s_w² s, off by ≤ 550u s_w² s) are then off by ≤ 56 400u (s_w² s)²; we
+// take 2⁻³⁷ = 2¹⁶ u. What is left covers the margin times the length of an axis (off by ≤ 42u s_w²)
+// up to margins of 6 s; no gap is larger than 3.5 s.
 constexpr double kHeightRoundOff = 0x1p-44;
 constexpr double kProductRoundOff = 0x1p-37;
 
@@ -40,26 +42,26 @@ constexpr double kSmallest = 1e-30, kLargest = 1e30, kSmallestProduct = 1e-250;
 /// The tetrahedron relative to its node 0, and the triangle as its barycentric coordinates tell.
 struct Heights {
   double volume;  // six times that of the tetrahedron, ≥ 0 [m³]
-  // Over face k of corner i of the triangle: its barycentric coordinate k times the volume.
-  std::array<std::array<double, 3>, 4> over;
-  std::array<Vector3d, 4> normals;  // inward, of twice the face's area [m²]
+  // Row k, column i: corner i of the triangle over face k, which is its barycentric coordinate k
+  // times the volume.
+  Eigen::Array<double, 4, 3> over;
+  Eigen::Matrix<double, 4, 3> normals;  // rows: inward, of twice the face's area [m²]
 };
 
 Heights heights(const Matrix3d& triangle, const Matrix3d& edges) {
+  const Vector3d n1 = edges.col(1).cross(edges.col(2)), n2 = edges.col(2).cross(edges.col(0)),
+                 n3 = edges.col(0).cross(edges.col(1));
+  const double volume = n1.dot(edges.col(0)), sign = volume < 0 ? -1 : 1;
   Heights h;
-  h.normals[1] = edges.col(1).cross(edges.col(2));
-  h.normals[2] = edges.col(2).cross(edges.col(0));
-  h.normals[3] = edges.col(0).cross(edges.col(1));
-  h.volume = h.normals[1].dot(edges.col(0));
-  if (h.volume < 0) {
-    h.volume = -h.volume;
-    for (std::size_t k = 1; k < 4; ++k) h.normals[k] = -h.normals[k];
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector3d corner = triangle.col(static_cast<Eigen::Index>(i));
-    for (std::size_t k = 1; k < 4; ++k) h.over[k][i] = h.normals[k].dot(corner);
-    h.over[0][i] = h.volume - h.over[1][i] - h.over[2][i] - h.over[3][i];
-  }
+  h.volume = sign * volume;
+  for (int k = 0; k < 3; ++k)
+    h.normals.col(k) = sign * Eigen::Vector4d(-(n1[k] + n2[k] + n3[k]), n1[k], n2[k], n3[k]);
+  const Eigen::Array4d at_origin(h.volume, 0, 0, 0);
+  for (int i = 0; i < 3; ++i)
+    h.over.col(i) =
+        at_origin + (h.normals.col(0) * triangle(0, i) + h.normals.col(1) * triangle(1, i) +
+                     h.normals.col(2) * triangle(2, i))
+                        .array();
   return h;
 }
 
@@ -81,54 +83,61 @@ Verdict triangle_plane(const Vector3d& normal, const Vector3d& corner, const Mat
 
 /// The planes of the tetrahedron's faces: Overlapping means that none has the triangle outside.
 Verdict face_planes(const Heights& h, double margin, double round_off) {
-  double least = h.volume;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double highest = std::max({h.over[k][0], h.over[k][1], h.over[k][2]});
-    if (highest < -round_off) {
-      const Vector3d normal = k > 0 ? h.normals[k] : h.normals[1] + h.normals[2] + h.normals[3];
-      if (margin == 0 || -highest - round_off > margin * normal.norm()) return Verdict::Apart;
-    }
-    least = std::min(least, highest);
+  const Eigen::Array4d highest = h.over.col(0).max(h.over.col(1)).max(h.over.col(2));
+  const double least = highest.minCoeff();
+  if (least < -round_off) {
+    if (margin == 0) return Verdict::Apart;
+    for (int k = 0; k < 4; ++k)
+      if (-highest[k] - round_off > margin * h.normals.row(k).norm()) return Verdict::Apart;
   }
   return least > round_off ? Verdict::Overlapping : Verdict::Unknown;
 }
 
 bool corner_is_inside(const Heights& h, double round_off) {
-  for (std::size_t i = 0; i < 3; ++i)
-    if (std::min({h.over[0][i], h.over[1][i], h.over[2][i], h.over[3][i]}) > round_off) return true;
-  return false;
+  return std::max({h.over.col(0).minCoeff(), h.over.col(1).minCoeff(), h.over.col(2).minCoeff()}) >
+         round_off;
 }
 
-/// Gap along edge i of the triangle × the edge of the tetrahedron opposite to that of c and d,
-/// times the volume: with barycentric coordinates λ, differences Δ along edge i and the origin on
-/// the tetrahedron's edge, the product's component along x is volume (λ_c Δλ_d - λ_d Δλ_c)(x), so
-/// that the other nodes of the tetrahedron and both ends of edge i need no product of their own.
-double edge_gap(const Heights& h, std::size_t i, std::size_t c, std::size_t d) {
+/// Gaps along edge i of the triangle × the edges opposite to all edges cd, times the volume. With
+/// barycentric coordinates λ, their differences Δ along edge i, and the origin on the opposite
+/// edge, the product's component along x is volume (λ_c Δλ_d - λ_d Δλ_c)(x): the same for both ends
+/// of edge i, and for the nodes of the tetrahedron just Δλ_d, -Δλ_c and twice 0.
+PerEdge edge_gaps(const std::array<PerEdge, 3>& c, const std::array<PerEdge, 3>& d, double volume,
+                  std::size_t i) {
   const std::size_t j = (i + 1) % 3, corner = (i + 2) % 3;
-  const double along_c = h.over[c][j] - h.over[c][i], along_d = h.over[d][j] - h.over[d][i];
-  const double of_edge = h.over[c][i] * along_d - h.over[d][i] * along_c;
-  const double of_corner = h.over[c][corner] * along_d - h.over[d][corner] * along_c;
-  const double of_c = h.volume * along_d, of_d = -h.volume * along_c;
-  const double low = std::min(std::min(of_c, of_d), 0.0);
-  const double high = std::max(std::max(of_c, of_d), 0.0);
-  return std::max(std::min(of_edge, of_corner) - high, low - std::max(of_edge, of_corner));
+  const PerEdge along_c = c[j] - c[i], along_d = d[j] - d[i];
+  const PerEdge of_edge = c[i] * along_d - d[i] * along_c;
+  const PerEdge of_corner = c[corner] * along_d - d[corner] * along_c;
+  const PerEdge of_c = volume * along_d, of_d = -volume * along_c;
+  const PerEdge low = of_c.min(of_d).min(0.0), high = of_c.max(of_d).max(0.0);
+  return (of_edge.min(of_corner) - high).max(low - of_edge.max(of_corner));
 }
 
 Verdict edge_products(const Heights& h, const Matrix3d& triangle, const Tetrahedron& tetrahedron,
                       double margin, double round_off) {
-  double largest = -h.volume * h.volume;
-  for (const auto& [c, d, a, b] : kOpposite)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double gap = edge_gap(h, i, static_cast<std::size_t>(c), static_cast<std::size_t>(d));
-      largest = std::max(largest, gap);
-      if (!(gap > round_off)) continue;
-      if (margin == 0) return Verdict::Apart;
-      const Eigen::Index from = static_cast<Eigen::Index>(i), to = (from + 1) % 3;
-      const Vector3d axis =
-          (triangle.col(to) - triangle.col(from)).cross(tetrahedron.col(b) - tetrahedron.col(a));
-      if (gap - round_off > margin * h.volume * axis.norm()) return Verdict::Apart;
+  std::array<PerEdge, 3> c, d;  // of each corner of the triangle
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto over = h.over.col(static_cast<Eigen::Index>(i));
+    c[i] << over[0], over[0], over[0], over[1], over[1], over[2];
+    d[i] << over[1], over[2], over[3], over[2], over[3], over[3];
+  }
+  bool certain = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PerEdge gaps = edge_gaps(c, d, h.volume, i);
+    const double largest = gaps.maxCoeff();
+    certain = certain && largest < -round_off;
+    if (!(largest > round_off)) continue;
+    if (margin == 0) return Verdict::Apart;
+    const Eigen::Index from = static_cast<Eigen::Index>(i), to = (from + 1) % 3;
+    const Vector3d side = triangle.col(to) - triangle.col(from);
+    for (std::size_t e = 0; e < kOppositeEdges.size(); ++e) {
+      const auto [a, b] = kOppositeEdges[e];
+      const Vector3d axis = side.cross(tetrahedron.col(b) - tetrahedron.col(a));
+      if (gaps[static_cast<Eigen::Index>(e)] - round_off > margin * h.volume * axis.norm())
+        return Verdict::Apart;
     }
-  return largest < -round_off ? Verdict::Overlapping : Verdict::Unknown;
+  }
+  return certain ? Verdict::Overlapping : Verdict::Unknown;
 }
 
 /// The usual 23 axes. For a tetrahedron with volume these are the normals of all faces that the
@@ -138,21 +147,23 @@ Verdict filter(const Matrix3d& triangle, const Tetrahedron& tetrahedron, const M
                const Matrix3d& edges, double margin) {
   const Vector3d side = triangle.col(1) - triangle.col(0),
                  other = triangle.col(2) - triangle.col(0);
-  const double size_w = edges.cwiseAbs().maxCoeff();
-  const double size_t = std::max(side.cwiseAbs().maxCoeff(), other.cwiseAbs().maxCoeff());
-  const double size = std::max(size_w, corners.cwiseAbs().maxCoeff());
-  const double unit = size_w * size_w * size, unit_t = size_t * size_t * size;
+  const double tetrahedron_size = edges.cwiseAbs().maxCoeff();
+  const double triangle_size = std::max(side.cwiseAbs().maxCoeff(), other.cwiseAbs().maxCoeff());
+  const double size = std::max(tetrahedron_size, corners.cwiseAbs().maxCoeff());
+  const double unit = tetrahedron_size * tetrahedron_size * size,
+               unit_t = triangle_size * triangle_size * size;
   if (!(size > kSmallest && size < kLargest && unit_t > kSmallestProduct &&
         unit * unit > kSmallestProduct))
     return Verdict::Unknown;
 
-  // The bounds are for sums of products, in which the margin's part is round-off as well.
+  // What is compared with the margin times an axis's length: that product is rounded too.
   margin *= 1 + kHeightRoundOff;
   const Verdict by_triangle =
       triangle_plane(side.cross(other), corners.col(0), edges, margin, kHeightRoundOff * unit_t);
   if (by_triangle == Verdict::Apart) return Verdict::Apart;
   const double height_round_off = kHeightRoundOff * unit;
   const Heights h = heights(corners, edges);
+  // Without a sign of the volume, the inside of the faces is not known.
   if (!(h.volume > height_round_off)) return Verdict::Unknown;
   const Verdict by_faces = face_planes(h, margin, height_round_off);
   if (by_faces == Verdict::Apart) return Verdict::Apart;
@@ -173,10 +184,24 @@ constexpr int kBits = 51;
 // of two by 3; the axis itself, off by a few 2⁻⁵³, turns that away by another 3.
 constexpr double kTouching = 16;
 
-/// a × b, each component with a relative error of 2⁻⁵² at most however much of it cancels
-/// [Jeannerod, Louvet, Muller: Further analysis of Kahan's algorithm for the accurate computation
-/// of 2×2 determinants. Mathematics of Computation 82 (2013)]: parallel integer vectors give 0.
-Vector3d accurate_cross(const Vector3d& a, const Vector3d& b) {
+/// Six vectors, one a row: what is done to each vectorises.
+using Six = Eigen::Array<double, 6, 3>;
+
+Six repeated(const Vector3d& v) { return v.transpose().replicate<6, 1>().array(); }
+
+Six cross(const Six& a, const Six& b) {
+  Six product;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    product.col(i) = a.col(j) * b.col(k) - a.col(k) * b.col(j);
+  }
+  return product;
+}
+
+/// a × b, each component with a relative error of 2⁻⁵² at most however much of it cancels: parallel
+/// integer vectors give 0. [Jeannerod, Louvet, Muller: Further analysis of Kahan's algorithm for
+/// the accurate computation of 2×2 determinants. Mathematics of Computation 82 (2013)]
+Vector3d kahan_cross(const Vector3d& a, const Vector3d& b) {
   const auto component = [&](int i, int j) {
     const double product = a[j] * b[i];
     return std::fma(a[i], b[j], -product) + std::fma(-a[j], b[i], product);
@@ -184,10 +209,26 @@ Vector3d accurate_cross(const Vector3d& a, const Vector3d& b) {
   return {component(1, 2), component(2, 0), component(0, 1)};
 }
 
+PerEdge squared_norms(const Six& a) {
+  return a.col(0).square() + a.col(1).square() + a.col(2).square();
+}
+
+/// a × b with a relative error of some 2⁻⁴⁹. Kahan's algorithm is a function call for each product
+/// where the instruction set has no fused multiply-add; vectors more than 7° apart don't need it.
+Six accurate_cross(const Six& a, const Six& b) {
+  Six product = cross(a, b);
+  const PerEdge most = squared_norms(a) * squared_norms(b), least = squared_norms(product);
+  for (int k = 0; k < 6; ++k)
+    if (least[k] < 0x1p-6 * most[k])
+      product.row(k) = kahan_cross(a.row(k).transpose(), b.row(k).transpose()).transpose();
+  return product;
+}
+
 /// A pair in integer coordinates, and whether an axis separates it.
 class IntegerPair {
  public:
-  /// Corners relative to a common origin, with the largest coordinate > 0.
+  /// @param triangle, tetrahedron  relative to a common origin
+  /// @param size  the largest of these coordinates, > 0
   IntegerPair(const Matrix3d& triangle, const Tetrahedron& tetrahedron, double size,
               double margin) {
     // In two factors, as the whole one may be out of range.
@@ -203,58 +244,88 @@ class IntegerPair {
   }
 
   bool overlap() const {
-    return !(by_faces() || by_edges() || by_perpendiculars(triangle_, tetrahedron_) ||
-             by_perpendiculars(tetrahedron_, triangle_) || by_corners());
+    return !(normals_separate() || tetrahedron_edges_separate() || triangle_edges_separate() ||
+             lines_between_corners_separate());
   }
 
  private:
-  bool separates(const Vector3d& axis) const {
-    const Eigen::RowVector3d t = axis.transpose() * triangle_;
-    const Eigen::RowVector4d w = axis.transpose() * tetrahedron_;
-    const double gap = std::max(t.minCoeff() - w.maxCoeff(), w.minCoeff() - t.maxCoeff());
-    return gap > 0 && gap > least_gap_ * axis.norm();
+  bool any_separates(const Six& axes) const {
+    PerEdge low_t, high_t, low_w, high_w;
+    range(axes, triangle_, low_t, high_t);
+    range(axes, tetrahedron_, low_w, high_w);
+    const PerEdge gaps = (low_t - high_w).max(low_w - high_t);
+    return (gaps > least_gap_ * squared_norms(axes).sqrt()).any();
   }
 
-  bool by_face(const Vector3d& p0, const Vector3d& p1, const Vector3d& p2) const {
-    return separates(accurate_cross(p1 - p0, p2 - p0));
+  template <class Corners>
+  static void range(const Six& axes, const Corners& corners, PerEdge& low, PerEdge& high) {
+    for (int k = 0; k < corners.cols(); ++k) {
+      const PerEdge along =
+          axes.col(0) * corners(0, k) + axes.col(1) * corners(1, k) + axes.col(2) * corners(2, k);
+      low = k == 0 ? along : PerEdge(low.min(along));
+      high = k == 0 ? along : PerEdge(high.max(along));
+    }
   }
 
-  bool by_faces() const {
+  bool normals_separate() const {
+    const Matrix3d& t = triangle_;
     const Tetrahedron& w = tetrahedron_;
-    return by_face(triangle_.col(0), triangle_.col(1), triangle_.col(2)) ||
-           by_face(w.col(1), w.col(2), w.col(3)) || by_face(w.col(0), w.col(2), w.col(3)) ||
-           by_face(w.col(0), w.col(1), w.col(3)) || by_face(w.col(0), w.col(1), w.col(2));
+    Six side, other;
+    for (int k = 0; k < 4; ++k) {
+      const Vector3d corner = w.col((k + 1) % 4);
+      side.row(k) = (w.col((k + 2) % 4) - corner).transpose();
+      other.row(k) = (w.col((k + 3) % 4) - corner).transpose();
+    }
+    for (int k = 4; k < 6; ++k) {
+      side.row(k) = (t.col(1) - t.col(0)).transpose();
+      other.row(k) = (t.col(2) - t.col(0)).transpose();
+    }
+    return any_separates(accurate_cross(side, other));
   }
 
-  bool by_edges() const {
+  /// With the edges of the triangle, and from its corners.
+  bool tetrahedron_edges_separate() const {
+    Six from, edge;
+    for (int k = 0; k < 6; ++k) {
+      const auto [a, b] = kOppositeEdges[static_cast<std::size_t>(k)];
+      from.row(k) = tetrahedron_.col(a).transpose();
+      edge.row(k) = (tetrahedron_.col(b) - tetrahedron_.col(a)).transpose();
+    }
     for (int i = 0; i < 3; ++i) {
-      const Vector3d edge = triangle_.col((i + 1) % 3) - triangle_.col(i);
-      for (int a = 0; a < 4; ++a)
-        for (int b = a + 1; b < 4; ++b)
-          if (separates(accurate_cross(edge, tetrahedron_.col(b) - tetrahedron_.col(a))))
-            return true;
+      const Vector3d side = triangle_.col((i + 1) % 3) - triangle_.col(i);
+      if (any_separates(accurate_cross(repeated(side), edge))) return true;
+      if (perpendiculars_separate(repeated(triangle_.col(i)) - from, edge)) return true;
     }
     return false;
   }
 
-  /// From a corner of one shape to an edge of the other. The second product is of vectors at right
-  /// angles: nothing cancels.
-  template <class Edges, class Corners>
-  bool by_perpendiculars(const Edges& edges, const Corners& corners) const {
-    for (int a = 0; a < edges.cols(); ++a)
-      for (int b = a + 1; b < edges.cols(); ++b) {
-        const Vector3d edge = edges.col(b) - edges.col(a);
-        for (int k = 0; k < corners.cols(); ++k)
-          if (separates(accurate_cross(corners.col(k) - edges.col(a), edge).cross(edge)))
-            return true;
+  /// From the corners of the tetrahedron, two at a time.
+  bool triangle_edges_separate() const {
+    for (int k = 0; k < 4; k += 2) {
+      Six to_corner, edge;
+      for (int i = 0; i < 6; ++i) {
+        const Vector3d from = triangle_.col(i % 3);
+        to_corner.row(i) = (tetrahedron_.col(k + i / 3) - from).transpose();
+        edge.row(i) = (triangle_.col((i + 1) % 3) - from).transpose();
       }
+      if (perpendiculars_separate(to_corner, edge)) return true;
+    }
     return false;
   }
 
-  bool by_corners() const {
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 4; ++k)
-        if (separates(triangle_.col(i) - tetrahedron_.col(k))) return true;
+  /// Perpendiculars from edges to corners. The second product is of vectors at right angles:
+  /// nothing cancels.
+  bool perpendiculars_separate(const Six& to_corner, const Six& edge) const {
+    return any_separates(cross(accurate_cross(to_corner, edge), edge));
+  }
+
+  bool lines_between_corners_separate() const {
+    for (int k = 0; k < 4; k += 2) {
+      Six lines;
+      for (int i = 0; i < 6; ++i)
+        lines.row(i) = (tetrahedron_.col(k + i / 3) - triangle_.col(i % 3)).transpose();
+      if (any_separates(lines)) return true;
+    }
     return false;
   }
 

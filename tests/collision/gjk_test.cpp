@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "tests/collision/meshes.hpp"
 #include "tests/collision/oracles.hpp"
@@ -176,6 +179,84 @@ TEST(Gjk, WithAMarginNoPairWithinItIsLostHoweverNearTheLimit) {
     const double distance = triangle_tetrahedron_distance(triangle, tetrahedron);
     ASSERT_TRUE(gjk_overlap(triangle, tetrahedron, distance * (1 + 1e-9))) << distance;
   }
+}
+
+/// Corners of the linear elements, in an element's own coordinates: convex, and so are their affine
+/// images. Named after VTK's cells.
+struct ElementShape {
+  const char* name;
+  std::vector<Eigen::Vector3d> corners;
+};
+
+const std::array<ElementShape, 4>& element_shapes() {
+  static const std::array<ElementShape, 4> shapes = {{
+      {"Triangle", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
+      {"Tetrahedron", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+      {"Wedge", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}},
+      {"Hexahedron",
+       {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}},
+  }};
+  return shapes;
+}
+
+/// A deformed element: each corner of a sheared and turned one moved by up to a tenth of its edge.
+Eigen::Matrix3Xd random_element(const ElementShape& shape, std::mt19937& random) {
+  Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+  for (double& x : F.reshaped()) x += std::uniform_real_distribution<double>(-0.5, 0.5)(random);
+  Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(shape.corners.size()));
+  for (Eigen::Index k = 0; k < x.cols(); ++k)
+    x.col(k) = F * (shape.corners[static_cast<std::size_t>(k)] + random_vector(random, 0.1));
+  return placed(x, random_vector(random, 0.8), random);
+}
+
+/// Largest gap along any normal that a face of the difference of two convex hulls can have: of the
+/// planes through three corners of one, and along a connection of two corners of each.
+double hull_gap(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
+  double gap = -std::numeric_limits<double>::infinity();
+  const auto try_axis = [&](const Eigen::Vector3d& axis) {
+    if (axis.norm() < 1e-6) return;
+    const Eigen::RowVectorXd on_a = axis.normalized().transpose() * a;
+    const Eigen::RowVectorXd on_b = axis.normalized().transpose() * b;
+    gap = std::max({gap, on_a.minCoeff() - on_b.maxCoeff(), on_b.minCoeff() - on_a.maxCoeff()});
+  };
+  const auto connections = [](const Eigen::Matrix3Xd& x) {
+    std::vector<Eigen::Vector3d> all;
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+      for (Eigen::Index j = i + 1; j < x.cols(); ++j) all.push_back(x.col(j) - x.col(i));
+    return all;
+  };
+  const auto of_a = connections(a), of_b = connections(b);
+  for (const auto* of_one : {&of_a, &of_b})
+    for (const Eigen::Vector3d& u : *of_one)
+      for (const Eigen::Vector3d& v : *of_one) try_axis(u.cross(v));
+  for (const Eigen::Vector3d& u : of_a)
+    for (const Eigen::Vector3d& v : of_b) try_axis(u.cross(v));
+  return gap;
+}
+
+TEST_P(GjkScale, TrianglesTetrahedraWedgesAndHexahedraAreToldApartFromEachOther) {
+  const double scale = GetParam();
+  std::mt19937 random(10);
+  for (const ElementShape& shape_a : element_shapes())
+    for (const ElementShape& shape_b : element_shapes()) {
+      SCOPED_TRACE(std::string(shape_a.name) + " and " + shape_b.name);
+      int num_pairs = 0, num_intersecting = 0;
+      for (int i = 0; i < 60; ++i) {
+        const Eigen::Matrix3Xd a = random_element(shape_a, random);
+        const Eigen::Matrix3Xd b = random_element(shape_b, random);
+        const double gap = hull_gap(a, b);
+        if (std::abs(gap) < kNearTouching) continue;
+        ASSERT_EQ(gjk(scale * a, scale * b),
+                  gap > 0 ? GjkOutcome::Separated : GjkOutcome::Intersecting)
+            << "gap " << gap << "\n"
+            << a << "\n"
+            << b;
+        ++num_pairs;
+        num_intersecting += gap < 0 ? 1 : 0;
+      }
+      EXPECT_GT(num_intersecting, 0.1 * num_pairs);
+      EXPECT_LT(num_intersecting, 0.9 * num_pairs);
+    }
 }
 
 TEST(Gjk, AnyConvexShapeMayBeGivenByItsPoints) {
