@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <thread>
 
 #include "collision/box_group.hpp"
@@ -303,6 +304,16 @@ void faces_in_own_body(const BlockTree& tree, std::vector<Penetration>& pairs,
                        BlockQueryCounts& counts, BlockQueryScratch& scratch,
                        const BlockQueryOptions& options) {
   query(tree, tree, true, pairs, counts, scratch, options);
+}
+
+void group_by_face(std::vector<Penetration>& pairs, int num_faces, GroupScratch& scratch) {
+  scratch.begin.assign(static_cast<std::size_t>(num_faces) + 1, 0);
+  for (const Penetration& pair : pairs) ++scratch.begin[static_cast<std::size_t>(pair.face) + 1];
+  std::partial_sum(scratch.begin.begin(), scratch.begin.end(), scratch.begin.begin());
+  scratch.grouped.resize(pairs.size());
+  for (const Penetration& pair : pairs)
+    scratch.grouped[scratch.begin[static_cast<std::size_t>(pair.face)]++] = pair;
+  pairs.swap(scratch.grouped);
 }
 
 }  // namespace articular::collision

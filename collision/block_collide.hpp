@@ -53,4 +53,14 @@ void faces_in_own_body(const BlockTree& tree, std::vector<Penetration>& pairs,
                        BlockQueryCounts& counts, BlockQueryScratch& scratch,
                        const BlockQueryOptions& options = {});
 
+/// Memory of group_by_face(), kept from call to call.
+struct GroupScratch {
+  std::vector<std::size_t> begin;
+  std::vector<Penetration> grouped;
+};
+
+/// Puts pairs of the same face one behind the other, faces in ascending order; of one face the
+/// order stays.
+void group_by_face(std::vector<Penetration>& pairs, int num_faces, GroupScratch& scratch);
+
 }  // namespace articular::collision

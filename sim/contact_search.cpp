@@ -77,6 +77,7 @@ void drop_far_faces(const std::vector<collision::Penetration>& faces_in_triangle
 
 ContactSearch::ContactSearch(const Model& model)
     : model_(model), moving_of_body_(model.bodies.size(), -1) {
+  options_.narrow = model.scenario.detection.narrow_test;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const ContactModel& contact = model.contacts[c];
     for (const int body : {contact.a, contact.b}) {
@@ -86,10 +87,8 @@ ContactSearch::ContactSearch(const Model& model)
       const Collider& collider = *model.bodies[static_cast<std::size_t>(body)].collider;
       Moving moving;
       moving.body = body;
-      collision::BucketTreeOptions options;
-      options.bucket_ratio = model.scenario.detection.bucket_ratio;
-      moving.tree = std::make_unique<collision::BucketTree>(collider.tets, collider.surface,
-                                                            collider.X, options);
+      moving.tree =
+          std::make_unique<collision::BlockTree>(collider.tets, collider.surface, collider.X);
       moving_.push_back(std::move(moving));
       seen_.resize(std::max(seen_.size(), collider.face_area.size()));
     }
@@ -111,8 +110,6 @@ void ContactSearch::update(Moving& moving, const Configuration& configuration, d
   if (!needs_update(moving, margin)) return;
   const Collider& collider = *model_.bodies[static_cast<std::size_t>(moving.body)].collider;
   positions_of(configuration, collider.nodes, moving.x);
-  moving.low = moving.x.rowwise().minCoeff();
-  moving.high = moving.x.rowwise().maxCoeff();
   moving.tree->update(moving.x, margin);
   moving.margin = margin;
   ++counts_.tree_updates;
@@ -124,7 +121,7 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
   counts_.update_seconds += seconds_since(start);
 
   const auto query_start = Clock::now();
-  collision::QueryCounts query;
+  collision::BlockQueryCounts query;
   for (CandidateList& list : candidates_) list.pairs.clear();
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     CandidateList& list = candidates_[i];
@@ -137,14 +134,17 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
       return model_.bodies[static_cast<std::size_t>(moving.body)].collider->face_area.size();
     };
     if (contact.a == contact.b) {
-      collision::self_intersections(*a.tree, faces_of_a_, query);
+      collision::faces_in_own_body(*a.tree, faces_of_a_, query, scratch_, options_);
+      collision::group_by_face(faces_of_a_, a.tree->num_faces(), group_scratch_);
       collect(faces_of_a_, a, a, margin, list.pairs);
       drop_far_faces(faces_of_a_, num_faces(a), list.pairs);
       continue;
     }
-    const bool apart = (a.low - b.high).maxCoeff() > margin || (b.low - a.high).maxCoeff() > margin;
-    if (!apart) {
-      collision::collide(*a.tree, *b.tree, faces_of_a_, faces_of_b_, query, scratch_);
+    if (overlap(a.tree->bounds(), b.tree->bounds())) {
+      collision::faces_in_body(*a.tree, *b.tree, faces_of_a_, query, scratch_, options_);
+      collision::faces_in_body(*b.tree, *a.tree, faces_of_b_, query, scratch_, options_);
+      collision::group_by_face(faces_of_a_, a.tree->num_faces(), group_scratch_);
+      collision::group_by_face(faces_of_b_, b.tree->num_faces(), group_scratch_);
       collect(faces_of_a_, a, b, margin, list.pairs);
       drop_far_faces(faces_of_b_, num_faces(b), list.pairs);
       CandidateList& reverse = candidates_[i + 1];
@@ -153,8 +153,8 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
     }
     ++i;  // the reverse list is done too
   }
-  counts_.narrow_tests += query.narrow_tests;
-  counts_.reported_pairs += query.reported;
+  counts_.narrow_tests += query.candidates;
+  counts_.reported_pairs += query.pairs;
   counts_.narrow_seconds += query.narrow_seconds;
   counts_.traversal_seconds += seconds_since(query_start) - query.narrow_seconds;
 }

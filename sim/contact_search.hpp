@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "collision/collide.hpp"
+#include "collision/block_collide.hpp"
 #include "sim/configuration.hpp"
 
 /// Who may touch whom during the next step: from the BucketTrees' penetrations with a margin to
@@ -48,10 +48,9 @@ class ContactSearch {
  private:
   struct Moving {
     int body = 0;
-    std::unique_ptr<collision::BucketTree> tree;
-    Positions x;                                   // where it was found
-    Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // its box
-    double margin = -1;                            // that the tree was updated with
+    std::unique_ptr<collision::BlockTree> tree;
+    Positions x;         // where it was found
+    double margin = -1;  // that the tree was updated with
   };
   void update(Moving& moving, const Configuration& configuration, double margin);
   bool needs_update(const Moving& moving, double margin) const;
@@ -63,7 +62,9 @@ class ContactSearch {
   std::vector<int> moving_of_body_;  // -1: none
   std::vector<CandidateList> candidates_;
   std::vector<collision::Penetration> faces_of_a_, faces_of_b_;
-  collision::QueryScratch scratch_;
+  collision::BlockQueryScratch scratch_;
+  collision::BlockQueryOptions options_;
+  collision::GroupScratch group_scratch_;
   std::vector<int> seen_;  // per face: last triangle that it was paired with
   SearchCounts counts_;
 };

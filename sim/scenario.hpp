@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/narrow_rule.hpp"
 #include "sim/error.hpp"
 
 /// A scenario as the user wrote it, in SI units: plain data, no meshes loaded, nothing looked up.
@@ -219,7 +220,7 @@ struct Integrator {
 
 struct Detection {
   double margin = 0.05e-3;  // [m], least distance at which pairs are kept as candidates
-  double bucket_ratio = 2;  // n of Eq. 1.5.6, edge lengths a bucket
+  collision::NarrowTest narrow_test = collision::NarrowTest::SeparatingAxes;
 };
 
 struct Output {

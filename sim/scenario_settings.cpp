@@ -52,10 +52,13 @@ void read_integrator(const Node& node, Integrator& integrator) {
 }
 
 void read_detection(const Node& node, Detection& detection) {
-  const TableReader table(node, "[detection]", {"margin", "bucket_ratio"});
-  // The only choice so far, so that nothing is kept of it.
+  const TableReader table(node, "[detection]", {"margin", "narrow_test"});
   table.may("margin", detection.margin, as_quantity(kLength, kPositive));
-  table.may("bucket_ratio", detection.bucket_ratio, as_number(kPositive));
+  table.may("narrow_test", detection.narrow_test, [](const Node& n) {
+    return read_choice<collision::NarrowTest>(
+        n, {{"separating-axes", collision::NarrowTest::SeparatingAxes},
+            {"gjk", collision::NarrowTest::Gjk}});
+  });
 }
 
 void read_output(const Node& node, Output& output) {
@@ -117,8 +120,10 @@ std::string settings_as_json(const Scenario& scenario) {
       {"position_tolerance_m", integrator.position_tolerance},
       {"max_iterations", integrator.max_iterations},
       {"min_step_s", integrator.min_step}};
-  json["detection"] = {{"margin_m", scenario.detection.margin},
-                       {"bucket_ratio", scenario.detection.bucket_ratio}};
+  json["detection"] = {
+      {"margin_m", scenario.detection.margin},
+      {"narrow_test",
+       scenario.detection.narrow_test == collision::NarrowTest::Gjk ? "gjk" : "separating-axes"}};
   json["output"] = {{"interval_s", output.interval}, {"length_unit", output.length_unit_name}};
   if (output.directory) json["output"]["directory"] = output.directory->string();
   if (output.checkpoint_interval)

@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "body `extra`: unknown key `densitty`; did you mean `density`?"},
         Mistake{"UnknownKeyFarFromAny", "duration = \"1 s\"\n[detection]\n@colour = 1\n" + kBodies,
                 "[detection]: unknown key `colour`; expected one of `margin`, "
-                "`bucket_ratio`"},
+                "`narrow_test`"},
         Mistake{"MissingKey", "@title = \"x\"\n" + kBodies, "scenario: `duration` is missing"},
         Mistake{"MissingKeyInAnEntry", kStart + "@[[body]]\nname = \"extra\"\n",
                 "body `extra`: `kind` is missing"},

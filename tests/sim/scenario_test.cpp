@@ -29,7 +29,7 @@ min_step = "0.2 us"
 
 [detection]
 margin = "0.3 mm"
-bucket_ratio = 2
+narrow_test = "gjk"
 
 [[body]]
 name = "skull"
@@ -227,7 +227,7 @@ TEST_F(CompleteScenario, HasItsSettings) {
   EXPECT_EQ(scenario_.integrator.max_iterations, 9);
   EXPECT_EQ(scenario_.integrator.min_step, 2e-7);
   EXPECT_EQ(scenario_.detection.margin, 0.3e-3);
-  EXPECT_EQ(scenario_.detection.bucket_ratio, 2);
+  EXPECT_EQ(scenario_.detection.narrow_test, collision::NarrowTest::Gjk);
   EXPECT_EQ(scenario_.output.interval, 20e-3);
   EXPECT_EQ(scenario_.output.length_unit, 1e-2);
   EXPECT_EQ(scenario_.output.length_unit_name, "cm");
@@ -447,7 +447,7 @@ TEST_F(CompleteScenario, RecordsItsSettingsAsJson) {
   EXPECT_EQ(json["contact"][0]["bodies"][1], "mandible");
   EXPECT_EQ(json["integrator"]["scheme"], "tr-bdf2");
   EXPECT_EQ(json["integrator"]["position_tolerance_m"], 3e-7);
-  EXPECT_EQ(json["detection"]["bucket_ratio"], 2);
+  EXPECT_EQ(json["detection"]["narrow_test"], "gjk");
   EXPECT_EQ(json["output"]["checkpoint_interval_s"], 0.1);
 }
 
