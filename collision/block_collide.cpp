@@ -80,8 +80,10 @@ struct Worker {
 }  // namespace
 
 struct BlockQueryScratch::Parts {
-  std::vector<BoxGroup> face_boxes;  // of the face blocks within reach, in the frame of W
+  // The face blocks within reach, their boxes and those of their faces in the frame of W.
   std::vector<int> face_blocks;
+  std::vector<FloatBox> face_block_boxes;
+  std::vector<BoxGroup> face_boxes;
   std::vector<BoxList> lists;  // a level
   std::vector<Task> tasks;
   std::vector<int> task_faces;  // indices into face_blocks
@@ -122,8 +124,7 @@ class Search {
     worker.faces.clear();
     for (std::size_t i = task.begin; i < task.end; ++i) {
       const int face_block = s_.task_faces[i];
-      const BoxGroup& group = s_.face_boxes[static_cast<std::size_t>(face_block)];
-      worker.faces.push(union_of(group), face_block);
+      worker.faces.push(s_.face_block_boxes[static_cast<std::size_t>(face_block)], face_block);
     }
     const BoxGroup& blocks = W_.tet_levels()[0][static_cast<std::size_t>(task.group)];
     const int first = task.group * kBlockSize;
@@ -139,6 +140,7 @@ class Search {
     const FloatBox root = union_of(W_.tet_levels().back()[0]);
     s_.face_boxes.clear();
     s_.face_blocks.clear();
+    s_.face_block_boxes.clear();
     list.clear();
     for (int block = 0; block < F_.num_face_blocks(); ++block) {
       const BoxGroup& group = F_.face_boxes()[static_cast<std::size_t>(block)];
@@ -146,6 +148,7 @@ class Search {
       if (!overlap(box, root)) continue;
       list.push(box, static_cast<int>(s_.face_blocks.size()));
       s_.face_blocks.push_back(block);
+      s_.face_block_boxes.push_back(box);
       BoxGroup& moved = s_.face_boxes.emplace_back();
       for (std::size_t lane = 0; lane < kLanes; ++lane)
         put(into_w(box_in(group, lane)), moved, lane);

@@ -26,7 +26,7 @@ struct FloatBox {
 /// One block of tetrahedra against blocks of faces. Lengths in the unit and frame of the positions.
 struct BlockQuery {
   // The tetrahedra.
-  const double* positions;  // three a node
+  const double* positions;  // four a node, the last without meaning
   const int* nodes;         // of the block, each once
   int num_nodes;
   const std::uint8_t* corners;     // [4][16] indices into nodes
@@ -60,7 +60,33 @@ struct PairList {
   int num_accepted, num_doubtful;
 };
 
+/// From positions to the frame of a tree's boxes.
+struct BoxFrame {
+  double origin[3], inverse_scale;
+  double half_margin;  // that boxes are inflated by [m]
+  float slack;         // and what round-off needs, in units of the scale
+};
+
+/// Boxes of blocks, each of some nodes.
+struct BlockFit {
+  const double* positions;   // four a node, the last without meaning [m]
+  const int *begin, *nodes;  // nodes of block b: nodes[begin[b]] to nodes[begin[b + 1] - 1]
+  int num_blocks;
+  BoxGroup* groups;  // a lane a block
+};
+
+/// Corners and boxes of faces, a lane a face.
+struct FaceFit {
+  const double* positions;    // four a node, the last without meaning [m]
+  const std::int32_t* nodes;  // [block][corner][16]
+  int num_faces;              // further lanes of the last block get no box
+  double* corners;            // [block][corner][axis][16]
+  BoxGroup* groups;
+};
+
 struct BlockKernels {
+  void (*fit_blocks)(const BoxFrame& frame, const BlockFit& fit);
+  void (*fit_faces)(const BoxFrame& frame, const FaceFit& fit);
   /// Which boxes of the group overlap the box: bit i for the i-th.
   unsigned (*overlapping)(const BoxGroup& group, const FloatBox& box);
   void (*test_block)(BlockQuery& query);

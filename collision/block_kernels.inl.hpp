@@ -86,7 +86,7 @@ void load_tetrahedra(const BlockQuery& query, TetLanes& lanes) {
   for (int i = 0; i < query.num_nodes; ++i)
     for (int axis = 0; axis < 3; ++axis)
       local[i][axis] = static_cast<float>(
-          (query.positions[3 * query.nodes[i] + axis] - query.centre[axis]) * query.inverse_size);
+          (query.positions[4 * query.nodes[i] + axis] - query.centre[axis]) * query.inverse_size);
   for (int corner = 0; corner < 4; ++corner)
     for (int lane = 0; lane < kBlockSize; ++lane) {
       const int i = query.corners[corner * kBlockSize + lane];
@@ -187,20 +187,27 @@ void prepare(FaceLanes& lanes, float margin) {
   }
 }
 
-/// Tetrahedra whose box overlaps the face's, which is made smaller by `less_room`.
-inline unsigned boxes_overlap(const TetLanes& tets, const FaceLanes& faces, int face,
-                              float less_room) {
+/// Tetrahedra whose box overlaps the box.
+inline unsigned boxes_overlap(const TetLanes& tets, const FloatBox& box) {
   unsigned result = 0;
   for (int first = 0; first < kBlockSize; first += Vec::kWidth) {
     unsigned mask = kAllLanes;
     for (int axis = 0; axis < 3; ++axis)
-      mask &= less_equal(Vec::all(faces.low.row[axis][face] + less_room),
-                         Vec::load(tets.high.row[axis] + first)) &
-              less_equal(Vec::load(tets.low.row[axis] + first),
-                         Vec::all(faces.high.row[axis][face] - less_room));
+      mask &= less_equal(Vec::all(box.low[axis]), Vec::load(tets.high.row[axis] + first)) &
+              less_equal(Vec::load(tets.low.row[axis] + first), Vec::all(box.high[axis]));
     result |= mask << first;
   }
-  return result;
+  return result & tets.present;
+}
+
+/// The box of a face, made smaller by `less` on each side.
+inline FloatBox box_of(const FaceLanes& faces, int face, float less) {
+  FloatBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = faces.low.row[axis][face] + less;
+    box.high[axis] = faces.high.row[axis][face] - less;
+  }
+  return box;
 }
 
 inline unsigned share_a_node(const TetLanes& tets, const FaceLanes& faces, int face) {
@@ -214,10 +221,10 @@ inline unsigned share_a_node(const TetLanes& tets, const FaceLanes& faces, int f
   return result;
 }
 
-/// Pairs of a block of tetrahedra and a block of faces whose boxes overlap.
+/// Pairs of a block of tetrahedra and a block of faces whose boxes overlap: 16 x face +
+/// tetrahedron.
 struct Candidates {
-  std::uint8_t tet[kBlockSize * kBlockSize + kBlockSize],
-      face[kBlockSize * kBlockSize + kBlockSize];
+  std::uint8_t pair[kBlockSize * kBlockSize + kBlockSize] = {};
   int size = 0;
 };
 
@@ -311,14 +318,14 @@ struct alignas(64) EdgeBatch {
   int size = 0;
 };
 
-inline void enqueue(const Signs& s, unsigned mask, const std::uint32_t* ids, EdgeBatch& batch) {
+/// Adds all but the ids.
+inline void enqueue(const Signs& s, unsigned mask, EdgeBatch& batch) {
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 3; ++j) store_packed(s.L[i][j], mask, batch.row[3 * i + j] + batch.size);
     store_packed(s.height[i], mask, batch.row[12 + i] + batch.size);
   }
   store_packed(s.error_L, mask, batch.row[16] + batch.size);
   store_packed(s.error_height, mask, batch.row[17] + batch.size);
-  for (; mask != 0; mask &= mask - 1) batch.id[batch.size++] = ids[__builtin_ctz(mask)];
 }
 
 /// Two faces of the tetrahedron, and the corners at the ends of the edge where they meet.
@@ -387,6 +394,10 @@ Verdict by_edges(const Signs& s) {
 inline void append(unsigned mask, const std::uint32_t* ids, std::uint32_t* list, int& size) {
   for (; mask != 0; mask &= mask - 1) list[size++] = ids[__builtin_ctz(mask)];
 }
+inline void append(unsigned mask, std::uint32_t first_id, const std::uint8_t* rest_of_ids,
+                   std::uint32_t* list, int& size) {
+  for (; mask != 0; mask &= mask - 1) list[size++] = first_id + rest_of_ids[__builtin_ctz(mask)];
+}
 inline void append(unsigned mask, std::uint32_t first_id, std::uint32_t* list, int& size) {
   for (; mask != 0; mask &= mask - 1)
     list[size++] = first_id + static_cast<std::uint32_t>(__builtin_ctz(mask));
@@ -435,50 +446,64 @@ inline void write(std::uint64_t bytes, std::uint8_t* to) { __builtin_memcpy(to, 
 /// Adds a face with the tetrahedra of the mask. Sixteen are written, as many as there are count.
 inline void append(int face, unsigned mask, Candidates& candidates) {
   constexpr std::uint64_t kEachByte = 0x0101010101010101;
+  const std::uint64_t first = static_cast<std::uint64_t>(face * kBlockSize) * kEachByte;
   const unsigned low = mask & 0xff, high = mask >> 8;
-  std::uint8_t* tets = candidates.tet + candidates.size;
-  write(kPackedBits.of[low], tets);
-  write(kPackedBits.of[high] + 8 * kEachByte, tets + __builtin_popcount(low));
-  std::uint8_t* faces = candidates.face + candidates.size;
-  write(static_cast<std::uint64_t>(face) * kEachByte, faces);
-  write(static_cast<std::uint64_t>(face) * kEachByte, faces + 8);
+  std::uint8_t* pairs = candidates.pair + candidates.size;
+  write(kPackedBits.of[low] + first, pairs);
+  write(kPackedBits.of[high] + first + 8 * kEachByte, pairs + __builtin_popcount(low));
   candidates.size += __builtin_popcount(mask);
 }
 
-/// The tetrahedra whose boxes overlap that of a face. Where single precision has no say the pair
-/// goes to the doubtful ones at once.
-void find_candidates(const TetLanes& tets, const FaceLanes& faces, int face, std::uint32_t face_id,
-                     BlockQuery& query, Candidates& candidates) {
-  unsigned mask = boxes_overlap(tets, faces, face, 0) & tets.present;
-  if (mask == 0) return;
-  if (query.one_mesh) mask &= ~share_a_node(tets, faces, face);
-  query.num_candidates += __builtin_popcount(mask);
-  unsigned doubtful = query.boxes_only ? mask : mask & tets.flat;
-  if (query.margin > 0) doubtful |= mask & ~boxes_overlap(tets, faces, face, 2 * faces.room[face]);
-  append(doubtful, face_id, query.doubtful, query.num_doubtful);
-  append(face, mask & ~doubtful, candidates);
+/// Pairs with overlapping boxes, for a block on which single precision has a say.
+void find_candidates(const TetLanes& tets, const FaceLanes& faces, unsigned face_mask,
+                     Candidates& candidates) {
+  for (; face_mask != 0; face_mask &= face_mask - 1) {
+    const int face = __builtin_ctz(face_mask);
+    append(face, boxes_overlap(tets, box_of(faces, face, 0)), candidates);
+  }
+}
+
+/// The same where more has to be asked: pairs with a common node are left out, and those that
+/// single precision can't judge go to the doubtful ones at once.
+void find_candidates_with_care(const TetLanes& tets, const FaceLanes& faces, unsigned face_mask,
+                               std::uint32_t block_id, BlockQuery& query, Candidates& candidates) {
+  for (; face_mask != 0; face_mask &= face_mask - 1) {
+    const int face = __builtin_ctz(face_mask);
+    unsigned mask = boxes_overlap(tets, box_of(faces, face, 0));
+    if (mask == 0) continue;
+    if (query.one_mesh) mask &= ~share_a_node(tets, faces, face);
+    unsigned doubtful = query.boxes_only ? mask : mask & tets.flat;
+    if (query.margin > 0)
+      doubtful |= mask & ~boxes_overlap(tets, box_of(faces, face, 2 * faces.room[face]));
+    query.num_candidates += __builtin_popcount(doubtful);
+    append(doubtful, block_id + static_cast<std::uint32_t>(face * kBlockSize), query.doubtful,
+           query.num_doubtful);
+    append(face, mask & ~doubtful, candidates);
+  }
 }
 
 void test_candidates(const TetLanes& tets, const FaceLanes& faces, const Candidates& candidates,
                      std::uint32_t block_id, BlockQuery& query, EdgeBatch& batch) {
+  query.num_candidates += candidates.size;
   for (int first = 0; first < candidates.size; first += Vec::kWidth) {
-    const Pick tet = Pick::load(candidates.tet + first), face = Pick::load(candidates.face + first);
-    std::uint32_t ids[Vec::kWidth];
-    for (int i = 0; i < Vec::kWidth; ++i)
-      ids[i] = block_id + candidates.face[first + i] * std::uint32_t{kBlockSize} +
-               candidates.tet[first + i];
+    const std::uint8_t* pairs = candidates.pair + first;
+    const Pick tet = Pick::low_bits(pairs), face = Pick::high_bits(pairs);
     const int rest = candidates.size - first;
     const unsigned filled = rest >= Vec::kWidth ? kAllLanes : (1u << rest) - 1;
     const Signs s = locate(tets, tet, faces, face);
     if (query.margin > 0) {
       const Verdict v = by_planes_with_margin(s, tets, tet, faces, face);
-      append(v.meet & filled, ids, query.accepted, query.num_accepted);
-      append(~(v.meet | v.apart) & filled, ids, query.doubtful, query.num_doubtful);
+      append(v.meet & filled, block_id, pairs, query.accepted, query.num_accepted);
+      append(~(v.meet | v.apart) & filled, block_id, pairs, query.doubtful, query.num_doubtful);
       continue;
     }
-    const unsigned near = filled & ~apart_by_planes(s), inside = near & corner_inside(s);
-    append(inside, ids, query.accepted, query.num_accepted);
-    enqueue(s, near & ~inside, ids, batch);
+    const unsigned near = filled & ~apart_by_planes(s);
+    if (near == 0) continue;
+    const unsigned inside = near & corner_inside(s), open = near & ~inside;
+    append(inside, block_id, pairs, query.accepted, query.num_accepted);
+    if (open == 0) continue;
+    enqueue(s, open, batch);
+    append(open, block_id, pairs, batch.id, batch.size);
     if (batch.size >= Vec::kWidth) test_edges(batch, query);
   }
 }
@@ -488,21 +513,70 @@ void test_block(BlockQuery& query) {
   load_tetrahedra(query, tets);
   prepare(tets);
   FaceLanes faces;
-  Candidates candidates = {};
+  Candidates candidates;
+  const bool with_care = query.one_mesh || query.boxes_only || query.margin > 0 || tets.flat != 0;
   EdgeBatch batch;
   for (int i = 0; i < query.num_face_blocks; ++i) {
     load_faces(query, query.face_blocks[i], faces);
     prepare(faces, tets.margin);
     const auto block_id = static_cast<std::uint32_t>(i * kBlockSize * kBlockSize);
     candidates.size = 0;
-    for (unsigned mask = query.face_masks[i]; mask != 0; mask &= mask - 1) {
-      const int face = __builtin_ctz(mask);
-      find_candidates(tets, faces, face, block_id + static_cast<std::uint32_t>(face * kBlockSize),
-                      query, candidates);
-    }
+    if (with_care)
+      find_candidates_with_care(tets, faces, query.face_masks[i], block_id, query, candidates);
+    else
+      find_candidates(tets, faces, query.face_masks[i], candidates);
     test_candidates(tets, faces, candidates, block_id, query, batch);
   }
   while (batch.size > 0) test_edges(batch, query);
+}
+
+inline float low_in(const BoxFrame& frame, double low, int axis) {
+  return static_cast<float>((low - frame.half_margin - frame.origin[axis]) * frame.inverse_scale) -
+         frame.slack;
+}
+inline float high_in(const BoxFrame& frame, double high, int axis) {
+  return static_cast<float>((high + frame.half_margin - frame.origin[axis]) * frame.inverse_scale) +
+         frame.slack;
+}
+
+void fit_blocks(const BoxFrame& frame, const BlockFit& fit) {
+  for (int block = 0; block < fit.num_blocks; ++block) {
+    Box4 box = Box4::at(fit.positions + 4 * fit.nodes[fit.begin[block]]);
+    for (int i = fit.begin[block] + 1; i < fit.begin[block + 1]; ++i)
+      box.include(fit.positions + 4 * fit.nodes[i]);
+    double low[4], high[4];
+    box.store(low, high);
+    BoxGroup& group = fit.groups[block / kBlockSize];
+    for (int axis = 0; axis < 3; ++axis) {
+      group.low[axis][block % kBlockSize] = low_in(frame, low[axis], axis);
+      group.high[axis][block % kBlockSize] = high_in(frame, high[axis], axis);
+    }
+  }
+}
+
+void fit_faces(const BoxFrame& frame, const FaceFit& fit) {
+  const std::int32_t* node = fit.nodes;
+  double* to = fit.corners;
+  for (int first = 0; first < fit.num_faces; first += kBlockSize) {
+    double corners[3][3][kBlockSize];
+    for (int k = 0; k < 3; ++k)
+      for (int lane = 0; lane < kBlockSize; ++lane) {
+        const double* p = fit.positions + 4 * *node++;
+        for (int axis = 0; axis < 3; ++axis) corners[k][axis][lane] = p[axis];
+      }
+    __builtin_memcpy(to, corners, sizeof(corners));
+    to += 9 * kBlockSize;
+    BoxGroup& group = fit.groups[first / kBlockSize];
+    const int num = fit.num_faces - first < kBlockSize ? fit.num_faces - first : kBlockSize;
+    for (int axis = 0; axis < 3; ++axis)
+      for (int lane = 0; lane < num; ++lane) {
+        const double p = corners[0][axis][lane], q = corners[1][axis][lane],
+                     r = corners[2][axis][lane];
+        const double low = p < q ? p : q, high = p > q ? p : q;
+        group.low[axis][lane] = low_in(frame, low < r ? low : r, axis);
+        group.high[axis][lane] = high_in(frame, high > r ? high : r, axis);
+      }
+  }
 }
 
 /// The two elements of each pair in a lane of their own, with a corner of the tetrahedron as
@@ -559,7 +633,7 @@ void test_pairs(PairList& list) {
     prepare(tets);
     prepare(faces, 0);
     for (int first = 0; first < num; first += Vec::kWidth) {
-      const Pick pick = Pick::load(kInOrder + first);
+      const Pick pick = Pick::low_bits(kInOrder + first);
       std::uint32_t ids[Vec::kWidth];
       for (int i = 0; i < Vec::kWidth; ++i) ids[i] = static_cast<std::uint32_t>(block + first + i);
       const unsigned present = ((1u << num) - 1) >> first & kAllLanes;
@@ -569,7 +643,8 @@ void test_pairs(PairList& list) {
       const unsigned near = mask & ~flat & ~apart_by_planes(s), inside = near & corner_inside(s);
       append(flat, ids, list.doubtful, list.num_doubtful);
       append(inside, ids, list.accepted, list.num_accepted);
-      enqueue(s, near & ~inside, ids, batch);
+      enqueue(s, near & ~inside, batch);
+      append(near & ~inside, ids, batch.id, batch.size);
       if (batch.size >= Vec::kWidth) test_edges(batch, list);
     }
   }
@@ -590,6 +665,6 @@ unsigned overlapping(const BoxGroup& group, const FloatBox& box) {
 
 }  // namespace
 
-const BlockKernels kernels = {overlapping, test_block, test_pairs};
+const BlockKernels kernels = {fit_blocks, fit_faces, overlapping, test_block, test_pairs};
 
 }  // namespace articular::collision::ARTICULAR_INSTRUCTION_SET

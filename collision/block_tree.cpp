@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "collision/bad_input.hpp"
 #include "collision/box_group.hpp"
@@ -67,7 +68,7 @@ BlockTree::BlockTree(const Eigen::Matrix4Xi& tets, const Surface& surface,
     tet_levels_.emplace_back(num, empty_group());
   } while (num > 1);
   face_boxes_.resize(num_groups(face_order_.size()), empty_group());
-  positions_.resize(3 * node_order_.size());
+  positions_.resize(4 * node_order_.size());
   face_corners_.resize(9 * face_order_.size());
 }
 
@@ -110,19 +111,22 @@ void BlockTree::update(const Eigen::Matrix3Xd& x, double margin) {
   margin_ = margin;
   if (num_tets_ == 0) return;
   copy_positions(x);
-  fit_tet_blocks();
-  fit_faces();
+  fit_boxes();
 }
 
 void BlockTree::copy_positions(const Eigen::Matrix3Xd& x) {
-  bounds_ = Aabb();
+  Eigen::Array4d low = Eigen::Array4d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Array4d high = -low;
   double* own = positions_.data();
   for (const int user : node_order_) {
-    const Eigen::Vector3d p = x.col(user);
-    bounds_.include(p);
-    Eigen::Vector3d::Map(own) = p;
-    own += 3;
+    const Eigen::Array4d p(x(0, user), x(1, user), x(2, user), 0);
+    low = low.min(p);
+    high = high.max(p);
+    Eigen::Array4d::Map(own) = p;
+    own += 4;
   }
+  bounds_.min = low.head<3>();
+  bounds_.max = high.head<3>();
   bounds_.inflate(0.5 * margin_);
   origin_ = 0.5 * (bounds_.min + bounds_.max);
   // A power of two: nothing is lost by it. Boxes then lie within -1 and 1.
@@ -130,43 +134,20 @@ void BlockTree::copy_positions(const Eigen::Matrix3Xd& x) {
   scale_ = power_of_two_above(half_edge);
 }
 
-void BlockTree::store_box(const Aabb& box, BoxGroup& group, std::size_t lane) const {
-  const double inverse = 1 / scale_, half_margin = 0.5 * margin_;
-  for (int axis = 0; axis < 3; ++axis) {
-    group.low[axis][lane] =
-        static_cast<float>((box.min[axis] - half_margin - origin_[axis]) * inverse) - kBoxSlack;
-    group.high[axis][lane] =
-        static_cast<float>((box.max[axis] + half_margin - origin_[axis]) * inverse) + kBoxSlack;
-  }
-}
-
-void BlockTree::fit_tet_blocks() {
-  const std::size_t num_blocks = num_groups(tet_order_.size());
-  for (std::size_t block = 0; block < num_blocks; ++block) {
-    Aabb box;
-    const int begin = tet_block_nodes_begin_[block], end = tet_block_nodes_begin_[block + 1];
-    for (int i = begin; i < end; ++i)
-      box.include(node_position(tet_block_nodes_[static_cast<std::size_t>(i)]));
-    store_box(box, tet_levels_[0][block / kLanes], block % kLanes);
-  }
+void BlockTree::fit_boxes() {
+  BoxFrame frame;
+  Eigen::Vector3d::Map(frame.origin) = origin_;
+  frame.inverse_scale = 1 / scale_;
+  frame.half_margin = 0.5 * margin_;
+  frame.slack = kBoxSlack;
+  const BlockKernels& kernels = block_kernels(best_instruction_set());
+  kernels.fit_faces(frame, {positions_.data(), face_nodes_.data(), num_faces_, face_corners_.data(),
+                            face_boxes_.data()});
+  kernels.fit_blocks(frame, {positions_.data(), tet_block_nodes_begin_.data(),
+                             tet_block_nodes_.data(), num_tet_blocks(), tet_levels_[0].data()});
   for (std::size_t level = 1; level < tet_levels_.size(); ++level)
     for (std::size_t i = 0; i < tet_levels_[level - 1].size(); ++i)
       put(union_of(tet_levels_[level - 1][i]), tet_levels_[level][i / kLanes], i % kLanes);
-}
-
-void BlockTree::fit_faces() {
-  for (std::size_t slot = 0; slot < face_order_.size(); ++slot) {
-    Aabb box;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto p = node_position(face_nodes_[node_lane(slot, k)]);
-      box.include(p);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        face_corners_[((slot / kLanes * 3 + k) * 3 + axis) * kLanes + slot % kLanes] =
-            p[static_cast<Eigen::Index>(axis)];
-    }
-    if (slot < static_cast<std::size_t>(num_faces_))
-      store_box(box, face_boxes_[slot / kLanes], slot % kLanes);
-  }
 }
 
 void BlockTree::describe_block(int block, BlockQuery& query) const {

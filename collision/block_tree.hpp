@@ -52,7 +52,6 @@ class BlockTree {
   const std::vector<BoxGroup>& face_boxes() const { return face_boxes_; }     // one a face block
   const Eigen::Vector3d& origin() const { return origin_; }                   // of the boxes [m]
   double scale() const { return scale_; }                                     // of the boxes [m]
-  const double* positions() const { return positions_.data(); }               // three a node [m]
   const double* face_corner_lanes() const { return face_corners_.data(); }    // [block][3][3][16]
   const std::int32_t* face_node_lanes() const { return face_nodes_.data(); }  // [block][3][16]
   /// The face or tetrahedron of the user's numbering in a slot: 16 x block + lane.
@@ -65,13 +64,11 @@ class BlockTree {
 
  private:
   Eigen::Map<const Eigen::Vector3d> node_position(int node) const {
-    return Eigen::Map<const Eigen::Vector3d>(&positions_[3 * static_cast<std::size_t>(node)]);
+    return Eigen::Map<const Eigen::Vector3d>(&positions_[4 * static_cast<std::size_t>(node)]);
   }
   void order_nodes(const Eigen::Matrix4Xi& tets, const Surface& surface);
   void copy_positions(const Eigen::Matrix3Xd& x);
-  void fit_tet_blocks();
-  void fit_faces();
-  void store_box(const Aabb& box, BoxGroup& group, std::size_t lane) const;
+  void fit_boxes();
 
   // Fixed.
   int num_tets_, num_faces_;
@@ -87,7 +84,7 @@ class BlockTree {
   double margin_ = 0, scale_ = 1;  // [m]
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   Aabb bounds_;
-  std::vector<double> positions_;
+  std::vector<double> positions_;  // four a node, the last is 0
   std::vector<std::vector<BoxGroup>> tet_levels_;
   std::vector<double> face_corners_;  // [block][corner][axis][16]
   std::vector<BoxGroup> face_boxes_;

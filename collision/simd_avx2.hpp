@@ -42,17 +42,36 @@ inline void store_packed(Vec a, unsigned mask, float* p) {
   for (; mask != 0; mask &= mask - 1) *p++ = lanes[__builtin_ctz(mask)];
 }
 
-/// Picks lanes out of rows of sixteen.
+/// Picks lanes out of rows of sixteen, by the low or the high four bits of bytes.
 struct Pick {
   __m256i lane;
-  static Pick load(const std::uint8_t* lanes) {
-    return {_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(lanes)))};
+  static __m256i bytes(const std::uint8_t* lanes) {
+    return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(lanes)));
   }
+  static Pick low_bits(const std::uint8_t* lanes) {
+    return {_mm256_and_si256(bytes(lanes), _mm256_set1_epi32(15))};
+  }
+  static Pick high_bits(const std::uint8_t* lanes) { return {_mm256_srli_epi32(bytes(lanes), 4)}; }
   Vec operator()(const float* row) const {
     const __m256 low = _mm256_permutevar8x32_ps(_mm256_load_ps(row), lane);
     const __m256 high = _mm256_permutevar8x32_ps(_mm256_load_ps(row + 8), lane);
     const __m256 is_high = _mm256_castsi256_ps(_mm256_slli_epi32(lane, 28));  // bit 3 as the sign
     return {_mm256_blendv_ps(low, high, is_high)};
+  }
+};
+
+/// A box of points of four doubles.
+struct Box4 {
+  __m256d low, high;
+  static Box4 at(const double* p) { return {_mm256_loadu_pd(p), _mm256_loadu_pd(p)}; }
+  void include(const double* p) {
+    const __m256d q = _mm256_loadu_pd(p);
+    low = _mm256_min_pd(low, q);
+    high = _mm256_max_pd(high, q);
+  }
+  void store(double* l, double* h) const {
+    _mm256_storeu_pd(l, low);
+    _mm256_storeu_pd(h, high);
   }
 };
 

@@ -37,15 +37,35 @@ inline void store_packed(Vec a, unsigned mask, float* p) {
   _mm512_storeu_ps(p, _mm512_maskz_compress_ps(static_cast<__mmask16>(mask), a.v));
 }
 
-/// Picks lanes out of rows of sixteen.
+/// Picks lanes out of rows of sixteen, by the low or the high four bits of bytes.
 struct Pick {
   __m512i lane;
-  static Pick load(const std::uint8_t* lanes) {
-    const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(lanes));
-    return {_mm512_maskz_cvtepu8_epi32(kAll, bytes)};
+  static __m512i bytes(const std::uint8_t* lanes) {
+    return _mm512_maskz_cvtepu8_epi32(kAll,
+                                      _mm_loadu_si128(reinterpret_cast<const __m128i*>(lanes)));
+  }
+  // The permutation looks at the low four bits only.
+  static Pick low_bits(const std::uint8_t* lanes) { return {bytes(lanes)}; }
+  static Pick high_bits(const std::uint8_t* lanes) {
+    return {_mm512_maskz_srli_epi32(kAll, bytes(lanes), 4)};
   }
   Vec operator()(const float* row) const {
     return {_mm512_maskz_permutexvar_ps(kAll, lane, _mm512_load_ps(row))};
+  }
+};
+
+/// A box of points of four doubles.
+struct Box4 {
+  __m256d low, high;
+  static Box4 at(const double* p) { return {_mm256_loadu_pd(p), _mm256_loadu_pd(p)}; }
+  void include(const double* p) {
+    const __m256d q = _mm256_loadu_pd(p);
+    low = _mm256_min_pd(low, q);
+    high = _mm256_max_pd(high, q);
+  }
+  void store(double* l, double* h) const {
+    _mm256_storeu_pd(l, low);
+    _mm256_storeu_pd(h, high);
   }
 };
 

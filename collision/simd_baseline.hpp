@@ -42,16 +42,43 @@ inline void store_packed(Vec a, unsigned mask, float* p) {
   for (; mask != 0; mask &= mask - 1) *p++ = lanes[__builtin_ctz(mask)];
 }
 
-/// Picks lanes out of rows of sixteen.
+/// Picks lanes out of rows of sixteen, by the low or the high four bits of bytes.
 struct Pick {
   std::uint8_t lane[Vec::kWidth];
-  static Pick load(const std::uint8_t* lanes) {
+  static Pick low_bits(const std::uint8_t* lanes) {
     Pick pick;
-    for (int i = 0; i < Vec::kWidth; ++i) pick.lane[i] = lanes[i];
+    for (int i = 0; i < Vec::kWidth; ++i) pick.lane[i] = lanes[i] & 15;
+    return pick;
+  }
+  static Pick high_bits(const std::uint8_t* lanes) {
+    Pick pick;
+    for (int i = 0; i < Vec::kWidth; ++i) pick.lane[i] = static_cast<std::uint8_t>(lanes[i] >> 4);
     return pick;
   }
   Vec operator()(const float* row) const {
     return {_mm_setr_ps(row[lane[0]], row[lane[1]], row[lane[2]], row[lane[3]])};
+  }
+};
+
+/// A box of points of four doubles.
+struct Box4 {
+  __m128d low[2], high[2];
+  static Box4 at(const double* p) {
+    const __m128d xy = _mm_loadu_pd(p), zw = _mm_loadu_pd(p + 2);
+    return {{xy, zw}, {xy, zw}};
+  }
+  void include(const double* p) {
+    for (int half = 0; half < 2; ++half) {
+      const __m128d q = _mm_loadu_pd(p + 2 * half);
+      low[half] = _mm_min_pd(low[half], q);
+      high[half] = _mm_max_pd(high[half], q);
+    }
+  }
+  void store(double* l, double* h) const {
+    for (int half = 0; half < 2; ++half) {
+      _mm_storeu_pd(l + 2 * half, low[half]);
+      _mm_storeu_pd(h + 2 * half, high[half]);
+    }
   }
 };
 
