@@ -15,35 +15,31 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The corners of a face.
-Mat3 corners(const Positions& x, const Eigen::Matrix3Xi& faces, int f) {
-  Mat3 result;
-  for (int k = 0; k < 3; ++k) result.col(k) = x.col(faces(k, f));
-  return result;
+Extent extent(const Mat3& triangle, const Vec3& direction) {
+  const double p = direction.dot(triangle.col(0)), q = direction.dot(triangle.col(1)),
+               r = direction.dot(triangle.col(2));
+  return {std::min({p, q, r}), std::max({p, q, r})};
 }
 
-/// Extent of a triangle along a direction.
-struct Extent {
-  double low, high;
-};
-Extent extent(const Mat3& triangle, const Vec3& direction) {
-  const Vec3 along = triangle.transpose() * direction;
-  return {along.minCoeff(), along.maxCoeff()};
+bool apart(const Extent& a, const Extent& b, double distance) {
+  return a.low - b.high > distance || b.low - a.high > distance;
 }
 
 /// The face F can't come to lie opposite the triangle s within a distance: it is too far in front
-/// of it, deeper behind it than `reach`, or beside it when seen along the triangle's normal n
-/// (unit).
-bool cannot_meet(const Mat3& s, const Vec3& n, const Mat3& F, double reach, double distance) {
-  const double plane = n.dot(s.col(0));
-  const Extent height = extent(F, n);
+/// of it, deeper behind it than `reach`, or beside it when seen along the triangle's normal.
+bool cannot_meet(const FacePlace& s, const FacePlace& F, double reach, double distance) {
+  const double plane = s.normal.dot(s.corners.col(0));
+  const Extent height = extent(F.corners, s.normal);
   if (height.low - plane > distance || plane - height.high > reach + distance) return true;
-  for (const Mat3* triangle : {&s, &F})
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 side = (triangle->col((k + 1) % 3) - triangle->col(k)).cross(n).normalized();
-      const Extent a = extent(s, side), b = extent(F, side);
-      if (a.low - b.high > distance || b.low - a.high > distance) return true;
-    }
+  for (int k = 0; k < 3; ++k)
+    if (apart(s.along[static_cast<std::size_t>(k)], extent(F.corners, s.sides.col(k)), distance))
+      return true;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 side =
+        (F.corners.col((k + 1) % 3) - F.corners.col(k)).cross(s.normal);  // of any length
+    if (apart(extent(s.corners, side), extent(F.corners, side), distance * side.norm()))
+      return true;
+  }
   return false;
 }
 
@@ -106,10 +102,26 @@ bool ContactSearch::needs_update(const Moving& moving, double margin) const {
   return bone.unknown || bone.motion.has_value();
 }
 
+void ContactSearch::place_faces(Moving& moving, const Collider& collider) {
+  const Eigen::Matrix3Xi& faces = collider.surface.faces;
+  moving.faces.resize(static_cast<std::size_t>(faces.cols()));
+  for (Eigen::Index f = 0; f < faces.cols(); ++f) {
+    FacePlace& face = moving.faces[static_cast<std::size_t>(f)];
+    for (int k = 0; k < 3; ++k) face.corners.col(k) = moving.x.col(faces(k, f));
+    const Mat3& p = face.corners;
+    face.normal = (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0)).normalized();
+    for (int k = 0; k < 3; ++k) {
+      face.sides.col(k) = (p.col((k + 1) % 3) - p.col(k)).cross(face.normal).normalized();
+      face.along[static_cast<std::size_t>(k)] = extent(p, face.sides.col(k));
+    }
+  }
+}
+
 void ContactSearch::update(Moving& moving, const Configuration& configuration, double margin) {
   if (!needs_update(moving, margin)) return;
   const Collider& collider = *model_.bodies[static_cast<std::size_t>(moving.body)].collider;
   positions_of(configuration, collider.nodes, moving.x);
+  place_faces(moving, collider);
   moving.tree->update(moving.x, margin);
   moving.margin = margin;
   ++counts_.tree_updates;
@@ -165,19 +177,17 @@ void ContactSearch::collect(const std::vector<collision::Penetration>& found, co
   const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
   std::fill(seen_.begin(), seen_.end(), -1);
   for (const collision::Penetration& p : found) {
-    const Mat3 s = corners(a.x, A.surface.faces, p.face);
-    const Vec3 n = (s.col(1) - s.col(0)).cross(s.col(2) - s.col(0)).normalized();
+    const FacePlace& s = a.faces[static_cast<std::size_t>(p.face)];
     const int begin = B.nearby_begin[static_cast<std::size_t>(p.tetrahedron)];
     const int end = B.nearby_begin[static_cast<std::size_t>(p.tetrahedron) + 1];
     for (int k = begin; k < end; ++k) {
       const int f = B.nearby[static_cast<std::size_t>(k)];
       if (seen_[static_cast<std::size_t>(f)] == p.face) continue;
       seen_[static_cast<std::size_t>(f)] = p.face;
-      const Mat3 face = corners(b.x, B.surface.faces, f);
-      const Vec3 n_F = (face.col(1) - face.col(0)).cross(face.col(2) - face.col(0));
+      const FacePlace& face = b.faces[static_cast<std::size_t>(f)];
       // Not yet facing, but it may turn until the step's end.
-      if (n.dot(n_F) > -0.5 * kFacingNone * n_F.norm()) continue;
-      if (cannot_meet(s, n, face, B.reach, margin)) continue;
+      if (s.normal.dot(face.normal) > -0.5 * kFacingNone) continue;
+      if (cannot_meet(s, face, B.reach, margin)) continue;
       if (tied(A, p.face, B, f)) continue;
       pairs.push_back({p.face, f});
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -29,6 +30,19 @@ struct SearchCounts {
   double update_seconds = 0, traversal_seconds = 0, narrow_seconds = 0;
 };
 
+/// Extent along a direction [m].
+struct Extent {
+  double low, high;
+};
+
+/// A face where it is now.
+struct FacePlace {
+  Mat3 corners;                 // one a column, counter-clockwise from outside [m]
+  Vec3 normal;                  // unit
+  Mat3 sides;                   // in the plane, perpendicular to the edges, unit
+  std::array<Extent, 3> along;  // of the face, along these
+};
+
 class ContactSearch {
  public:
   explicit ContactSearch(const Model& model);
@@ -49,10 +63,12 @@ class ContactSearch {
   struct Moving {
     int body = 0;
     std::unique_ptr<collision::BlockTree> tree;
-    Positions x;         // where it was found
+    Positions x;  // where it was found
+    std::vector<FacePlace> faces;
     double margin = -1;  // that the tree was updated with
   };
   void update(Moving& moving, const Configuration& configuration, double margin);
+  static void place_faces(Moving& moving, const Collider& collider);
   bool needs_update(const Moving& moving, double margin) const;
   void collect(const std::vector<collision::Penetration>& found, const Moving& a, const Moving& b,
                double margin, std::vector<ContactCandidate>& pairs);
