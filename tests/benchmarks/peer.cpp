@@ -1,7 +1,7 @@
 #include "tests/benchmarks/peer.hpp"
 
-#include "tests/benchmarks/cpu_time.hpp"
 #include "tests/benchmarks/narrow_list.hpp"
+#include "tests/benchmarks/timing.hpp"
 
 namespace articular::benchmarks {
 namespace {
