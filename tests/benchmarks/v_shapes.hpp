@@ -48,7 +48,7 @@ class TwoVShapes final : public VShapes {
   explicit TwoVShapes(const BarSize& size);
   Positions at(double apart) const override;
   double deepest() const override { return 0; }
-  double separate() const override { return 3; }
+  double separate() const override { return 2.5; }
   double per_edge() const override { return cell_edge_; }
 
  private:
@@ -62,7 +62,7 @@ class CrossedVShape final : public VShapes {
   explicit CrossedVShape(const BarSize& size);
   Positions at(double apart) const override;
   double deepest() const override { return -0.6; }
-  double separate() const override { return 0.3; }
+  double separate() const override { return -0.2; }
   double per_edge() const override { return cell_edge_ / leg_; }
 
  private:

@@ -1,19 +1,12 @@
-#pragma once
-
-#include <span>
-#include <vector>
-
-#include "collision/brute_force.hpp"
+// The one place that says which narrow test the peers get.
+#include "tests/benchmarks/peer.hpp"
 
 namespace articular::benchmarks {
 
-/// The candidates (faces of F, tetrahedra of W) that intersect, in the same order. The one place
-/// that says which narrow test the peers get.
-inline void narrow_test(const collision::MeshView& F, const collision::MeshView& W,
-                        std::span<const collision::Penetration> candidates,
-                        std::vector<collision::Penetration>& pairs) {
+void narrow_test(const MeshView& F, const MeshView& W, std::span<const Penetration> candidates,
+                 std::vector<Penetration>& pairs) {
   pairs.clear();
-  for (const collision::Penetration& pair : candidates) {
+  for (const Penetration& pair : candidates) {
     const Eigen::Vector3i face = F.surface.faces.col(pair.face);
     const Eigen::Vector4i tet = W.tets.col(pair.tetrahedron);
     // Boxes in single precision let through what the exact ones do not.
