@@ -10,11 +10,12 @@ colour(m) = word('#c04000 #0060b0 #208020 #806000', m)
 rows(series, m, column, limit) = sprintf("< awk -F, '$1 == \"%s\" && $2 == \"%s\" && $%d <= %g' %s", \
   series, word(methods, m), column, limit, queries)
 
-set terminal pngcairo size 840,430 font 'sans,10'
+set terminal pngcairo size 750,400 font 'sans,10'
 set grid lc rgb '#e0e0e0'
 set key under left reverse Left maxrows 3
 set style fill transparent solid 0.15 noborder
 set ylabel 'query [ms]'
+set xlabel offset 0,0.4
 
 # --- Figures 1.5.4 to 1.5.7: meshes as small as the article's.
 print '| figure | method | fit of the time [ms], x in thousands | one standard deviation [ms] | R² |'
@@ -49,14 +50,14 @@ set title 'the same with large meshes'
 load panel
 unset multiplot
 
-set terminal pngcairo size 420,430
+set terminal pngcairo size 375,400
 set output out.'/fig-1.5.6.png'
 set xlabel 'tetrahedra in the V-shape, thousands'
 figure = '1.5.6'; series = 'self_1000'; column_of_x = 3; limit = small
 set title '1.5.6: 800–1200 self-intersections'
 load panel
 
-set terminal pngcairo size 840,430
+set terminal pngcairo size 750,400
 set output out.'/fig-1.5.7.png'
 set multiplot layout 1,2
 set xlabel 'self-intersections, thousands'
@@ -68,21 +69,27 @@ set title 'the same with a large mesh'
 load panel
 unset multiplot
 
-# --- As far as one million tetrahedra: straight in logarithmic axes, the slope is the exponent.
+# --- As far as one million tetrahedra.
 print ''
-print '| up to the largest mesh | method | time [ms], N in thousands of tetrahedra | one standard deviation | R² |'
+print '| as far as the largest mesh | method | fit of the time [ms], x in thousands | one standard deviation | R² |'
 print '| --- | --- | --- | ---: | ---: |'
 set output out.'/large.png'
 set logscale xy
-set xrange [*:*]; set yrange [*:*]
-set format '%.0s%c'
-set format y '%g'
+set xrange [*:*]
+set yrange [*:*]
+set format x '%.0s%c'
 set multiplot layout 1,3
 set xlabel 'tetrahedra in a body'
-power_law = 'tools/collision_power_law.gnuplot'
-series = 'two_1000'; set title 'two V-shapes, 800–1200 intersections'; load power_law
-series = 'two_4000'; set title 'two V-shapes, 3200–4800 intersections'; load power_law
-series = 'self_1000'; set title 'one V-shape, 800–1200 self-intersections'; load power_law
+panel = 'tools/collision_large.gnuplot'
+figure = '1.5.4 A'; series = 'two_1000'
+set title 'two, 800–1200 intersections'
+load panel
+figure = '1.5.4 B'; series = 'two_4000'
+set title 'two, 3200–4800 intersections'
+load panel
+figure = '1.5.6'; series = 'self_1000'
+set title 'one, 800–1200'
+load panel
 unset multiplot
 
 # --- Coordinate sorting.
@@ -90,7 +97,7 @@ mapping = out.'/mapping.csv'
 sizes = system("awk -F, 'NR > 1 && !seen[$1]++ { print $1 }' ".mapping)
 size_rows(i) = sprintf("< awk -F, '$1 == %s' %s", word(sizes, i), mapping)
 shade(i) = word('#a0a0a0 #208020 #0060b0 #c04000', i)
-set terminal pngcairo size 700,420
+set terminal pngcairo size 640,400
 set output out.'/mapping.png'
 set format x '%g'
 set title 'update of a BucketTree: coordinate sorting (lines), direct mapping (dashed)'
