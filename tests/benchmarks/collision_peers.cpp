@@ -18,19 +18,24 @@
 #include <exception>
 #include <stdexcept>
 
-#include "tests/benchmarks/cpu_time.hpp"
 #include "tests/benchmarks/peer_list.hpp"
+#include "tests/benchmarks/timing.hpp"
 #include "tests/benchmarks/v_shapes.hpp"
 
 namespace {
 
 using namespace articular::benchmarks;
 
-constexpr int kFrames = 4;
-constexpr double kMotion = 0.1;  // largest way of a node from its mean place, in cell edges
+constexpr double kMotion = 0.1;  // of a node from frame to frame at most, in cell edges
 constexpr double kBudget = 20;   // for the rounds of one column [s]
 constexpr int kLeastRounds = 2;  // each is a whole cycle of frames
 constexpr int kMostRounds = 25;
+
+struct Workload {
+  const VShapes& shapes;
+  std::vector<Positions> frames;
+  std::vector<MeshView> views(std::size_t frame) const { return shapes.views(frames[frame]); }
+};
 
 struct Column {
   std::string name;
@@ -38,19 +43,6 @@ struct Column {
   std::vector<double> milliseconds, megabytes;  // one a peer
   double narrow_milliseconds = 0;               // of them, in the test that all have in common
 };
-
-std::vector<MeshView> views(const Workload& workload, std::size_t frame) {
-  std::vector<MeshView> bodies;
-  for (std::size_t k = 0; k < workload.bodies.size(); ++k)
-    bodies.push_back(workload.bodies[k].at(workload.frames[frame][k]));
-  return bodies;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::size_t heap_in_use() {
   const auto info = mallinfo2();
@@ -68,11 +60,10 @@ Found sorted(Found found) {
 }
 
 /// The answers to all frames, which must be those expected if there are any yet.
-void check(const std::string& name, Peer& peer, const Workload& workload,
-           std::vector<Found>& expected) {
-  for (std::size_t frame = 0; frame < workload.frames.size(); ++frame) {
+void check(const std::string& name, Peer& peer, const Workload& w, std::vector<Found>& expected) {
+  for (std::size_t frame = 0; frame < w.frames.size(); ++frame) {
     Found found;
-    peer.query(views(workload, frame), found);
+    peer.query(w.views(frame), found);
     found = sorted(std::move(found));
     if (frame == expected.size()) expected.push_back(found);
     if (found != expected[frame]) throw std::runtime_error(name + " finds other pairs");
@@ -80,17 +71,17 @@ void check(const std::string& name, Peer& peer, const Workload& workload,
 }
 
 /// Makes all peers, each with the memory that a frame takes. They must agree.
-std::vector<std::unique_ptr<Peer>> agreeing_peers(const Workload& workload, Column& column) {
+std::vector<std::unique_ptr<Peer>> agreeing_peers(const Workload& w, Column& column) {
   std::vector<std::unique_ptr<Peer>> peers;
   std::vector<Found> expected;
   for (const PeerEntry& entry : all_peers()) {
     show_progress(column.name + ", check: " + entry.name);
     const std::size_t heap_before = heap_in_use();
-    std::unique_ptr<Peer> peer = entry.make(views(workload, 0));
-    peer->query(views(workload, 0), *std::make_unique<Found>());
+    std::unique_ptr<Peer> peer = entry.make(w.views(0));
+    peer->query(w.views(0), *std::make_unique<Found>());
     const std::size_t heap = heap_in_use() - heap_before;
     column.megabytes.push_back(1e-6 * static_cast<double>(peer->bytes().value_or(heap)));
-    check(entry.name, *peer, workload, expected);
+    check(entry.name, *peer, w, expected);
     peers.push_back(std::move(peer));
   }
   column.num_pairs = expected[0][0].size() + expected[0][1].size();
@@ -98,8 +89,7 @@ std::vector<std::unique_ptr<Peer>> agreeing_peers(const Workload& workload, Colu
 }
 
 /// Rounds in which every peer in turn goes through all frames.
-void time_in_turns(const Workload& workload, std::vector<std::unique_ptr<Peer>>& peers,
-                   Column& column) {
+void time_in_turns(const Workload& w, std::vector<std::unique_ptr<Peer>>& peers, Column& column) {
   std::vector<std::vector<double>> samples(peers.size());
   std::vector<double> narrow;
   Found found;
@@ -108,8 +98,8 @@ void time_in_turns(const Workload& workload, std::vector<std::unique_ptr<Peer>>&
        round < kMostRounds && (round < kLeastRounds || cpu_seconds() - begin < kBudget); ++round) {
     show_progress(column.name + ", round " + std::to_string(round + 1));
     for (std::size_t p = 0; p < peers.size(); ++p)
-      for (std::size_t frame = 0; frame < workload.frames.size(); ++frame) {
-        const std::vector<MeshView> bodies = views(workload, frame);
+      for (std::size_t frame = 0; frame < w.frames.size(); ++frame) {
+        const std::vector<MeshView> bodies = w.views(frame);
         const double start = cpu_seconds();
         peers[p]->query(bodies, found);
         samples[p].push_back(1e3 * (cpu_seconds() - start));
@@ -120,11 +110,11 @@ void time_in_turns(const Workload& workload, std::vector<std::unique_ptr<Peer>>&
   column.narrow_milliseconds = median(narrow);
 }
 
-Column measure(const std::string& name, const Workload& workload) {
+Column measure(const std::string& name, const Workload& w) {
   Column column;
   column.name = name;
-  std::vector<std::unique_ptr<Peer>> peers = agreeing_peers(workload, column);
-  time_in_turns(workload, peers, column);
+  std::vector<std::unique_ptr<Peer>> peers = agreeing_peers(w, column);
+  time_in_turns(w, peers, column);
   return column;
 }
 
@@ -166,24 +156,28 @@ void print_table(const std::vector<Column>& columns) {
     std::printf("\nNot measured: %s is not installed.\n", package.c_str());
 }
 
-/// A size and how deep the shapes are in each other there.
+/// A size and how far apart the shapes are there.
 struct Case {
   const char* name;
   int num_tets;
-  double shift;  // two V-shapes [m]
-  double angle;  // one V-shape [rad]
+  double two_apart;      // [m]
+  double crossed_apart;  // [rad]
 };
 constexpr Case kCases[] = {
     {"10 k", 10000, 1, -0.5}, {"100 k", 100000, 1.2, -0.5}, {"1 M", 1000000, 1.15, -0.5}};
+
+Column measure(const std::string& name, const VShapes& shapes, double apart) {
+  return measure(name, {shapes, oscillation(shapes, apart, kMotion)});
+}
 
 void run(std::span<const Case> cases) {
   std::vector<Column> columns;
   for (const Case& c : cases)
     columns.push_back(measure(std::string("V through V, ") + c.name,
-                              two_v_shapes(bar_with(c.num_tets), c.shift, kMotion, kFrames)));
+                              TwoVShapes(bar_with(c.num_tets)), c.two_apart));
   for (const Case& c : cases)
     columns.push_back(measure(std::string("V itself, ") + c.name,
-                              crossed_v_shape(bar_with(c.num_tets), c.angle, kMotion, kFrames)));
+                              CrossedVShape(bar_with(c.num_tets)), c.crossed_apart));
   print_table(columns);
 }
 

@@ -1,15 +1,14 @@
 #include "tests/benchmarks/peer.hpp"
 
-#include "tests/benchmarks/cpu_time.hpp"
-#include "tests/benchmarks/narrow_list.hpp"
+#include "tests/benchmarks/timing.hpp"
 
 namespace articular::benchmarks {
 namespace {
 
 class WithNarrowTest final : public Peer {
  public:
-  explicit WithNarrowTest(std::unique_ptr<BroadPhase> broad_phase)
-      : broad_phase_(std::move(broad_phase)) {}
+  WithNarrowTest(std::unique_ptr<BroadPhase> broad_phase, NarrowTest test)
+      : broad_phase_(std::move(broad_phase)), test_(test) {}
 
   void query(std::span<const MeshView> bodies, Found& found) override {
     narrow_seconds_ = 0;
@@ -20,7 +19,7 @@ class WithNarrowTest final : public Peer {
       Candidates candidates(bodies[k], bodies[other], pairs_);
       broad_phase_->find(k, other, candidates);
       const double start = cpu_seconds();
-      narrow_test(bodies[k], bodies[other], pairs_, found[k]);
+      test_(bodies[k], bodies[other], pairs_, found[k]);
       narrow_seconds_ += cpu_seconds() - start;
     }
   }
@@ -33,14 +32,15 @@ class WithNarrowTest final : public Peer {
 
  private:
   std::unique_ptr<BroadPhase> broad_phase_;
+  NarrowTest test_;
   std::vector<Penetration> pairs_;
   double narrow_seconds_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<Peer> with_narrow_test(std::unique_ptr<BroadPhase> broad_phase) {
-  return std::make_unique<WithNarrowTest>(std::move(broad_phase));
+std::unique_ptr<Peer> with_narrow_test(std::unique_ptr<BroadPhase> broad_phase, NarrowTest test) {
+  return std::make_unique<WithNarrowTest>(std::move(broad_phase), test);
 }
 
 }  // namespace articular::benchmarks

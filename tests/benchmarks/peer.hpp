@@ -62,11 +62,27 @@ class BroadPhase {
   virtual std::optional<std::size_t> bytes() const { return {}; }
 };
 
-/// The broad phase with the narrow test that all have in common behind it.
-std::unique_ptr<Peer> with_narrow_test(std::unique_ptr<BroadPhase> broad_phase);
+/// The candidates (faces of F, tetrahedra of W) that intersect go to pairs, in any order.
+using NarrowTest = void (*)(const MeshView& F, const MeshView& W,
+                            std::span<const Penetration> candidates,
+                            std::vector<Penetration>& pairs);
+/// The one that the peers have in common.
+void narrow_test(const MeshView& F, const MeshView& W, std::span<const Penetration> candidates,
+                 std::vector<Penetration>& pairs);
+/// The same without vectors: pair by pair in double precision.
+void scalar_narrow_test(const MeshView& F, const MeshView& W,
+                        std::span<const Penetration> candidates, std::vector<Penetration>& pairs);
+/// The article's: nothing but GJK. Takes exact boxes for granted.
+void gjk_test(const MeshView& F, const MeshView& W, std::span<const Penetration> candidates,
+              std::vector<Penetration>& pairs);
+
+/// The broad phase with a narrow test behind it.
+std::unique_ptr<Peer> with_narrow_test(std::unique_ptr<BroadPhase> broad_phase,
+                                       NarrowTest test = narrow_test);
 
 std::unique_ptr<Peer> block_tree_peer(std::span<const MeshView> bodies);
 std::unique_ptr<Peer> article_peer(std::span<const MeshView> bodies);
+std::unique_ptr<BroadPhase> bucket_tree();
 std::unique_ptr<BroadPhase> spatial_hash();
 std::unique_ptr<BroadPhase> cgal_box_intersection();
 std::unique_ptr<BroadPhase> embree_rebuilt();

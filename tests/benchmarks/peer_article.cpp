@@ -1,4 +1,4 @@
-// The article's algorithm as collision/ has it.
+// The article's algorithm as collide() in collision/ has it, with its own narrow test.
 #include "collision/collide.hpp"
 #include "collision/self_intersection.hpp"
 #include "tests/benchmarks/peer.hpp"

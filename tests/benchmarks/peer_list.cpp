@@ -21,6 +21,9 @@ std::vector<PeerEntry> all_peers() {
 #ifdef ARTICULAR_HAS_EMBREE
   peers.push_back(broad("Embree, rebuilt", embree_rebuilt));
   peers.push_back(broad("Embree, refitted", embree_refitted));
+  peers.push_back({"Embree, refitted, scalar narrow test", [](std::span<const MeshView>) {
+                     return with_narrow_test(embree_refitted(), scalar_narrow_test);
+                   }});
 #endif
 #ifdef ARTICULAR_HAS_FCL
   peers.push_back(broad("FCL AABB tree, refitted", fcl_refitted));

@@ -1,8 +1,8 @@
 #include "tests/benchmarks/v_shapes.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 namespace articular::benchmarks {
@@ -26,58 +26,53 @@ Mesh bar(const BarSize& size) {
   return box_mesh(size.length, size.width, size.height, cell_edge(size));
 }
 
-/// Where in its oscillation a frame is, from -1 to 1, such that the mean way from frame to frame
-/// along the circle is 1/4 of the full swing or less.
-double phase(int frame, int num_frames) {
-  return std::sin(2 * std::numbers::pi * (frame + 0.5) / num_frames);
-}
+int at_least_one(double cells) { return std::max(1, static_cast<int>(std::lround(cells))); }
 
 }  // namespace
 
 BarSize bar_with(int num_tets) {
   const double height = std::cbrt(num_tets / (6 * kLength * kWidth));
-  BarSize size{0, static_cast<int>(std::lround(kWidth * height)),
-               static_cast<int>(std::lround(height))};
-  size.width = std::max(size.width, 1);
-  size.height = std::max(size.height, 1);
-  size.length =
-      std::max(2, static_cast<int>(std::lround(num_tets / (6.0 * size.width * size.height))));
+  BarSize size{0, at_least_one(kWidth * height), at_least_one(height)};
+  size.length = at_least_one(num_tets / (6.0 * size.width * size.height));
   return size;
 }
 
-Workload two_v_shapes(const BarSize& size, double shift, double motion, int num_frames) {
+std::vector<collision::MeshView> VShapes::views(const Positions& x) const {
+  std::vector<collision::MeshView> views;
+  for (std::size_t k = 0; k < bodies_.size(); ++k) views.push_back(bodies_[k].at(x[k]));
+  return views;
+}
+
+TwoVShapes::TwoVShapes(const BarSize& size) : cell_edge_(cell_edge(size)) {
   std::mt19937 random(kSeed);
-  const double edge = cell_edge(size);
-  Workload workload;
-  workload.bodies.assign(2, bar(size));
-  const Eigen::Matrix3Xd v = bend_to_v(workload.bodies[0], kOpening);
-  const Eigen::Matrix3Xd a = jittered(v, kJitter * edge, random);
+  bodies_.assign(2, bar(size));
+  const Eigen::Matrix3Xd v = bend_to_v(bodies_[0], kOpening);
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(kTurn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const Eigen::Vector3d middle = v.rowwise().mean();
-  Eigen::Matrix3Xd b =
-      jittered((turn * (v.colwise() - middle)).colwise() + middle, kJitter * edge, random);
-  b.row(2).array() += shift;
-  for (int i = 0; i < num_frames; ++i) {
-    const Eigen::Vector3d way = phase(i, num_frames) * motion * edge * Eigen::Vector3d(0.3, 0.2, 1);
-    workload.frames.push_back({a.colwise() - 0.5 * way, b.colwise() + 0.5 * way});
-  }
-  return workload;
+  const Eigen::Matrix3Xd turned = (turn * (v.colwise() - middle)).colwise() + middle;
+  a_ = jittered(v, kJitter * cell_edge_, random);
+  b_ = jittered(turned, kJitter * cell_edge_, random);
 }
 
-Workload crossed_v_shape(const BarSize& size, double angle, double motion, int num_frames) {
+Positions TwoVShapes::at(double apart) const {
+  // Both move, as no method shall gain by a body that rests.
+  const Eigen::Vector3d way(0, 0, 0.5 * apart);
+  return {a_.colwise() - way, b_.colwise() + way};
+}
+
+CrossedVShape::CrossedVShape(const BarSize& size) : cell_edge_(cell_edge(size)) {
   std::mt19937 random(kSeed);
-  Workload workload;
-  workload.bodies.push_back(bar(size));
-  const Mesh& mesh = workload.bodies[0];
-  const Eigen::Matrix3Xd jitter =
-      jittered(Eigen::Matrix3Xd::Zero(3, mesh.X.cols()), kJitter * cell_edge(size), random);
-  const double leg = 0.35 * mesh.X.row(0).maxCoeff();
-  for (int i = 0; i < num_frames; ++i) {
-    const double turn = phase(i, num_frames) * motion * cell_edge(size) / leg;
-    workload.frames.push_back({bend_to_v(mesh, angle + turn) + jitter});
-  }
-  return workload;
+  bodies_.push_back(bar(size));
+  leg_ = 0.35 * bodies_[0].X.row(0).maxCoeff();  // bend_to_v bends the middle 30 % of the bar
+  jitter_ = jittered(Eigen::Matrix3Xd::Zero(3, bodies_[0].X.cols()), kJitter * cell_edge_, random);
+}
+
+Positions CrossedVShape::at(double apart) const { return {bend_to_v(bodies_[0], apart) + jitter_}; }
+
+std::vector<Positions> oscillation(const VShapes& shapes, double apart, double motion) {
+  const double step = motion * shapes.per_edge();
+  return {shapes.at(apart), shapes.at(apart + step), shapes.at(apart), shapes.at(apart - step)};
 }
 
 }  // namespace articular::benchmarks

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
 #include <vector>
 
 #include "tests/collision/meshes.hpp"
@@ -18,25 +17,62 @@ struct BarSize {
   int num_tets() const { return 6 * length * width * height; }
 };
 
-/// The bar with the proportions of the measurements and nearest to that many tetrahedra.
+/// The bar with the proportions of the measurements and nearly that many tetrahedra.
 BarSize bar_with(int num_tets);
 
 /// Positions of all bodies at one time [m].
 using Positions = std::vector<Eigen::Matrix3Xd>;
 
-/// One or two bodies and how they move. The frames are to be cycled.
-struct Workload {
-  std::vector<Mesh> bodies;
-  std::vector<Positions> frames;
+/// V-shapes that go through each other along a path with one parameter.
+class VShapes {
+ public:
+  virtual ~VShapes() = default;
+  /// How far apart the shapes are: the less, the more pairs, down to `deepest()`.
+  virtual Positions at(double apart) const = 0;
+  virtual double deepest() const = 0;
+  virtual double separate() const = 0;  // from here on there are no pairs
+  /// Change of the parameter that moves the most moving nodes by an edge of a cell to each other.
+  virtual double per_edge() const = 0;
+
+  const std::vector<Mesh>& bodies() const { return bodies_; }
+  int num_tets() const { return static_cast<int>(bodies_[0].tets.cols()); }  // of a body
+  std::vector<collision::MeshView> views(const Positions& x) const;
+
+ protected:
+  std::vector<Mesh> bodies_;
 };
 
-/// Two V-shapes, the second pushed along the axis of the first. The height of the bars is 1 m.
-/// @param shift   how far the second is away from the first [m]: less is deeper, 0 is most
-/// @param motion  way of a node from frame to frame, in cell edges
-Workload two_v_shapes(const BarSize& size, double shift, double motion, int num_frames);
+/// Two V-shapes, one pushed through the other along its axis. Apart by a length; bars are 1 m high.
+class TwoVShapes final : public VShapes {
+ public:
+  explicit TwoVShapes(const BarSize& size);
+  Positions at(double apart) const override;
+  double deepest() const override { return 0; }
+  double separate() const override { return 2.5; }
+  double per_edge() const override { return cell_edge_; }
 
-/// One V-shape whose legs go through each other.
-/// @param angle  between the legs [rad]; the smaller the deeper, negative where they have crossed
-Workload crossed_v_shape(const BarSize& size, double angle, double motion, int num_frames);
+ private:
+  double cell_edge_;        // [m]
+  Eigen::Matrix3Xd a_, b_;  // in the same place [m]
+};
+
+/// One V-shape whose legs go through each other. Apart by the angle between them.
+class CrossedVShape final : public VShapes {
+ public:
+  explicit CrossedVShape(const BarSize& size);
+  Positions at(double apart) const override;
+  double deepest() const override { return -0.6; }
+  double separate() const override { return -0.2; }
+  double per_edge() const override { return cell_edge_ / leg_; }
+
+ private:
+  double cell_edge_;         // [m]
+  double leg_;               // length that the angle turns [m]
+  Eigen::Matrix3Xd jitter_;  // [m]
+};
+
+/// Frames to be cycled, in the middle `apart` from each other.
+/// @param motion  way of a node from frame to frame at most, in cell edges
+std::vector<Positions> oscillation(const VShapes& shapes, double apart, double motion);
 
 }  // namespace articular::benchmarks
