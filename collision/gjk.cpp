@@ -3,10 +3,12 @@
 
 #include <ccd/ccd.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <type_traits>
+#include <vector>
 
 namespace articular::collision {
 namespace {
@@ -69,6 +71,38 @@ bool last_plane_separates(const LocalShape& a, const LocalShape& b) {
   return (a.last_support - b.last_support).dot(d) < -kGapTolerance * d.norm();
 }
 
+Eigen::Matrix3Xd local_points(const LocalShape& shape) {
+  Eigen::Matrix3Xd points(3, shape.num_points);
+  for (Eigen::Index k = 0; k < shape.num_points; ++k)
+    points.col(k) =
+        (Eigen::Vector3d::Map(shape.points + k * shape.stride) - shape.origin) * shape.inverse_size;
+  return points;
+}
+
+/// Whether some axis perpendicular to two of the lines between points of one shape, or along a line
+/// between the shapes, separates them. Slow and sure: for the few pairs on which libccd gives up,
+/// which are those with parallel edges.
+bool some_axis_separates(const LocalShape& a, const LocalShape& b) {
+  const Eigen::Matrix3Xd p = local_points(a), q = local_points(b);
+  const double gap_needed = a.radius + b.radius + kGapTolerance;
+  const auto separates = [&](const Eigen::Vector3d& axis) {
+    const Eigen::RowVectorXd along_a = axis.transpose() * p, along_b = axis.transpose() * q;
+    return std::max(along_a.minCoeff() - along_b.maxCoeff(),
+                    along_b.minCoeff() - along_a.maxCoeff()) > gap_needed * axis.norm();
+  };
+  std::vector<Eigen::Vector3d> lines;
+  for (const Eigen::Matrix3Xd* points : {&p, &q})
+    for (Eigen::Index i = 0; i < points->cols(); ++i)
+      for (Eigen::Index j = 0; j < i; ++j) lines.push_back(points->col(i) - points->col(j));
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (separates(lines[i].cross(lines[j]))) return true;
+  for (Eigen::Index i = 0; i < p.cols(); ++i)
+    for (Eigen::Index j = 0; j < q.cols(); ++j)
+      if (separates(p.col(i) - q.col(j))) return true;
+  return false;
+}
+
 LocalShape local_shape(const ConvexPoints& points, const Eigen::Vector3d& origin,
                        double inverse_size, double radius) {
   return {
@@ -106,7 +140,7 @@ GjkOutcome gjk(const ConvexPoints& a, const ConvexPoints& b, double margin) {
     if (ccdGJKIntersect(&shape_a, &shape_b, &ccd) != 0) return GjkOutcome::Intersecting;
     if (last_plane_separates(shape_a, shape_b)) return GjkOutcome::Separated;
   }
-  return GjkOutcome::Undecided;
+  return some_axis_separates(shape_a, shape_b) ? GjkOutcome::Separated : GjkOutcome::Undecided;
 }
 
 }  // namespace articular::collision

@@ -69,8 +69,8 @@ TEST(BlockTree, FindsWhatTheRuleFindsOnTwoDeformedBodies) {
   std::size_t found = 0;
   for (int trial = 0; trial < 6; ++trial) {
     const Eigen::Matrix3Xd x_a = testing::jittered(a.X, 3e-4, random);
-    const Eigen::Matrix3Xd x_b = testing::placed(
-        testing::jittered(b.X, 4e-4, random), testing::random_vector(random, 3e-3), random);
+    const Eigen::Matrix3Xd x_b = testing::placed(testing::jittered(b.X, 4e-4, random),
+                                                 testing::random_vector(random, 3e-3), random);
     for (const double margin : {0.0, 1e-4, 1e-3})
       for (const NarrowTest narrow : {NarrowTest::SeparatingAxes, NarrowTest::Gjk}) {
         const std::vector<Penetration> expected = by_rule(a, x_a, b, x_b, margin, narrow);
@@ -98,6 +98,13 @@ TEST(BlockTree, FindsWhatTheRuleFindsInOneFoldedBody) {
         EXPECT_EQ(faces_in(tree, tree, {NarrowTest::SeparatingAxes, 1, set}).pairs, expected);
     }
   }
+}
+
+TEST(BlockTree, RegularMeshDoesNotMeetItselfByEitherTest) {
+  const Mesh bar = testing::box_mesh(12, 3, 3, 1);
+  const BlockTree tree = tree_of(bar, testing::bend_to_v(bar, 1.5));
+  for (const NarrowTest narrow : {NarrowTest::SeparatingAxes, NarrowTest::Gjk})
+    EXPECT_TRUE(faces_in(tree, tree, {.narrow = narrow}).pairs.empty());
 }
 
 TEST(BlockTree, SinglePrecisionDecidesNearlyAll) {

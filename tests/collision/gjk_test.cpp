@@ -284,5 +284,20 @@ TEST(Gjk, ShapesOfOnePointMeetIfTheyAreTheSamePoint) {
   EXPECT_TRUE(gjk_overlap(p, q, 0.11));
 }
 
+// Elements of a regular mesh have parallel edges; the difference of two such shapes has flat parts
+// on which libccd gives up, 1.2 edges apart.
+TEST(Gjk, SeparatesElementsOfARegularMeshWithParallelEdges) {
+  Eigen::Matrix3d triangle;
+  triangle << 0, -0.84065572344898865, -0.84065572344898865,  //
+      -2, -2, -2.0 / 3,                                       //
+      -5.8476088003261752, -3.5379261826147892, -3.5379261826147896;
+  Eigen::Matrix<double, 3, 4> tetrahedron;
+  tetrahedron << -1.6813114468979773, -0.84065572344898853, -0.73624543225055448,
+      -0.73624543225055448,                 //
+      2.0 / 3, 2.0 / 3, 2.0 / 3, -2.0 / 3,  //
+      -1.2282435649034027, -3.5379261826147892, 0.073614766842947779, 0.073614766842947779;
+  EXPECT_EQ(gjk(triangle, tetrahedron), GjkOutcome::Separated);
+}
+
 }  // namespace
 }  // namespace articular::collision::testing
