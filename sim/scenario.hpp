@@ -175,7 +175,7 @@ struct Ligament {
   Law law = Law::Linear;
   double stiffness = 0;      // Linear: [N/m]; Blankevoort: [N] per unit strain
   double toe_strain = 0.03;  // Blankevoort's eps_l
-  double damping = 0;        // [N s/m], acts while stretching and taut
+  double damping = 0;        // [N s/m], while stretching; at most the elastic tension
   // Slack length: the first one given of these, else the length at the start.
   std::optional<double> slack_length;      // [m]
   std::optional<double> slack_extension;   // [m], added to the length at the start
