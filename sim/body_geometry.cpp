@@ -5,9 +5,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 #include "collision/surface.hpp"
+#include "sim/mesh_continue.hpp"
 #include "sim/shapes.hpp"
 
 namespace articular::sim {
@@ -62,6 +64,14 @@ MeshData facing_part(const MeshData& mesh, const Vec3& direction) {
   return part;
 }
 
+MeshData continued_part(const MeshData& mesh, const MeshFile& file) {
+  try {
+    return continued(mesh, *file.continued);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(file.where, error.what());
+  }
+}
+
 }  // namespace
 
 std::string mesh_name(const Body& body) {
@@ -94,6 +104,7 @@ BodyGeometry read_geometry(const Body& body) {
                                                file.path.string(), body.name));
     if (file.facing) part = facing_part(part, *file.facing);
     if (file.faces) part = simplified(part, *file.faces);
+    if (file.continued) part = continued_part(part, file);
     append(part, geometry.contact);
   }
   return geometry;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "fem/types.hpp"
 
 /// The part of a surface triangle that lies under a facing face of the other body, and the penalty
@@ -36,6 +38,10 @@ struct ContactPatch {
   double cosine = 0;           // n_F·n
   double turning = 0;          // ½ w'/w, by the cosine
   Vec3 face_e = Vec3::Zero();  // n·∇β_m on the face [1/m]
+  Mat3 g = Mat3::Zero();       // ∇N_i, one a column [1/m]
+  Mat3 face_g = Mat3::Zero();  // ∇β_m for motion that keeps the depth, one a column [1/m]
+  // w ∫ d N Nᵀ / |∇β_m| dl along the polygon's edges where β_m = 0 [m³]
+  std::array<Mat3, 3> edge = {Mat3::Zero(), Mat3::Zero(), Mat3::Zero()};
 };
 
 /// Of −n_F·n: below the first the face does not face the triangle (w = 0), above the second it does
@@ -58,5 +64,11 @@ Vec18 contact_gradient(const ContactPatch& patch, double k);
 
 /// Gauss–Newton part of the Hessian, k ∫ ∇d ∇dᵀ dA [N/m]: positive semidefinite.
 Mat18 contact_hessian(const ContactPatch& patch, double k);
+
+/// All of it [N/m]: with k ∫ d ∇²d dA, and with what the polygon's edges sweep as the face's edges
+/// move over the triangle, k ∮ d ∇d ∇β_mᵀ/|∇β_m| dl, made symmetric: summed over the two faces at
+/// an edge that is exact. Indefinite. Left out: the turning of w, and the gradient's missing part
+/// at a rim.
+Mat18 contact_tangent(const ContactPatch& patch, double k);
 
 }  // namespace articular::sim

@@ -223,7 +223,7 @@ const fem::BlockMatrix& Dynamics::matrix(double gamma, fem::Tangent tangent) {
   for (std::size_t l = 0; l < model_.lines.size(); ++l)
     add_line_stiffness(model_, model_.lines[l], configuration_, lines_[l], gamma, A_);
   if (candidates_ != nullptr)
-    add_contact_stiffness(model_, configuration_, *candidates_, gamma, A_);
+    add_contact_stiffness(model_, configuration_, *candidates_, tangent, gamma, A_);
   return A_;
 }
 

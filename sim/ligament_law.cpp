@@ -32,4 +32,11 @@ double blankevoort_ligament_energy(double length, double slack_length, double st
   return stiffness * slack_length * (toe_energy + beyond * (toe_strain + 0.5 * beyond));
 }
 
+Damper ligament_damper(const ValueSlope& elastic, double rate, double damping) {
+  if (!(rate > 0)) return {};
+  const double force = damping * rate;
+  if (force < elastic.value) return {force, 0, damping};
+  return {elastic.value, elastic.slope, 0};
+}
+
 }  // namespace articular::sim

@@ -46,11 +46,10 @@ void ligament_tension(const LigamentModel& ligament, LineState& s) {
     elastic = blankevoort_ligament(s.length, l0, g.stiffness, g.toe_strain);
     s.stored = blankevoort_ligament_energy(s.length, l0, g.stiffness, g.toe_strain);
   }
-  s.stiffness = elastic.slope;
-  if (s.length > l0 && s.rate > 0) {
-    s.damping = g.damping * s.rate;
-    s.viscosity = g.damping;
-  }
+  const Damper damper = ligament_damper(elastic, s.rate, g.damping);
+  s.damping = damper.force;
+  s.viscosity = damper.by_rate;
+  s.stiffness = elastic.slope + damper.by_length;
   s.tension = elastic.value + s.damping;
 }
 

@@ -58,18 +58,34 @@ bool NewtonSystem::needs_matrix(double gamma) const {
   return iteration_ > 0 && residual_ > kSlowFall * last_residual_;
 }
 
-bool NewtonSystem::prepare(double gamma, IntegratorCounts& counts) {
-  for (const fem::Tangent tangent : {fem::Tangent::Consistent, fem::Tangent::Projected}) {
-    const fem::BlockMatrix& A = dynamics_.matrix(gamma, tangent);
-    const Stopwatch watch(counts.solve_seconds);
-    ++counts.factorizations;
-    gamma_ = gamma;
-    pattern_ = A.pattern_id();
-    if (solver_->prepare(A) == fem::FactorStatus::Ready) return true;
-    gamma_ = 0;
-    if (tangent == fem::Tangent::Consistent) ++counts.projected_tangents;
-  }
-  return false;
+bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, IntegratorCounts& counts) {
+  const fem::BlockMatrix& A = dynamics_.matrix(gamma, tangent);
+  const Stopwatch watch(counts.solve_seconds);
+  ++counts.factorizations;
+  if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
+  const bool ready = solver_->prepare(A) == fem::FactorStatus::Ready;
+  gamma_ = ready ? gamma : 0;
+  pattern_ = A.pattern_id();
+  tangent_ = tangent;
+  return ready;
+}
+
+bool NewtonSystem::solve_linear(IntegratorCounts& counts) {
+  const Stopwatch watch(counts.solve_seconds);
+  w_.setZero(mass_rhs_.size());
+  const fem::SolveReport report = solver_->solve(mass_rhs_, w_);
+  counts.linear_iterations += report.iterations;
+  return report.converged && w_.allFinite();
+}
+
+bool NewtonSystem::find_correction(double gamma, IntegratorCounts& counts) {
+  bool ready = !needs_matrix(gamma) || prepare(gamma, fem::Tangent::Consistent, counts);
+  ++iteration_;
+  if (ready && solve_linear(counts)) return true;
+  // Not positive definite: Cholesky says so at once, conjugate gradients when they meet it.
+  if (gamma_ == gamma && tangent_ == fem::Tangent::Projected) return false;
+  ready = prepare(gamma, fem::Tangent::Projected, counts);
+  return ready && solve_linear(counts);
 }
 
 double NewtonSystem::step_fraction(double gamma) const {
@@ -126,15 +142,8 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
 
   last_residual_ = residual_;
   residual_ = mass_rhs_.norm();
-  w_.setZero(num_velocities);
-  if (num_velocities > 0) {
-    if (needs_matrix(gamma) && !prepare(gamma, counts)) return false;
-    ++iteration_;
-    const Stopwatch watch(counts.solve_seconds);
-    const fem::SolveReport report = solver_->solve(mass_rhs_, w_);
-    counts.linear_iterations += report.iterations;
-    if (!report.converged || !w_.allFinite()) return false;
-  }
+  w_.resize(num_velocities);
+  if (num_velocities > 0 && !find_correction(gamma, counts)) return false;
   const double scale = step_fraction(gamma);
 
   Eigen::Map<Eigen::VectorXd>(x, 3 * layout.num_free_nodes) =

@@ -24,14 +24,18 @@ class NewtonSystem {
   bool needs_matrix(double gamma) const;
   /// Part of the correction w that stays within Dynamics::trusted_motion().
   double step_fraction(double gamma) const;
-  bool prepare(double gamma, IntegratorCounts& counts);
+  [[nodiscard]] bool prepare(double gamma, fem::Tangent tangent, IntegratorCounts& counts);
+  [[nodiscard]] bool solve_linear(IntegratorCounts& counts);
+  /// w, with the consistent matrix if it is positive definite, else with the projected one.
+  [[nodiscard]] bool find_correction(double gamma, IntegratorCounts& counts);
 
   const Model& model_;
   Dynamics& dynamics_;
   std::unique_ptr<fem::LinearSolver> solver_;
   Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_;
-  double gamma_ = 0;                         // of the matrix that is factored; 0: none
-  std::uint64_t pattern_ = 0;                // of that matrix
+  double gamma_ = 0;           // of the matrix that is factored; 0: none
+  std::uint64_t pattern_ = 0;  // of that matrix
+  fem::Tangent tangent_ = fem::Tangent::Consistent;
   int iteration_ = 0;                        // in this step
   double residual_ = 0, last_residual_ = 0;  // of this iteration and the one before
 };

@@ -89,6 +89,14 @@ struct Placement {
   double scale = 1;
 };
 
+/// How a contact surface goes on where it was cut off, see mesh_continue.hpp.
+struct Continuation {
+  Vec3 at = Vec3::Zero();          // [m], a point of the plane of the cut, in the placed frame
+  Vec3 direction = Vec3::UnitX();  // unit vector, across that plane
+  double length = 0;               // [m]
+  double easing = 0;               // [m], over which the slope at the cut fades out
+};
+
 /// A mesh file of a body. For contact of bones: only faces whose normal is within 80 degrees of
 /// `facing` (if given) take part.
 struct MeshFile {
@@ -97,6 +105,7 @@ struct MeshFile {
   Placement placement;
   std::optional<int> faces;    // contact: simplify to about this many triangles (after `facing`)
   std::optional<Vec3> facing;  // unit vector, in the placed frame
+  std::optional<Continuation> continued;  // contact: after `faces`
   Location where;
 };
 
@@ -167,7 +176,7 @@ struct Ligament {
   Law law = Law::Linear;
   double stiffness = 0;      // Linear: [N/m]; Blankevoort: [N] per unit strain
   double toe_strain = 0.03;  // Blankevoort's eps_l
-  double damping = 0;        // [N s/m], acts while stretching and taut
+  double damping = 0;        // [N s/m], while stretching; at most the elastic tension
   // Slack length: the first one given of these, else the length at the start.
   std::optional<double> slack_length;      // [m]
   std::optional<double> slack_extension;   // [m], added to the length at the start

@@ -17,11 +17,22 @@ double read_length_unit(const Node& node) {
   }
 }
 
-/// @param is_contact_mesh  allows `facing` and `faces`
+Continuation read_continuation(const Node& node) {
+  const TableReader table(node, "continued", {"at", "direction", "length", "easing"});
+  Continuation continuation;
+  continuation.at = read_vector(table.at("at"), kLength);
+  continuation.direction = read_direction(table.at("direction"));
+  continuation.length = read_quantity(table.at("length"), kLength, kPositive);
+  table.may("easing", continuation.easing, as_quantity(kLength, kNotNegative));
+  return continuation;
+}
+
+/// @param is_contact_mesh  allows `facing`, `faces` and `continued`
 MeshFile read_mesh(const Node& node, const std::filesystem::path& folder, bool is_contact_mesh) {
-  const auto table = is_contact_mesh ? TableReader(node, "contact mesh",
-                                                   {"file", "unit", "place", "facing", "faces"})
-                                     : TableReader(node, "mesh", {"file", "unit", "place"});
+  const auto table = is_contact_mesh
+                         ? TableReader(node, "contact mesh",
+                                       {"file", "unit", "place", "facing", "faces", "continued"})
+                         : TableReader(node, "mesh", {"file", "unit", "place"});
   MeshFile mesh;
   mesh.where = table.at("file").where;
   mesh.path = read_path(table.at("file"), folder);
@@ -31,6 +42,7 @@ MeshFile read_mesh(const Node& node, const std::filesystem::path& folder, bool i
   constexpr int kFewestFaces = 20, kMostFaces = 10'000'000;
   table.may("faces", mesh.faces,
             [](const Node& n) { return read_integer(n, kFewestFaces, kMostFaces); });
+  table.may("continued", mesh.continued, read_continuation);
   return mesh;
 }
 

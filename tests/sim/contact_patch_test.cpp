@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -108,50 +109,103 @@ TEST(ContactPatch, TheGradientIsExactToWhereTheTriangleComesOutOfTheFace) {
   EXPECT_GT(crossing, 15);
 }
 
-// Six faces about a node, all uneven: the depth is continuous from face to face, so that nothing is
-// left over at the edges which move over the triangle.
+/// A triangle over a sheet of six faces about a node, all uneven: the depth is continuous from face
+/// to face.
+constexpr int kSheetNodes = 10;  // three of the triangle, the sheet's middle, its six outer nodes
+using SheetMatrix = Eigen::Matrix<double, 3 * kSheetNodes, 3 * kSheetNodes>;
+
+Positions uneven_sheet(Random& random) {
+  Positions x(3, kSheetNodes);
+  x.leftCols(3) = small_triangle(0.3);
+  x.leftCols(3).row(0).array() -= 0.3;
+  x.leftCols(3).row(1).array() -= 0.3;
+  x.col(3).setZero();
+  for (int k = 0; k < 6; ++k)
+    x.col(4 + k) = 3 * Vec3(std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0);
+  for (int i = 0; i < kSheetNodes; ++i) x.col(i) += 0.1 * random.vec3();
+  return x;
+}
+
+/// Calls visit(pair, nodes) for the triangle and each of the six faces.
+template <class Visit>
+void for_each_sheet_face(const Positions& x, Visit&& visit) {
+  for (int k = 0; k < 6; ++k) {
+    const std::array<int, 6> nodes = {0, 1, 2, 3, 4 + k, 4 + (k + 1) % 6};
+    Pair pair;
+    pair.s = x.leftCols(3);
+    for (int m = 0; m < 3; ++m) pair.f.col(m) = x.col(nodes[static_cast<std::size_t>(3 + m)]);
+    visit(pair, nodes);
+  }
+}
+
+double sheet_energy(const Positions& x) {
+  double sum = 0;
+  for_each_sheet_face(x, [&](const Pair& pair, const auto&) { sum += energy(pair); });
+  return sum;
+}
+
+Positions sheet_gradient(const Positions& x) {
+  Positions g = Positions::Zero(3, kSheetNodes);
+  for_each_sheet_face(x, [&](const Pair& pair, const std::array<int, 6>& nodes) {
+    const Vec18 part = gradient(pair);
+    for (int i = 0; i < 6; ++i) g.col(nodes[static_cast<std::size_t>(i)]) += part.segment<3>(3 * i);
+  });
+  return g;
+}
+
+SheetMatrix sheet_tangent(const Positions& x) {
+  SheetMatrix H = SheetMatrix::Zero();
+  for_each_sheet_face(x, [&](const Pair& pair, const std::array<int, 6>& nodes) {
+    ContactPatch patch;
+    if (!contact_patch(pair.s, pair.f, kRestArea, kReach, patch)) return;
+    const Mat18 part = contact_tangent(patch, kStiffness);
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j)
+        H.block<3, 3>(3 * nodes[static_cast<std::size_t>(i)],
+                      3 * nodes[static_cast<std::size_t>(j)]) += part.block<3, 3>(3 * i, 3 * j);
+  });
+  return H;
+}
+
+// Nothing is left over at the edges which move over the triangle.
 TEST(ContactPatch, UnderAnUnevenSheetTheSummedGradientIsTheDerivativeOfTheSummedEnergy) {
   Random random(3);
   for (int n = 0; n < 20; ++n) {
-    Positions x(3, 10);  // three of the triangle, the sheet's middle, its six outer nodes
-    x.leftCols(3) = small_triangle(0.3);
-    x.leftCols(3).row(0).array() -= 0.3;
-    x.leftCols(3).row(1).array() -= 0.3;
-    x.col(3).setZero();
-    for (int k = 0; k < 6; ++k)
-      x.col(4 + k) = 3 * Vec3(std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0);
-    for (int i = 0; i < 10; ++i) x.col(i) += 0.1 * random.vec3();
-    const auto sheet = [](const Positions& at, Positions* g) {
-      double sum = 0;
-      for (int k = 0; k < 6; ++k) {
-        const int nodes[3] = {3, 4 + k, 4 + (k + 1) % 6};
-        Pair pair;
-        pair.s = at.leftCols(3);
-        for (int m = 0; m < 3; ++m) pair.f.col(m) = at.col(nodes[m]);
-        sum += energy(pair);
-        if (g == nullptr) continue;
-        const Vec18 part = gradient(pair);
-        for (int i = 0; i < 3; ++i) {
-          g->col(i) += part.segment<3>(3 * i);
-          g->col(nodes[i]) += part.segment<3>(9 + 3 * i);
-        }
-      }
-      return sum;
-    };
-    Positions g = Positions::Zero(3, 10);
-    sheet(x, &g);
+    const Positions x = uneven_sheet(random), g = sheet_gradient(x);
     double best = std::numeric_limits<double>::infinity();
     for (const double h : {1e-4, 1e-5, 1e-6}) {
-      Positions numeric(3, 10);
-      for (int i = 0; i < 30; ++i) {
+      Positions numeric(3, kSheetNodes);
+      for (int i = 0; i < 3 * kSheetNodes; ++i) {
         Positions plus = x, minus = x;
         plus.reshaped()[i] += h;
         minus.reshaped()[i] -= h;
-        numeric.reshaped()[i] = (sheet(plus, nullptr) - sheet(minus, nullptr)) / (2 * h);
+        numeric.reshaped()[i] = (sheet_energy(plus) - sheet_energy(minus)) / (2 * h);
       }
       best = std::min(best, (numeric - g).norm() / g.norm());
     }
     EXPECT_LT(best, 1e-8);
+  }
+}
+
+// So for the tangent: what one face loses by the motion of an edge, its neighbour gains.
+TEST(ContactPatch, UnderAnUnevenSheetTheSummedTangentIsTheDerivativeOfTheSummedGradient) {
+  Random random(9);
+  for (int n = 0; n < 20; ++n) {
+    const Positions x = uneven_sheet(random);
+    const SheetMatrix H = sheet_tangent(x);
+    double best = std::numeric_limits<double>::infinity();
+    for (const double h : {1e-4, 1e-5, 1e-6}) {
+      SheetMatrix numeric;
+      for (int i = 0; i < 3 * kSheetNodes; ++i) {
+        Positions plus = x, minus = x;
+        plus.reshaped()[i] += h;
+        minus.reshaped()[i] -= h;
+        const Positions change = (sheet_gradient(plus) - sheet_gradient(minus)) / (2 * h);
+        numeric.col(i) = change.reshaped();
+      }
+      best = std::min(best, (numeric - H).norm() / H.norm());
+    }
+    EXPECT_LT(best, 1e-7);
   }
 }
 
@@ -223,6 +277,32 @@ TEST(ContactPatch, TheHessianLacksOnlyATermThatVanishesWithTheDepth) {
   const double error = hessian_error(1e-3);
   EXPECT_LT(error, 0.01);
   EXPECT_NEAR(error / hessian_error(0.5e-3), 2, 0.02);
+}
+
+double tangent_error(const Pair& pair) {
+  ContactPatch patch;
+  EXPECT_TRUE(contact_patch(pair.s, pair.f, kRestArea, kReach, patch));
+  const Mat18 H = contact_tangent(patch, kStiffness);
+  EXPECT_LT((H - H.transpose()).norm(), 1e-14 * H.norm());
+  double best = std::numeric_limits<double>::infinity();
+  for (const double h : {1e-4, 1e-5, 1e-6}) {
+    Mat18 numeric;
+    for (int i = 0; i < 18; ++i) numeric.col(i) = difference(gradient, pair, i, h);
+    best = std::min(best, (numeric - H).norm() / H.norm());
+  }
+  return best;
+}
+
+TEST(ContactPatch, UnderALargeFaceTheTangentIsTheDerivativeOfTheGradient) {
+  Random random(8);
+  for (int n = 0; n < 50; ++n) {
+    Pair pair = covered_pair(random);
+    if (n % 2 == 1) pair.s.row(2).array() += 0.4;  // comes out of the face
+    ContactPatch patch;
+    if (!contact_patch(pair.s, pair.f, kRestArea, kReach, patch)) continue;
+    if (patch.turning != 0 || patch.area < 0.1) continue;
+    EXPECT_LT(tangent_error(pair), 1e-7);
+  }
 }
 
 TEST(ContactPatch, AParallelTriangleHasTheWholeAreaAndTheUniformDepth) {

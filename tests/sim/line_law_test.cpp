@@ -139,6 +139,23 @@ TEST(LigamentLaw, BlankevoortsToeEndsInALineShiftedByTheToeStrain) {
   EXPECT_NEAR(blankevoort_ligament(1.1 * kLength, kLength, k, toe).value, k * 0.07, 1e-9);
 }
 
+// A force that jumps leaves an implicit step without an end: here it grows from zero.
+TEST(LigamentLaw, TheDamperSetsInWithTheTensionAndNeverExceedsIt) {
+  const double k = 2.5e5, c = 50, rate = 0.1, l = kLength + c * rate / k;  // there both are 5 N
+  for (const double stretch : {0.0, 1e-9, 0.3, 0.999}) {
+    const ValueSlope elastic = linear_ligament(kLength + stretch * (l - kLength), kLength, k);
+    const Damper damper = ligament_damper(elastic, rate, c);
+    EXPECT_EQ(damper.force, elastic.value);
+    EXPECT_EQ(damper.by_length, elastic.slope);
+    EXPECT_EQ(damper.by_rate, 0);
+  }
+  const Damper beyond = ligament_damper(linear_ligament(l + 1e-6, kLength, k), rate, c);
+  EXPECT_EQ(beyond.force, c * rate);
+  EXPECT_EQ(beyond.by_length, 0);
+  EXPECT_EQ(beyond.by_rate, c);
+  EXPECT_EQ(ligament_damper(linear_ligament(2 * l, kLength, k), -rate, c).force, 0);
+}
+
 TEST(LigamentLaw, ASlackLigamentNeitherPullsNorStores) {
   for (const double l : {0.5 * kLength, kLength}) {
     EXPECT_EQ(linear_ligament(l, kLength, 1e4).value, 0);

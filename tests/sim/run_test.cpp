@@ -166,6 +166,94 @@ TEST_P(Resumed, AnInterruptedRunGivesTheSameFilesBitForBit) {
   expect_same_files(out("whole"), out("parts"));
 }
 
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, at);) parts.push_back(part);
+  return parts;
+}
+
+/// A block bounces off another: contact couplings come and go. All times are multiples of 2^-14 s,
+/// so that every step has the same length to the last bit, and a matrix that was factored before a
+/// checkpoint would serve after it.
+const std::string kBouncing = R"(
+duration = "62.5 ms"
+[integrator]
+step = "0.9765625 ms"
+[[body]]
+name = "table"
+kind = "fixed"
+geometry = { box = { size = "20 20 4 mm", cells = [2, 2, 1], center = "0 0 -2 mm" } }
+[[body]]
+name = "block"
+kind = "tissue"
+geometry = { box = { size = "10 10 10 mm", cells = [3, 3, 3], center = "0 0 5 mm" } }
+density = "1000 kg/m^3"
+material = { law = "neo-hookean", young_modulus = "10 kPa", poisson_ratio = 0.4 }
+[[attach]]
+body = "block"
+to = "table"
+region = { box = ["-6 -6 -0.1 mm", "6 6 0.1 mm"] }
+[[body]]
+name = "bouncer"
+kind = "tissue"
+geometry = { box = { size = "6 5 4 mm", cells = [3, 2, 2] }, place = { rotation = "4 6 20 deg", translation = "0.5 0 12.8 mm" } }
+density = "1000 kg/m^3"
+material = { law = "neo-hookean", young_modulus = "10 kPa", poisson_ratio = 0.4 }
+velocity = "80 0 -250 mm/s"
+[[probe]]
+name = "energy"
+kind = "energy"
+[[probe]]
+name = "contact"
+kind = "contact"
+bodies = ["block", "bouncer"]
+[output]
+interval = "7.8125 ms"
+checkpoint_interval = "7.8125 ms"
+)";
+
+constexpr double kBetweenCheckpoints = 0.0078125;
+
+// A step at a checkpoint must not know what was before it: a matrix, a pattern that has grown.
+TEST_F(RunTest, ARunResumedWhileContactsComeAndGoIsTheUninterruptedOne) {
+  const Model bouncing = build_model(read_scenario(folder_.file("bouncing.toml", kBouncing)));
+  const auto run_to = [&](double until, const std::string& name, bool resume) {
+    RunOptions options;
+    options.directory = out(name);
+    options.resume = resume;
+    options.after_step = [until](const State& state, double) { return state.t >= until; };
+    run(bouncing, options);
+  };
+  run_to(1, "whole", false);
+  const std::string whole = content(out("whole") / "history.csv");
+  // It touches before and after the first checkpoint, and no more after the fourth.
+  const auto lines = split(whole, '\n');
+  const auto columns = split(lines[0], ',');
+  const auto area = static_cast<std::size_t>(
+      std::find(columns.begin(), columns.end(), "contact.area [mm^2]") - columns.begin());
+  const auto touches = [&](double from, double to) {
+    return std::any_of(lines.begin() + 1, lines.end(), [&](const std::string& line) {
+      const auto cells = split(line, ',');
+      const double t = std::stod(cells[0]);
+      return t > from && t <= to && std::stod(cells[area]) > 0;
+    });
+  };
+  EXPECT_TRUE(touches(0, kBetweenCheckpoints));
+  EXPECT_TRUE(touches(kBetweenCheckpoints, 2 * kBetweenCheckpoints));
+  EXPECT_FALSE(touches(4 * kBetweenCheckpoints, 1));
+  for (int checkpoint = 1; checkpoint < 8; ++checkpoint) {
+    const std::string name = "parts" + std::to_string(checkpoint);
+    run_to((checkpoint + 0.3) * kBetweenCheckpoints, name, false);
+    run_to(1, name, true);
+    EXPECT_EQ(content(out(name) / "history.csv"), whole) << checkpoint;
+    // In full precision.
+    EXPECT_TRUE(content(out(name) / "checkpoint/state.bin") ==
+                content(out("whole") / "checkpoint/state.bin"))
+        << checkpoint;
+  }
+}
+
 // A checkpoint at 2/3 of something: its time has no end in decimals, and is printed rounded up.
 TEST_F(RunTest, ACheckpointAtATimeThatIsPrintedRoundedUpKeepsItsRow) {
   const std::vector<std::string> overrides = {"output.checkpoint_interval=6.666666666666667 ms",
@@ -210,13 +298,6 @@ TEST_F(RunTest, ACheckpointOfAnotherScenarioIsRefusedInOneLine) {
     EXPECT_EQ(message.find('\n'), std::string::npos);
   }
   EXPECT_EQ(refusal("run"), "");
-}
-
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, at);) parts.push_back(part);
-  return parts;
 }
 
 TEST_F(RunTest, TheHistoryHasAColumnWithItsUnitForEveryProbeValueAndARowForEveryStep) {

@@ -140,6 +140,11 @@ INSTANTIATE_TEST_SUITE_P(
             "Facing",
             body("kind = \"fixed\"\ncontact_meshes = [{ file = \"a\", facing = @[0, 0, 0] }]\n"),
             "`facing`: a direction must have a length"},
+        Mistake{
+            "ContinuedWithoutLength",
+            body("kind = \"fixed\"\ncontact_meshes = [{ file = \"a\", continued = @{ at = \"0 0 "
+                 "0 mm\", direction = [1, 0, 0] } }]\n"),
+            "continued: `length` is missing"},
         Mistake{"NoCells", geometry("box = { size = \"1 1 1 m\", cells = [4, @0, 4] }"),
                 "`cells[1]`: expected a whole number from 1 to 10000, found the number 0"},
         Mistake{"FlatBox", geometry("box = { size = @\"1 0 1 m\", cells = [4, 4, 4] }"),

@@ -36,7 +36,7 @@ name = "skull"
 kind = "fixed"
 mesh = { file = "anatomy/skull.vtp", unit = "cm" }
 contact_meshes = [
-  { file = "anatomy/fossa_left.vtp", facing = [0, 0, -2], faces = 500 },
+  { file = "anatomy/fossa_left.vtp", facing = [0, 0, -2], faces = 500, continued = { at = "0 24 80 mm", direction = [0, -2, 0], length = "14 mm", easing = "3 mm" } },
   { file = "anatomy/fossa_right.vtp", unit = "m", place = { scale = 2 } },
 ]
 layer = { thickness = "0.4 mm", young_modulus = "2.7 MPa", poisson_ratio = 0.49 }
@@ -244,6 +244,11 @@ TEST_F(CompleteScenario, HasItsBones) {
   ASSERT_EQ(skull.contact_meshes.size(), 2U);
   EXPECT_EQ(skull.contact_meshes[0].facing, Vec3(0, 0, -1));
   EXPECT_EQ(skull.contact_meshes[0].faces, 500);
+  EXPECT_EQ(skull.contact_meshes[0].continued->at, Vec3(0, 24e-3, 80e-3));
+  EXPECT_EQ(skull.contact_meshes[0].continued->direction, Vec3(0, -1, 0));
+  EXPECT_EQ(skull.contact_meshes[0].continued->length, 14e-3);
+  EXPECT_EQ(skull.contact_meshes[0].continued->easing, 3e-3);
+  EXPECT_FALSE(skull.contact_meshes[1].continued);
   EXPECT_EQ(skull.contact_meshes[0].unit, 1e-3);
   EXPECT_EQ(skull.contact_meshes[1].unit, 1);
   EXPECT_EQ(skull.contact_meshes[1].placement.scale, 2);
