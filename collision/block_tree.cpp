@@ -14,8 +14,9 @@ namespace {
 /// (2^-25) here, and once more when another tree's are moved into this frame.
 constexpr float kBoxSlack = 0x1p-22f;
 
-/// The smallest scale [m]: its inverse must be finite. Smaller meshes are points.
-constexpr double kMinScale = 1e-290;
+/// The smallest scale [m]: the largest coordinate (kMaxCoordinate) divided by it must be finite.
+/// Smaller meshes are points here, and left to double precision.
+constexpr double kMinScale = 1e-150;
 
 /// The least power of two that is larger.
 double power_of_two_above(double value) {

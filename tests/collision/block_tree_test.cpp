@@ -2,66 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <limits>
 #include <random>
 
-#include "collision/block_collide.hpp"
-#include "tests/collision/meshes.hpp"
+#include "tests/collision/rule_oracle.hpp"
 
 namespace articular::collision {
 namespace {
 
+using testing::Answer;
+using testing::by_rule;
+using testing::faces_in;
+using testing::instruction_sets;
 using testing::Mesh;
-
-constexpr InstructionSet kSets[] = {InstructionSet::Baseline, InstructionSet::Avx2,
-                                    InstructionSet::Avx512};
-
-/// The instruction sets that this processor has.
-std::vector<InstructionSet> instruction_sets() {
-  std::vector<InstructionSet> sets;
-  for (const InstructionSet set : kSets)
-    if (set <= best_instruction_set()) sets.push_back(set);
-  return sets;
-}
-
-/// Every pair by the rule itself.
-std::vector<Penetration> by_rule(const Mesh& F, const Eigen::Matrix3Xd& x_f, const Mesh& W,
-                                 const Eigen::Matrix3Xd& x_w, double margin, NarrowTest narrow,
-                                 bool one_mesh = false) {
-  std::vector<Penetration> pairs;
-  for (int face = 0; face < F.surface.faces.cols(); ++face) {
-    const Eigen::Matrix3d triangle = corners<3>(x_f, F.surface.faces.col(face));
-    for (int tet = 0; tet < W.tets.cols(); ++tet) {
-      if (one_mesh && have_common_node(F.surface.faces, face, W.tets, tet)) continue;
-      if (elements_meet(triangle, corners<4>(x_w, W.tets.col(tet)), margin, narrow))
-        pairs.push_back({face, tet});
-    }
-  }
-  return pairs;
-}
-
-struct Answer {
-  std::vector<Penetration> pairs;
-  BlockQueryCounts counts;
-};
-
-Answer faces_in(const BlockTree& F, const BlockTree& W, const BlockQueryOptions& options = {}) {
-  Answer answer;
-  BlockQueryScratch scratch;
-  if (&F == &W)
-    faces_in_own_body(F, answer.pairs, answer.counts, scratch, options);
-  else
-    faces_in_body(F, W, answer.pairs, answer.counts, scratch, options);
-  std::sort(answer.pairs.begin(), answer.pairs.end());
-  return answer;
-}
-
-BlockTree tree_of(const Mesh& mesh, const Eigen::Matrix3Xd& x, double margin = 0) {
-  BlockTree tree(mesh.tets, mesh.surface, mesh.X);
-  tree.update(x, margin);
-  return tree;
-}
+using testing::tree_of;
 
 TEST(BlockTree, FindsWhatTheRuleFindsOnTwoDeformedBodies) {
   std::mt19937 random(1);
@@ -69,8 +22,8 @@ TEST(BlockTree, FindsWhatTheRuleFindsOnTwoDeformedBodies) {
   std::size_t found = 0;
   for (int trial = 0; trial < 6; ++trial) {
     const Eigen::Matrix3Xd x_a = testing::jittered(a.X, 3e-4, random);
-    const Eigen::Matrix3Xd x_b = testing::placed(
-        testing::jittered(b.X, 4e-4, random), testing::random_vector(random, 3e-3), random);
+    const Eigen::Matrix3Xd x_b = testing::placed(testing::jittered(b.X, 4e-4, random),
+                                                 testing::random_vector(random, 3e-3), random);
     for (const double margin : {0.0, 1e-4, 1e-3})
       for (const NarrowTest narrow : {NarrowTest::SeparatingAxes, NarrowTest::Gjk}) {
         const std::vector<Penetration> expected = by_rule(a, x_a, b, x_b, margin, narrow);
