@@ -296,6 +296,7 @@ void gather(BlockQueryScratch::Parts& s, int threads, std::vector<Penetration>& 
 
 void query(const BlockTree& F, const BlockTree& W, bool one_mesh, std::vector<Penetration>& pairs,
            BlockQueryCounts& counts, BlockQueryScratch& scratch, const BlockQueryOptions& options) {
+  if (!F.is_fitted() || !W.is_fitted()) bad_input("a tree that has moved and was not fitted");
   BlockQueryScratch::Parts& s = scratch.parts();
   const Clock::time_point start = Clock::now();
   const Search search(F, W, one_mesh, options, s);

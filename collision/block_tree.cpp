@@ -102,6 +102,11 @@ void BlockTree::order_nodes(const Eigen::Matrix4Xi& tets, const Surface& surface
 }
 
 void BlockTree::update(const Eigen::Matrix3Xd& x, double margin) {
+  move(x, margin);
+  fit();
+}
+
+void BlockTree::move(const Eigen::Matrix3Xd& x, double margin) {
   if (!(margin >= 0) || !(margin <= kMaxCoordinate))
     bad_input("margin of ", margin, " m, must be finite and not negative");
   if (x.cols() != num_user_nodes_)
@@ -110,9 +115,15 @@ void BlockTree::update(const Eigen::Matrix3Xd& x, double margin) {
   ++num_updates_;
   margin_ = margin;
   if (num_tets_ == 0) return;
+  is_fitted_ = false;
   copy_positions(x);
+}
+
+void BlockTree::fit() {
+  if (is_fitted_) return;
   fit_tet_blocks();
   fit_faces();
+  is_fitted_ = true;
 }
 
 void BlockTree::copy_positions(const Eigen::Matrix3Xd& x) {

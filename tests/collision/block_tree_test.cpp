@@ -53,6 +53,22 @@ TEST(BlockTree, FindsWhatTheRuleFindsInOneFoldedBody) {
   }
 }
 
+TEST(BlockTree, MovedAndFittedIsUpdated) {
+  std::mt19937 random(4);
+  const Mesh a = testing::box_mesh(4, 4, 4, 1), b = testing::box_mesh(4, 4, 4, 1);
+  BlockTree A = tree_of(a, a.X.array() + 9), B = tree_of(b, b.X);
+  const Eigen::Matrix3Xd x = testing::placed(a.X, Eigen::Vector3d(1, 2, 3), random);
+  A.move(x);
+  EXPECT_EQ(A.bounds().min, tree_of(a, x).bounds().min);
+  EXPECT_EQ(A.bounds().max, tree_of(a, x).bounds().max);
+  EXPECT_THROW(faces_in(A, B), std::invalid_argument);
+  EXPECT_THROW(faces_in(B, A), std::invalid_argument);
+  A.fit();
+  const Answer answer = faces_in(A, B);
+  EXPECT_EQ(answer.pairs, faces_in(tree_of(a, x), B).pairs);
+  EXPECT_GT(answer.pairs.size(), 100u);
+}
+
 TEST(BlockTree, SinglePrecisionDecidesNearlyAll) {
   std::mt19937 random(3);
   const Mesh a = testing::box_mesh(12, 12, 12, 1), b = testing::box_mesh(12, 12, 12, 1);

@@ -11,7 +11,7 @@
 namespace articular::collision::testing {
 namespace {
 
-constexpr int kTrials = 4;
+constexpr int kTrials = 2;
 
 /// All faces of F against all tetrahedra of W, both bodies the same or not.
 void expect_the_rule(const Mesh& F, const Eigen::Matrix3Xd& x_f, const Mesh& W,
