@@ -8,6 +8,7 @@
 #include <numeric>
 #include <thread>
 
+#include "collision/bad_input.hpp"
 #include "collision/box_group.hpp"
 #include "collision/narrow_rule.hpp"
 
@@ -97,6 +98,27 @@ BlockQueryScratch& BlockQueryScratch::operator=(BlockQueryScratch&&) noexcept = 
 
 namespace {
 
+template <class T>
+std::size_t bytes(const std::vector<T>& list) {
+  return list.capacity() * sizeof(T);
+}
+std::size_t bytes(const BoxList& list) { return bytes(list.groups) + bytes(list.ids); }
+
+}  // namespace
+
+std::size_t BlockQueryScratch::memory() const {
+  const Parts& s = *parts_;
+  std::size_t sum = sizeof(Parts) + bytes(s.face_boxes) + bytes(s.face_blocks) + bytes(s.lists) +
+                    bytes(s.tasks) + bytes(s.task_faces) + bytes(s.workers);
+  for (const BoxList& list : s.lists) sum += bytes(list);
+  for (const Worker& w : s.workers)
+    sum += bytes(w.faces) + bytes(w.face_blocks) + bytes(w.face_masks) + bytes(w.accepted) +
+           bytes(w.doubtful) + bytes(w.pairs);
+  return sum;
+}
+
+namespace {
+
 /// One direction of a query: faces of F in tetrahedra of W.
 class Search {
  public:
@@ -115,7 +137,8 @@ class Search {
     s_.task_faces.clear();
     s_.lists.resize(W_.tet_levels().size() + 1);
     BoxList& top = s_.lists.back();
-    collect_faces(top);
+    top.clear();
+    if (W_.num_tets() > 0) collect_faces(top);
     if (top.ids.empty()) return;
     descend(W_.tet_levels().size() - 1, 0, top);
   }
@@ -141,7 +164,6 @@ class Search {
     s_.face_boxes.clear();
     s_.face_blocks.clear();
     s_.face_block_boxes.clear();
-    list.clear();
     for (int block = 0; block < F_.num_face_blocks(); ++block) {
       const BoxGroup& group = F_.face_boxes()[static_cast<std::size_t>(block)];
       const FloatBox box = into_w(union_of(group));
@@ -277,6 +299,7 @@ void gather(BlockQueryScratch::Parts& s, int threads, std::vector<Penetration>& 
 
 void query(const BlockTree& F, const BlockTree& W, bool one_mesh, std::vector<Penetration>& pairs,
            BlockQueryCounts& counts, BlockQueryScratch& scratch, const BlockQueryOptions& options) {
+  if (!F.is_fitted() || !W.is_fitted()) bad_input("a tree that has moved and was not fitted");
   BlockQueryScratch::Parts& s = scratch.parts();
   const Clock::time_point start = Clock::now();
   const Search search(F, W, one_mesh, options, s);
@@ -300,6 +323,8 @@ void query(const BlockTree& F, const BlockTree& W, bool one_mesh, std::vector<Pe
 void faces_in_body(const BlockTree& F, const BlockTree& W, std::vector<Penetration>& pairs,
                    BlockQueryCounts& counts, BlockQueryScratch& scratch,
                    const BlockQueryOptions& options) {
+  if (F.num_updates() > 0 && W.num_updates() > 0 && F.margin() != W.margin())
+    bad_input("trees with margins of ", F.margin(), " m and ", W.margin(), " m, must be the same");
   query(F, W, false, pairs, counts, scratch, options);
 }
 

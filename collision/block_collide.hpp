@@ -44,6 +44,8 @@ class BlockQueryScratch {
 
 /// The pairs (surface face of F, tetrahedron of W) that meet, each once, in no particular order.
 /// What meets is decided by elements_meet() (narrow_rule.hpp), with the margin of the trees.
+/// @throws std::invalid_argument if the two were updated with different margins, or one was moved
+///         and not fitted
 void faces_in_body(const BlockTree& F, const BlockTree& W, std::vector<Penetration>& pairs,
                    BlockQueryCounts& counts, BlockQueryScratch& scratch,
                    const BlockQueryOptions& options = {});

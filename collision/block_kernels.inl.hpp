@@ -164,6 +164,12 @@ void prepare(TetLanes& lanes) {
   }
 }
 
+/// Error of positions of that size. Infinite where products of three lengths may overflow: then all
+/// errors are, and no verdict is certain.
+inline Vec error_of_positions(Vec size) {
+  return max(Vec::all(kUnit) * size, Vec::all(0x1p-120f) * (Vec::all(0x1p88f) * size));
+}
+
 /// Boxes, normals and errors.
 void prepare(FaceLanes& lanes, float margin) {
   const Vec half_margin = Vec::all(0.5f * margin);
@@ -173,7 +179,7 @@ void prepare(FaceLanes& lanes, float margin) {
     const Vec3 low = lowest(p, lowest(q, r)), high = highest(p, highest(q, r));
     const Vec edge = largest_component(high - low);
     const Vec farthest = max(Vec::all(1), max(largest_component(low), largest_component(high)));
-    const Vec delta = Vec::all(kUnit) * farthest, room = Vec::all(8) * delta;
+    const Vec delta = error_of_positions(farthest), room = Vec::all(8) * delta;
     const Vec outward = half_margin + room;
     const Vec3 normal = cross(q - p, r - p);
     const Vec offset = dot(normal, p);

@@ -15,8 +15,9 @@ namespace {
 /// (2^-25) here, and once more when another tree's are moved into this frame.
 constexpr float kBoxSlack = 0x1p-22f;
 
-/// The smallest scale [m]: its inverse must be finite. Smaller meshes are points.
-constexpr double kMinScale = 1e-290;
+/// The smallest scale [m]: the largest coordinate (kMaxCoordinate) divided by it must be finite.
+/// Smaller meshes are points here, and left to double precision.
+constexpr double kMinScale = 1e-150;
 
 /// The least power of two that is larger.
 double power_of_two_above(double value) {
@@ -102,6 +103,11 @@ void BlockTree::order_nodes(const Eigen::Matrix4Xi& tets, const Surface& surface
 }
 
 void BlockTree::update(const Eigen::Matrix3Xd& x, double margin) {
+  move(x, margin);
+  fit();
+}
+
+void BlockTree::move(const Eigen::Matrix3Xd& x, double margin) {
   if (!(margin >= 0) || !(margin <= kMaxCoordinate))
     bad_input("margin of ", margin, " m, must be finite and not negative");
   if (x.cols() != num_user_nodes_)
@@ -110,8 +116,14 @@ void BlockTree::update(const Eigen::Matrix3Xd& x, double margin) {
   ++num_updates_;
   margin_ = margin;
   if (num_tets_ == 0) return;
+  is_fitted_ = false;
   copy_positions(x);
+}
+
+void BlockTree::fit() {
+  if (is_fitted_) return;
   fit_boxes();
+  is_fitted_ = true;
 }
 
 void BlockTree::copy_positions(const Eigen::Matrix3Xd& x) {

@@ -35,6 +35,13 @@ class BlockTree {
   ///         position that is not finite; the tree is then as before
   void update(const Eigen::Matrix3Xd& x, double margin = 0);
 
+  /// The two halves of update(), for a body that may turn out to touch nobody. move() follows
+  /// positions and bounds() alone, a quarter of the work; fit() makes the boxes that queries need,
+  /// if they are not made yet.
+  void move(const Eigen::Matrix3Xd& x, double margin = 0);
+  void fit();
+  bool is_fitted() const { return is_fitted_; }
+
   int num_tets() const { return num_tets_; }
   int num_faces() const { return num_faces_; }
   int num_updates() const { return num_updates_; }
@@ -57,6 +64,11 @@ class BlockTree {
   /// The face or tetrahedron of the user's numbering in a slot: 16 x block + lane.
   int face_in(int slot) const { return face_order_[static_cast<std::size_t>(slot)]; }
   int tet_in(int slot) const { return tet_order_[static_cast<std::size_t>(slot)]; }
+  /// The user's numbers of the nodes at positions(). Nodes of no element are left out.
+  /// Four numbers a node of node_order(), the last is 0 [m].
+  const double* positions() const { return positions_.data(); }
+  const std::vector<int>& node_order() const { return node_order_; }
+  Eigen::Index num_user_nodes() const { return num_user_nodes_; }
   /// Fills in the first part of the query.
   void describe_block(int block, BlockQuery& query) const;
   Eigen::Matrix3d face_corners(int slot) const;
@@ -81,6 +93,7 @@ class BlockTree {
 
   // Of the last update.
   int num_updates_ = 0;
+  bool is_fitted_ = true;          // an empty tree is
   double margin_ = 0, scale_ = 1;  // [m]
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   Aabb bounds_;

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <type_traits>
-#include <vector>
 
 namespace articular::collision {
 namespace {
@@ -71,35 +70,47 @@ bool last_plane_separates(const LocalShape& a, const LocalShape& b) {
   return (a.last_support - b.last_support).dot(d) < -kGapTolerance * d.norm();
 }
 
-Eigen::Matrix3Xd local_points(const LocalShape& shape) {
-  Eigen::Matrix3Xd points(3, shape.num_points);
+Eigen::Vector3d local_point(const LocalShape& shape, Eigen::Index k) {
+  return (Eigen::Vector3d::Map(shape.points + k * shape.stride) - shape.origin) *
+         shape.inverse_size;
+}
+
+/// Whether test(line) holds for one of the lines between two points of the shape.
+template <class Test>
+bool any_line(const LocalShape& shape, Test&& test) {
+  for (Eigen::Index i = 0; i < shape.num_points; ++i)
+    for (Eigen::Index j = 0; j < i; ++j)
+      if (test(Eigen::Vector3d(local_point(shape, i) - local_point(shape, j)))) return true;
+  return false;
+}
+
+double farthest_along(const LocalShape& shape, const Eigen::Vector3d& axis) {
+  double farthest = -std::numeric_limits<double>::infinity();
   for (Eigen::Index k = 0; k < shape.num_points; ++k)
-    points.col(k) =
-        (Eigen::Vector3d::Map(shape.points + k * shape.stride) - shape.origin) * shape.inverse_size;
-  return points;
+    farthest = std::max(farthest, local_point(shape, k).dot(axis));
+  return farthest;
 }
 
 /// Whether some axis perpendicular to two of the lines between points of one shape, or along a line
 /// between the shapes, separates them. Slow and sure: for the few pairs on which libccd gives up,
 /// which are those with parallel edges.
 bool some_axis_separates(const LocalShape& a, const LocalShape& b) {
-  const Eigen::Matrix3Xd p = local_points(a), q = local_points(b);
   const double gap_needed = a.radius + b.radius + kGapTolerance;
   const auto separates = [&](const Eigen::Vector3d& axis) {
-    const Eigen::RowVectorXd along_a = axis.transpose() * p, along_b = axis.transpose() * q;
-    return std::max(along_a.minCoeff() - along_b.maxCoeff(),
-                    along_b.minCoeff() - along_a.maxCoeff()) > gap_needed * axis.norm();
+    const double gap = std::max(-farthest_along(b, axis) - farthest_along(a, -axis),
+                                -farthest_along(a, axis) - farthest_along(b, -axis));
+    return gap > gap_needed * axis.norm();
   };
-  std::vector<Eigen::Vector3d> lines;
-  for (const Eigen::Matrix3Xd* points : {&p, &q})
-    for (Eigen::Index i = 0; i < points->cols(); ++i)
-      for (Eigen::Index j = 0; j < i; ++j) lines.push_back(points->col(i) - points->col(j));
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (separates(lines[i].cross(lines[j]))) return true;
-  for (Eigen::Index i = 0; i < p.cols(); ++i)
-    for (Eigen::Index j = 0; j < q.cols(); ++j)
-      if (separates(p.col(i) - q.col(j))) return true;
+  for (const LocalShape* first : {&a, &b})
+    for (const LocalShape* second : {&a, &b})
+      if (any_line(*first, [&](const Eigen::Vector3d& u) {
+            return any_line(*second,
+                            [&](const Eigen::Vector3d& v) { return separates(u.cross(v)); });
+          }))
+        return true;
+  for (Eigen::Index i = 0; i < a.num_points; ++i)
+    for (Eigen::Index j = 0; j < b.num_points; ++j)
+      if (separates(local_point(a, i) - local_point(b, j))) return true;
   return false;
 }
 

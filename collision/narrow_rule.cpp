@@ -1,48 +1,64 @@
 #include "collision/narrow_rule.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
-#include "collision/aabb.hpp"
 #include "collision/gjk.hpp"
 #include "collision/separating_axes.hpp"
 
 namespace articular::collision {
 namespace {
 
-template <class Corners>
-Aabb box_of(const Corners& corners, double margin) {
-  Aabb box;
-  box.min = corners.rowwise().minCoeff();
-  box.max = corners.rowwise().maxCoeff();
-  box.inflate(0.5 * margin);
-  return box;
+using Tetrahedron = Eigen::Matrix<double, 3, 4>;
+
+/// Whether the boxes of the corners leave no gap of more than the margin along an axis. From
+/// differences: far from the origin, boxes that are inflated first lose small margins to round-off.
+bool boxes_within(const Eigen::Matrix3d& triangle, const Tetrahedron& tetrahedron, double margin) {
+  const Eigen::Vector3d low_t = triangle.rowwise().minCoeff(),
+                        high_t = triangle.rowwise().maxCoeff(),
+                        low_w = tetrahedron.rowwise().minCoeff(),
+                        high_w = tetrahedron.rowwise().maxCoeff();
+  return (low_t - high_w).cwiseMax(low_w - high_t).maxCoeff() <= margin;
+}
+
+/// Edges in a unit that makes the longest about 1, so that products of them stay in the range of
+/// numbers. The unit is a power of two: nothing is lost by it.
+template <class Edges>
+Edges scaled(const Edges& edges) {
+  const double longest = edges.cwiseAbs().maxCoeff();
+  return longest > 0 ? Edges(edges * std::ldexp(1.0, -std::max(std::ilogb(longest), -1000)))
+                     : edges;
 }
 
 }  // namespace
 
-bool elements_meet(const Eigen::Matrix3d& triangle, const Eigen::Matrix<double, 3, 4>& tetrahedron,
-                   double margin, NarrowTest narrow) {
-  if (!overlap(box_of(triangle, margin), box_of(tetrahedron, margin))) return false;
+bool elements_meet(const Eigen::Matrix3d& triangle, const Tetrahedron& tetrahedron, double margin,
+                   NarrowTest narrow) {
+  if (!boxes_within(triangle, tetrahedron, margin)) return false;
   if (narrow == NarrowTest::Gjk) return gjk_overlap(triangle, tetrahedron, margin);
   return margin > 0 ? face_planes_overlap(triangle, tetrahedron, margin)
                     : separating_axes_overlap(triangle, tetrahedron);
 }
 
-bool face_planes_overlap(const Eigen::Matrix3d& triangle,
-                         const Eigen::Matrix<double, 3, 4>& tetrahedron, double margin) {
-  const Eigen::Vector3d normal =
-      (triangle.col(1) - triangle.col(0)).cross(triangle.col(2) - triangle.col(0));
+bool face_planes_overlap(const Eigen::Matrix3d& triangle, const Tetrahedron& tetrahedron,
+                         double margin) {
+  // Only signs and lengths relative to the margin matter: normals may have any length.
+  const Eigen::Matrix<double, 3, 2> sides =
+      scaled<Eigen::Matrix<double, 3, 2>>(triangle.rightCols<2>().colwise() - triangle.col(0));
+  const Eigen::Vector3d normal = sides.col(0).cross(sides.col(1));
   const Eigen::RowVector4d heights = normal.transpose() * (tetrahedron.colwise() - triangle.col(0));
   const double room = margin * normal.norm();
   if (heights.minCoeff() > room || heights.maxCoeff() < -room) return false;
 
-  const Eigen::Vector3d a = tetrahedron.col(0), e1 = tetrahedron.col(1) - a,
-                        e2 = tetrahedron.col(2) - a, e3 = tetrahedron.col(3) - a;
+  const Eigen::Matrix3d edges =
+      scaled<Eigen::Matrix3d>(tetrahedron.rightCols<3>().colwise() - tetrahedron.col(0));
+  const Eigen::Vector3d e1 = edges.col(0), e2 = edges.col(1), e3 = edges.col(2);
   const double six_volume = e1.dot(e2.cross(e3));
   // A flat tetrahedron has faces without an inside.
   if (six_volume == 0) return true;
   const double sign = six_volume > 0 ? 1 : -1;
-  Eigen::Matrix<double, 3, 4> gradients;  // of L_i, 6V times the barycentric coordinate i
+  Tetrahedron gradients;  // of 6V times the barycentric coordinate i, scaled
   gradients << Eigen::Vector3d::Zero(), sign * e2.cross(e3), sign * e3.cross(e1),
       sign * e1.cross(e2);
   gradients.col(0) = -gradients.rowwise().sum();

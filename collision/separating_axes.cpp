@@ -36,8 +36,9 @@ constexpr double kHeightRoundOff = 0x1p-44;
 constexpr double kProductRoundOff = 0x1p-37;
 
 // The bounds above are relative: they hold while no product leaves the range of numbers. Sizes in
-// this range have sixth powers of 1e-180 to 1e180; the last bound is for one shape much smaller.
-constexpr double kSmallest = 1e-30, kLargest = 1e30, kSmallestProduct = 1e-250;
+// this range have sixth powers of 1e-180 to 1e180; others are scaled. The last bound, a part of the
+// size's third power, is for one shape much smaller: its square times 1e-180 is in range as well.
+constexpr double kSmallest = 1e-30, kLargest = 1e30, kSmallestProduct = 1e-35;
 
 /// The tetrahedron relative to its node 0, and the triangle as its barycentric coordinates tell.
 struct Heights {
@@ -152,9 +153,8 @@ Verdict filter(const Matrix3d& triangle, const Tetrahedron& tetrahedron, const M
   const double size = std::max(tetrahedron_size, corners.cwiseAbs().maxCoeff());
   const double unit = tetrahedron_size * tetrahedron_size * size,
                unit_t = triangle_size * triangle_size * size;
-  if (!(size > kSmallest && size < kLargest && unit_t > kSmallestProduct &&
-        unit * unit > kSmallestProduct))
-    return Verdict::Unknown;
+  const double smallest = kSmallestProduct * size * size * size;
+  if (!(unit_t > smallest && unit > smallest)) return Verdict::Unknown;
 
   // What is compared with the margin times an axis's length: that product is rounded too.
   margin *= 1 + kHeightRoundOff;
@@ -342,12 +342,15 @@ bool separating_axes_overlap(const Matrix3d& triangle, const Tetrahedron& tetrah
   const Vector3d origin = tetrahedron.col(0);
   const Matrix3d corners = triangle.colwise() - origin;
   const Matrix3d edges = tetrahedron.rightCols<3>().colwise() - origin;
-  const Verdict verdict = filter(triangle, tetrahedron, corners, edges, margin);
-  if (verdict != Verdict::Unknown) return verdict == Verdict::Overlapping;
-
   const double size = std::max(edges.cwiseAbs().maxCoeff(), corners.cwiseAbs().maxCoeff());
   if (size == 0) return true;  // one point
   const Tetrahedron local = tetrahedron.colwise() - origin;
+  if (!(size > kSmallest && size < kLargest)) {
+    const double unit = std::ldexp(1.0, -std::ilogb(size));  // nothing is lost by a power of two
+    return separating_axes_overlap(unit * corners, unit * local, unit * margin);
+  }
+  const Verdict verdict = filter(triangle, tetrahedron, corners, edges, margin);
+  if (verdict != Verdict::Unknown) return verdict == Verdict::Overlapping;
   return IntegerPair(corners, local, size, margin).overlap();
 }
 

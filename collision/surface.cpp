@@ -6,6 +6,10 @@
 #include <string>
 
 namespace articular::collision {
+
+template <>
+const char EigenHeapAlignment<EIGEN_DEFAULT_ALIGN_BYTES>::kOfTheLibrary = 0;
+
 namespace {
 
 // Nodes of the face opposite node k, counter-clockwise from outside for a positive tetrahedron.

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "collision/eigen_alignment.hpp"
+
 namespace articular::collision {
 
 /// Faces and neighbours of a tetrahedral mesh, from its connectivity alone ("The Organic Tissue").

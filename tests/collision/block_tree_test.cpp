@@ -2,66 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <limits>
 #include <random>
 
-#include "collision/block_collide.hpp"
-#include "tests/collision/meshes.hpp"
+#include "tests/collision/rule_oracle.hpp"
 
 namespace articular::collision {
 namespace {
 
+using testing::Answer;
+using testing::by_rule;
+using testing::faces_in;
+using testing::instruction_sets;
 using testing::Mesh;
-
-constexpr InstructionSet kSets[] = {InstructionSet::Baseline, InstructionSet::Avx2,
-                                    InstructionSet::Avx512};
-
-/// The instruction sets that this processor has.
-std::vector<InstructionSet> instruction_sets() {
-  std::vector<InstructionSet> sets;
-  for (const InstructionSet set : kSets)
-    if (set <= best_instruction_set()) sets.push_back(set);
-  return sets;
-}
-
-/// Every pair by the rule itself.
-std::vector<Penetration> by_rule(const Mesh& F, const Eigen::Matrix3Xd& x_f, const Mesh& W,
-                                 const Eigen::Matrix3Xd& x_w, double margin, NarrowTest narrow,
-                                 bool one_mesh = false) {
-  std::vector<Penetration> pairs;
-  for (int face = 0; face < F.surface.faces.cols(); ++face) {
-    const Eigen::Matrix3d triangle = corners<3>(x_f, F.surface.faces.col(face));
-    for (int tet = 0; tet < W.tets.cols(); ++tet) {
-      if (one_mesh && have_common_node(F.surface.faces, face, W.tets, tet)) continue;
-      if (elements_meet(triangle, corners<4>(x_w, W.tets.col(tet)), margin, narrow))
-        pairs.push_back({face, tet});
-    }
-  }
-  return pairs;
-}
-
-struct Answer {
-  std::vector<Penetration> pairs;
-  BlockQueryCounts counts;
-};
-
-Answer faces_in(const BlockTree& F, const BlockTree& W, const BlockQueryOptions& options = {}) {
-  Answer answer;
-  BlockQueryScratch scratch;
-  if (&F == &W)
-    faces_in_own_body(F, answer.pairs, answer.counts, scratch, options);
-  else
-    faces_in_body(F, W, answer.pairs, answer.counts, scratch, options);
-  std::sort(answer.pairs.begin(), answer.pairs.end());
-  return answer;
-}
-
-BlockTree tree_of(const Mesh& mesh, const Eigen::Matrix3Xd& x, double margin = 0) {
-  BlockTree tree(mesh.tets, mesh.surface, mesh.X);
-  tree.update(x, margin);
-  return tree;
-}
+using testing::tree_of;
 
 TEST(BlockTree, FindsWhatTheRuleFindsOnTwoDeformedBodies) {
   std::mt19937 random(1);
@@ -105,6 +58,22 @@ TEST(BlockTree, RegularMeshDoesNotMeetItselfByEitherTest) {
   const BlockTree tree = tree_of(bar, testing::bend_to_v(bar, 1.5));
   for (const NarrowTest narrow : {NarrowTest::SeparatingAxes, NarrowTest::Gjk})
     EXPECT_TRUE(faces_in(tree, tree, {.narrow = narrow}).pairs.empty());
+}
+
+TEST(BlockTree, MovedAndFittedIsUpdated) {
+  std::mt19937 random(4);
+  const Mesh a = testing::box_mesh(4, 4, 4, 1), b = testing::box_mesh(4, 4, 4, 1);
+  BlockTree A = tree_of(a, a.X.array() + 9), B = tree_of(b, b.X);
+  const Eigen::Matrix3Xd x = testing::placed(a.X, Eigen::Vector3d(1, 2, 3), random);
+  A.move(x);
+  EXPECT_EQ(A.bounds().min, tree_of(a, x).bounds().min);
+  EXPECT_EQ(A.bounds().max, tree_of(a, x).bounds().max);
+  EXPECT_THROW(faces_in(A, B), std::invalid_argument);
+  EXPECT_THROW(faces_in(B, A), std::invalid_argument);
+  A.fit();
+  const Answer answer = faces_in(A, B);
+  EXPECT_EQ(answer.pairs, faces_in(tree_of(a, x), B).pairs);
+  EXPECT_GT(answer.pairs.size(), 100u);
 }
 
 TEST(BlockTree, SinglePrecisionDecidesNearlyAll) {

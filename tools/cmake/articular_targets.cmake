@@ -1,6 +1,9 @@
 # The one place that says how a target of this project is made: C++20, include paths from the root
 # ("fem/material.hpp"), warnings as errors on our own code only.
 
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
 option(ARTICULAR_WERROR "Treat warnings in our own code as errors" ON)
 
 function(articular_settings target)
@@ -20,7 +23,7 @@ function(articular_library name)
   set_target_properties(articular_${name} PROPERTIES EXPORT_NAME ${name})
   articular_settings(articular_${name})
   target_include_directories(articular_${name} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/articular>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/articular>)
   target_link_libraries(articular_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
 endfunction()
 
@@ -37,4 +40,21 @@ function(articular_test name)
     list(APPEND properties LABELS "${arg_LABELS}")
   endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+endfunction()
+
+# articular_install(name): the library and the headers of this folder, as component and package of their
+# own: articular-<name>, with tools/cmake/articular-<name>-config.cmake for what it needs. Headers that
+# only sources include (*.inl.hpp, simd_*.hpp) stay at home.
+function(articular_install name)
+  set(package articular-${name})
+  set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/${package})
+  set(version_file ${CMAKE_CURRENT_BINARY_DIR}/${package}-config-version.cmake)
+  write_basic_package_version_file(${version_file} COMPATIBILITY SameMinorVersion)
+  install(TARGETS articular_${name} EXPORT ${package} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${name})
+  install(EXPORT ${package} NAMESPACE articular:: FILE ${package}-targets.cmake
+    DESTINATION ${cmake_folder} COMPONENT ${name})
+  install(FILES ${PROJECT_SOURCE_DIR}/tools/cmake/${package}-config.cmake ${version_file}
+    DESTINATION ${cmake_folder} COMPONENT ${name})
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/articular/${name}
+    COMPONENT ${name} FILES_MATCHING PATTERN *.hpp PATTERN *.inl.hpp EXCLUDE PATTERN simd_*.hpp EXCLUDE)
 endfunction()
