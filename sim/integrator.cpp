@@ -51,6 +51,7 @@ constexpr double kActivationTolerance = 1e-4;
 
 struct ImplicitIntegrator::Memory {
   Memory(const Model& m, Dynamics& d) : model(m), dynamics(d), newton(m, d) {}
+  [[nodiscard]] bool evolve(const Eigen::VectorXd& start, double t, double h);
 
   const Model& model;
   Dynamics& dynamics;
@@ -222,32 +223,43 @@ void ImplicitIntegrator::forget() { memory_->keep_matrix = false; }
 
 const IntegratorCounts& ImplicitIntegrator::counts() const { return memory_->counts; }
 
+/// One step of ARKODE from y. @return false if Newton's iteration did not converge
+bool ImplicitIntegrator::Memory::evolve(const Eigen::VectorXd& start, double t, double h) {
+  Eigen::Map<Eigen::VectorXd> vector(N_VGetArrayPointer(y.get()), start.size());
+  vector = start;
+  check(ARKStepReset(arkode.get(), t, y.get()), "ARKStepReset");
+  check(ARKStepSetFixedStep(arkode.get(), h), "ARKStepSetFixedStep");
+  check(ARKStepSetStopTime(arkode.get(), t + h), "ARKStepSetStopTime");
+  double reached = t;
+  const int flag = ARKStepEvolve(arkode.get(), t + h, y.get(), &reached, ARK_ONE_STEP);
+  if (error) std::rethrow_exception(std::exchange(error, nullptr));
+  return flag >= 0 && vector.allFinite();
+}
+
 bool ImplicitIntegrator::advance(Eigen::VectorXd& y, double t, double h) {
   Memory& m = *memory_;
   if (y.size() == 0) {  // nothing to solve for: only driven bones move
     ++m.counts.steps;
     return true;
   }
-  void* arkode = m.arkode.get();
   m.step = h;
   m.t_start = t;
-  m.newton.begin_step(m.keep_matrix);
-  m.keep_matrix = false;  // after a failure
-  Eigen::Map<Eigen::VectorXd> vector(N_VGetArrayPointer(m.y.get()), y.size());
-  vector = y;
-  check(ARKStepReset(arkode, t, m.y.get()), "ARKStepReset");
-  check(ARKStepSetFixedStep(arkode, h), "ARKStepSetFixedStep");
-  check(ARKStepSetStopTime(arkode, t + h), "ARKStepSetStopTime");
-  double reached = t;
-  const int flag = ARKStepEvolve(arkode, t + h, m.y.get(), &reached, ARK_ONE_STEP);
-  if (m.error) std::rethrow_exception(std::exchange(m.error, nullptr));
-  if (flag < 0 || !vector.allFinite()) {
+  // Over a jump of the active contacts the Gauss–Newton matrix may get where the consistent one,
+  // whose curvature is of the wrong side, does not: it has a try before the step is shortened.
+  bool done = false;
+  for (const fem::Tangent tangent : {fem::Tangent::Consistent, fem::Tangent::Projected}) {
+    m.newton.begin_step(m.keep_matrix, tangent);
+    m.keep_matrix = false;  // after a failure
+    done = m.evolve(y, t, h);
+    if (done) break;
+  }
+  if (!done) {
     ++m.counts.failed;
     return false;
   }
   ++m.counts.steps;
   m.keep_matrix = true;
-  y = vector;
+  y = Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(m.y.get()), y.size());
   return true;
 }
 

@@ -48,8 +48,9 @@ double lengthening(const Line& line, const Configuration& now, const Eigen::Vect
 NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
     : model_(model), dynamics_(dynamics), solver_(make_solver(model)) {}
 
-void NewtonSystem::begin_step(bool keep_matrix) {
+void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
   iteration_ = 0;
+  first_ = tangent;
   if (!keep_matrix) gamma_ = 0;
 }
 
@@ -79,11 +80,11 @@ bool NewtonSystem::solve_linear(IntegratorCounts& counts) {
 }
 
 bool NewtonSystem::find_correction(double gamma, IntegratorCounts& counts) {
-  bool ready = !needs_matrix(gamma) || prepare(gamma, fem::Tangent::Consistent, counts);
+  bool ready = !needs_matrix(gamma) || prepare(gamma, first_, counts);
   ++iteration_;
   if (ready && solve_linear(counts)) return true;
   // Not positive definite: Cholesky says so at once, conjugate gradients when they meet it.
-  if (gamma_ == gamma && tangent_ == fem::Tangent::Projected) return false;
+  if (tangent_ == fem::Tangent::Projected) return false;
   ready = prepare(gamma, fem::Tangent::Projected, counts);
   return ready && solve_linear(counts);
 }

@@ -13,7 +13,8 @@ class NewtonSystem {
   NewtonSystem(const Model& model, Dynamics& dynamics);
 
   /// A new step begins; with `keep_matrix` the last one's matrix may serve its first iteration.
-  void begin_step(bool keep_matrix);
+  /// @param tangent  Projected: does without the consistent one
+  void begin_step(bool keep_matrix, fem::Tangent tangent);
 
   /// Solves (I − γ ∂rate/∂y) x = b, reduced to block velocities.
   /// @return false when the matrix can't be made positive definite or the solver fails
@@ -33,11 +34,12 @@ class NewtonSystem {
   Dynamics& dynamics_;
   std::unique_ptr<fem::LinearSolver> solver_;
   Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_;
-  double gamma_ = 0;           // of the matrix that is factored; 0: none
-  std::uint64_t pattern_ = 0;  // of that matrix
-  fem::Tangent tangent_ = fem::Tangent::Consistent;
-  int iteration_ = 0;                        // in this step
-  double residual_ = 0, last_residual_ = 0;  // of this iteration and the one before
+  double gamma_ = 0;                                 // of the matrix that is factored; 0: none
+  std::uint64_t pattern_ = 0;                        // of that matrix
+  fem::Tangent tangent_ = fem::Tangent::Consistent;  // of that matrix
+  fem::Tangent first_ = fem::Tangent::Consistent;    // to try in this step
+  int iteration_ = 0;                                // in this step
+  double residual_ = 0, last_residual_ = 0;          // of this iteration and the one before
 };
 
 }  // namespace articular::sim
