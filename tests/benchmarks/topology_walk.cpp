@@ -21,30 +21,24 @@ namespace {
 using namespace articular::benchmarks;
 using namespace articular::collision;
 
-constexpr int kFrames = 4;
-constexpr double kMotion = 0.1;  // largest way of a node from its mean place, in cell edges
+constexpr double kMotion = 0.1;  // way of a node from frame to frame at most, in cell edges
 constexpr int kRounds = 60;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Both directions, or the one of a body with itself.
 using Found = std::vector<std::vector<Penetration>>;
 
 class Search {
  public:
-  explicit Search(const Workload& workload) : workload_(workload) {
-    for (const Mesh& mesh : workload.bodies) {
+  Search(const VShapes& shapes, const std::vector<Positions>& frames)
+      : shapes_(shapes), frames_(frames) {
+    for (const Mesh& mesh : shapes.bodies()) {
       trees_.emplace_back(mesh.tets, mesh.surface, mesh.X);
       neighbours_.push_back(face_neighbours(mesh.surface));
     }
   }
 
   void by_tree(std::size_t frame, Found& found) {
-    const Positions& x = workload_.frames[frame];
+    const Positions& x = frames_[frame];
     for (std::size_t k = 0; k < trees_.size(); ++k) trees_[k].update(x[k]);
     BlockQueryCounts counts;
     if (trees_.size() == 1) return faces_in_own_body(trees_[0], found[0], counts, query_);
@@ -54,7 +48,7 @@ class Search {
 
   void by_walk(std::size_t frame, const Found& seeds, Found& found, WalkCounts& counts) {
     const auto body = [&](std::size_t k) {
-      return WalkedMesh{workload_.bodies[k].at(workload_.frames[frame][k]), neighbours_[k]};
+      return WalkedMesh{shapes_.bodies()[k].at(frames_[frame][k]), neighbours_[k]};
     };
     if (trees_.size() == 1) return walk_own_body(body(0), seeds[0], found[0], walk_[0], counts);
     walk(body(0), body(1), seeds[0], found[0], walk_[0], counts);
@@ -62,7 +56,8 @@ class Search {
   }
 
  private:
-  const Workload& workload_;
+  const VShapes& shapes_;
+  const std::vector<Positions>& frames_;
   std::vector<BlockTree> trees_;
   std::vector<Eigen::Matrix3Xi> neighbours_;
   BlockQueryScratch query_;
@@ -82,21 +77,23 @@ std::size_t num_lost(Found expected, Found found) {
   return lost;
 }
 
-void measure(const char* name, const Workload& workload) {
-  Search search(workload);
-  Found by_tree(workload.bodies.size()), by_walk(workload.bodies.size());
-  std::vector<Found> of_frame(kFrames, by_tree);
-  for (std::size_t frame = 0; frame < kFrames; ++frame) search.by_tree(frame, of_frame[frame]);
+void measure(const char* name, const VShapes& shapes, double apart) {
+  const std::vector<Positions> frames = oscillation(shapes, apart, kMotion);
+  const std::size_t num_frames = frames.size();
+  Search search(shapes, frames);
+  Found by_tree(shapes.bodies().size()), by_walk(shapes.bodies().size());
+  std::vector<Found> of_frame(num_frames, by_tree);
+  for (std::size_t frame = 0; frame < num_frames; ++frame) search.by_tree(frame, of_frame[frame]);
 
   std::vector<double> tree_ms, walk_ms;
   std::size_t pairs = 0, lost = 0;
   WalkCounts counts;
   for (int round = 0; round < kRounds; ++round)
-    for (std::size_t frame = 0; frame < kFrames; ++frame) {
+    for (std::size_t frame = 0; frame < num_frames; ++frame) {
       const double start = cpu_seconds();
       search.by_tree(frame, by_tree);
       const double middle = cpu_seconds();
-      search.by_walk(frame, of_frame[(frame + kFrames - 1) % kFrames], by_walk, counts);
+      search.by_walk(frame, of_frame[(frame + num_frames - 1) % num_frames], by_walk, counts);
       tree_ms.push_back(1e3 * (middle - start));
       walk_ms.push_back(1e3 * (cpu_seconds() - middle));
       if (round > 0) continue;
@@ -104,11 +101,11 @@ void measure(const char* name, const Workload& workload) {
       for (const auto& list : by_tree) pairs += list.size();
     }
   const double tree = median(tree_ms), walk = median(walk_ms);
-  constexpr double kCalls = kRounds * kFrames;
-  std::printf("%s,%d,%zu,%.3f,%.3f,%.2f,%.0f,%.1f,%zu\n", name,
-              static_cast<int>(workload.bodies[0].tets.cols()), pairs / kFrames, tree, walk,
-              walk / tree, static_cast<double>(counts.candidates) / kCalls,
-              static_cast<double>(counts.rounds) / kCalls, lost);
+  const double calls = kRounds * static_cast<double>(num_frames);
+  std::printf("%s %.1f,%d,%zu,%.3f,%.3f,%.2f,%.0f,%.1f,%zu\n", name, apart, shapes.num_tets(),
+              pairs / num_frames, tree, walk, walk / tree,
+              static_cast<double>(counts.candidates) / calls,
+              static_cast<double>(counts.rounds) / calls, lost);
 }
 
 }  // namespace
@@ -116,11 +113,9 @@ void measure(const char* name, const Workload& workload) {
 int main() {
   std::printf("case,tetrahedra,pairs,tree_ms,walk_ms,ratio,walk_candidates,walk_rounds,lost\n");
   for (const int num_tets : {10000, 100000}) {
-    const BarSize bar = bar_with(num_tets);
-    for (const double shift : {0.0, 1.0})
-      measure(("two " + std::to_string(shift)).c_str(), two_v_shapes(bar, shift, kMotion, kFrames));
-    for (const double angle : {-0.6, -0.5})
-      measure(("crossed " + std::to_string(angle)).c_str(),
-              crossed_v_shape(bar, angle, kMotion, kFrames));
+    const TwoVShapes two(bar_with(num_tets));
+    for (const double apart : {0.0, 1.0}) measure("two", two, apart);
+    const CrossedVShape crossed(bar_with(num_tets));
+    for (const double apart : {-0.6, -0.5}) measure("crossed", crossed, apart);
   }
 }
