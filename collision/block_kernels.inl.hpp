@@ -82,17 +82,20 @@ struct alignas(64) FaceLanes {
 };
 
 void load_tetrahedra(const BlockQuery& query, TetLanes& lanes) {
-  float local[4 * kBlockSize][3];
+  alignas(64) float local[3][4 * kBlockSize] = {};
   for (int i = 0; i < query.num_nodes; ++i)
     for (int axis = 0; axis < 3; ++axis)
-      local[i][axis] = static_cast<float>(
+      local[axis][i] = static_cast<float>(
           (query.positions[4 * query.nodes[i] + axis] - query.centre[axis]) * query.inverse_size);
   for (int corner = 0; corner < 4; ++corner)
-    for (int lane = 0; lane < kBlockSize; ++lane) {
-      const int i = query.corners[corner * kBlockSize + lane];
-      for (int axis = 0; axis < 3; ++axis) lanes.corner[corner].row[axis][lane] = local[i][axis];
-      lanes.node[corner][lane] = query.nodes[i];
-    }
+    for (int first = 0; first < kBlockSize; first += Vec::kWidth)
+      for (int axis = 0; axis < 3; ++axis)
+        look_up(query.corners + corner * kBlockSize + first, local[axis], query.num_nodes)
+            .store(lanes.corner[corner].row[axis] + first);
+  if (query.one_mesh)
+    for (int corner = 0; corner < 4; ++corner)
+      for (int lane = 0; lane < kBlockSize; ++lane)
+        lanes.node[corner][lane] = query.nodes[query.corners[corner * kBlockSize + lane]];
   lanes.present = (1u << query.num_tets) - 1;
   lanes.margin = static_cast<float>(query.margin * query.inverse_size);
 }
@@ -133,7 +136,7 @@ constexpr float kErrorOfNormal = 32;
 constexpr float kMarginRoundOff = 16 * kUnit;
 
 /// Boxes, gradients and volumes. Inverted tetrahedra are turned: V > 0.
-void prepare(TetLanes& lanes) {
+void prepare(TetLanes& lanes, bool with_margin) {
   const Vec margin = Vec::all(lanes.margin), half_margin = Vec::all(0.5f * lanes.margin);
   lanes.flat = 0;
   for (int first = 0; first < kBlockSize; first += Vec::kWidth) {
@@ -159,7 +162,8 @@ void prepare(TetLanes& lanes) {
     for (int i = 0; i < 4; ++i) {
       store(*normals[i], lanes.normal[i], first);
       dot(*normals[i], i == 0 ? b : a).store(lanes.offset[i] + first);
-      (margin * sqrt(dot(*normals[i], *normals[i]))).store(lanes.reach[i] + first);
+      if (with_margin)
+        (margin * sqrt(dot(*normals[i], *normals[i]))).store(lanes.reach[i] + first);
     }
   }
 }
@@ -517,7 +521,7 @@ void test_candidates(const TetLanes& tets, const FaceLanes& faces, const Candida
 void test_block(BlockQuery& query) {
   TetLanes tets;
   load_tetrahedra(query, tets);
-  prepare(tets);
+  prepare(tets, query.margin > 0);
   FaceLanes faces;
   Candidates candidates;
   const bool with_care = query.one_mesh || query.boxes_only || query.margin > 0 || tets.flat != 0;
@@ -636,7 +640,7 @@ void test_pairs(PairList& list) {
   for (int block = 0; block < list.num_pairs; block += kBlockSize) {
     const int num = list.num_pairs - block < kBlockSize ? list.num_pairs - block : kBlockSize;
     load_pairs(list, block, num, tets, faces);
-    prepare(tets);
+    prepare(tets, false);
     prepare(faces, 0);
     for (int first = 0; first < num; first += Vec::kWidth) {
       const Pick pick = Pick::low_bits(kInOrder + first);

@@ -60,6 +60,11 @@ struct Pick {
   }
 };
 
+/// table[places[i]] in lane i; the table has up to 64 numbers, of which num are used.
+inline Vec look_up(const std::uint8_t* places, const float* table, int) {
+  return {_mm256_i32gather_ps(table, Pick::bytes(places), 4)};
+}
+
 /// A box of points of four doubles.
 struct Box4 {
   __m256d low, high;

@@ -54,6 +54,13 @@ struct Pick {
   }
 };
 
+/// table[places[i]] in lane i; the table has up to 64 numbers, of which num are used.
+inline Vec look_up(const std::uint8_t* places, const float* table, int num) {
+  const __m512i lanes = Pick::bytes(places);
+  if (num > 32) return {_mm512_mask_i32gather_ps(_mm512_setzero_ps(), kAll, lanes, table, 4)};
+  return {_mm512_permutex2var_ps(_mm512_load_ps(table), lanes, _mm512_load_ps(table + 16))};
+}
+
 /// A box of points of four doubles.
 struct Box4 {
   __m256d low, high;

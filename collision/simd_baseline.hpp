@@ -60,6 +60,11 @@ struct Pick {
   }
 };
 
+/// table[places[i]] in lane i; the table has up to 64 numbers, of which num are used.
+inline Vec look_up(const std::uint8_t* places, const float* table, int) {
+  return {_mm_setr_ps(table[places[0]], table[places[1]], table[places[2]], table[places[3]])};
+}
+
 /// A box of points of four doubles.
 struct Box4 {
   __m128d low[2], high[2];
