@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "collision/narrow_list.hpp"
 #include "tests/collision/hostile_meshes.hpp"
 #include "tests/collision/rule_oracle.hpp"
 
@@ -53,6 +54,23 @@ TEST(Hostile, EveryPairIsDecidedAsByTheRuleOfGjk) {
   for (const HostilePair& pair : hostile_pairs(random))
     for (const double margin : {0.0, 0.1})
       expect_the_rule(pair, margin * pair.size, NarrowTest::Gjk);
+}
+
+// The list of a caller's own broad phase, here all pairs.
+TEST(Hostile, AListOfPairsIsDecidedAsByTheRule) {
+  std::mt19937 random(109);
+  for (const HostilePair& p : hostile_pairs(random)) {
+    std::vector<Penetration> all, pairs;
+    for (int face = 0; face < p.a.surface.faces.cols(); ++face)
+      for (int tet = 0; tet < p.b.tets.cols(); ++tet) all.push_back({face, tet});
+    const auto expected = by_rule(p.a, p.x_a, p.b, p.x_b, 0, NarrowTest::SeparatingAxes);
+    for (const InstructionSet set : instruction_sets()) {
+      NarrowListScratch scratch;
+      narrow_test(p.a.at(p.x_a), p.b.at(p.x_b), all, pairs, scratch, set);
+      std::sort(pairs.begin(), pairs.end());
+      EXPECT_EQ(pairs, expected) << p.name;
+    }
+  }
 }
 
 TEST(Hostile, MeshesOfAFewTetrahedra) {
