@@ -29,9 +29,10 @@ struct BlockQuery {
   const double* positions;  // four a node, the last without meaning
   const int* nodes;         // of the block, each once
   int num_nodes;
-  const std::uint8_t* corners;     // [4][16] indices into nodes
-  int num_tets;                    // up to 16; the other lanes repeat one of them
-  double centre[3], inverse_size;  // of the block; a power of two
+  const std::uint8_t* corners;      // [4][16] indices into nodes
+  int num_tets;                     // up to 16; the other lanes repeat one of them
+  double centre[3], half_edges[3];  // of the box of the block, without margin
+  double inverse_size;              // of the block; a power of two
   double margin;
   // The faces.
   const double* face_corners;       // [block][corner][axis][16]
@@ -44,9 +45,11 @@ struct BlockQuery {
   bool boxes_only;  // every pair with overlapping boxes is doubtful
   // Results: (256 x index into face_blocks) + (16 x face) + tetrahedron. Room for 256 x
   // num_face_blocks in each list.
-  std::uint32_t* accepted;                         // certainly meet
-  std::uint32_t* doubtful;                         // to be decided in double precision
-  int num_accepted, num_doubtful, num_candidates;  // candidates: pairs with overlapping boxes
+  std::uint32_t* accepted;  // certainly meet
+  std::uint32_t* doubtful;  // to be decided in double precision
+  int num_accepted, num_doubtful;
+  int num_candidates;  // pairs with overlapping boxes, but for those whose face's plane passes the
+                       // block
 };
 
 /// A list of pairs (face, tetrahedron), without a margin.

@@ -162,8 +162,7 @@ void prepare(TetLanes& lanes, bool with_margin) {
     for (int i = 0; i < 4; ++i) {
       store(*normals[i], lanes.normal[i], first);
       dot(*normals[i], i == 0 ? b : a).store(lanes.offset[i] + first);
-      if (with_margin)
-        (margin * sqrt(dot(*normals[i], *normals[i]))).store(lanes.reach[i] + first);
+      if (with_margin) (margin * sqrt(dot(*normals[i], *normals[i]))).store(lanes.reach[i] + first);
     }
   }
 }
@@ -175,7 +174,10 @@ inline Vec error_of_positions(Vec size) {
 }
 
 /// Boxes, normals and errors.
-void prepare(FaceLanes& lanes, float margin) {
+/// @param half_edges  of the box of the block, which has its centre at the origin
+/// @return faces whose plane is not certain to pass that box
+unsigned prepare(FaceLanes& lanes, float margin, const float* half_edges) {
+  unsigned near = 0;
   const Vec half_margin = Vec::all(0.5f * margin);
   for (int first = 0; first < kBlockSize; first += Vec::kWidth) {
     const Vec3 p = load(lanes.corner[0], first), q = load(lanes.corner[1], first),
@@ -194,7 +196,13 @@ void prepare(FaceLanes& lanes, float margin) {
     store(high + Vec3{outward, outward, outward}, lanes.high, first);
     store(normal, lanes.normal, first);
     offset.store(lanes.offset + first);
+    const Vec reach = magnitude(normal.x) * Vec::all(half_edges[0]) +
+                      magnitude(normal.y) * Vec::all(half_edges[1]) +
+                      magnitude(normal.z) * Vec::all(half_edges[2]);
+    const Vec error = error_of_product(edge, farthest + farthest, delta);
+    near |= (kAllLanes & ~less(reach + error, magnitude(offset))) << first;
   }
+  return near;
 }
 
 /// Tetrahedra whose box overlaps the box.
@@ -525,16 +533,21 @@ void test_block(BlockQuery& query) {
   FaceLanes faces;
   Candidates candidates;
   const bool with_care = query.one_mesh || query.boxes_only || query.margin > 0 || tets.flat != 0;
+  const bool every_box_counts = query.boxes_only || query.margin > 0;
+  float half_edges[3];
+  for (int axis = 0; axis < 3; ++axis)
+    half_edges[axis] = static_cast<float>(query.half_edges[axis] * query.inverse_size);
   EdgeBatch batch;
   for (int i = 0; i < query.num_face_blocks; ++i) {
     load_faces(query, query.face_blocks[i], faces);
-    prepare(faces, tets.margin);
+    const unsigned near = prepare(faces, tets.margin, half_edges);
+    const unsigned mask = query.face_masks[i] & (every_box_counts ? 0xffff : near);
     const auto block_id = static_cast<std::uint32_t>(i * kBlockSize * kBlockSize);
     candidates.size = 0;
     if (with_care)
-      find_candidates_with_care(tets, faces, query.face_masks[i], block_id, query, candidates);
+      find_candidates_with_care(tets, faces, mask, block_id, query, candidates);
     else
-      find_candidates(tets, faces, query.face_masks[i], candidates);
+      find_candidates(tets, faces, mask, candidates);
     test_candidates(tets, faces, candidates, block_id, query, batch);
   }
   while (batch.size > 0) test_edges(batch, query);
@@ -633,6 +646,7 @@ inline unsigned boxes_overlap(const TetLanes& tets, const FaceLanes& faces, int 
 }
 
 void test_pairs(PairList& list) {
+  static constexpr float kNoEdges[3] = {0, 0, 0};
   static constexpr std::uint8_t kInOrder[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   TetLanes tets;
   FaceLanes faces;
@@ -641,7 +655,7 @@ void test_pairs(PairList& list) {
     const int num = list.num_pairs - block < kBlockSize ? list.num_pairs - block : kBlockSize;
     load_pairs(list, block, num, tets, faces);
     prepare(tets, false);
-    prepare(faces, 0);
+    prepare(faces, 0, kNoEdges);
     for (int first = 0; first < num; first += Vec::kWidth) {
       const Pick pick = Pick::low_bits(kInOrder + first);
       std::uint32_t ids[Vec::kWidth];

@@ -168,6 +168,7 @@ void BlockTree::describe_block(int block, BlockQuery& query) const {
   for (int i = tet_block_nodes_begin_[b]; i < tet_block_nodes_begin_[b + 1]; ++i)
     box.include(node_position(tet_block_nodes_[static_cast<std::size_t>(i)]));
   Eigen::Vector3d::Map(query.centre) = 0.5 * (box.min + box.max);
+  Eigen::Vector3d::Map(query.half_edges) = 0.5 * (box.max - box.min);
   const double half_edge = std::max(0.5 * (box.longest_edge() + margin_), kMinScale);
   query.inverse_size = 1 / power_of_two_above(half_edge);
   query.positions = positions_.data();
