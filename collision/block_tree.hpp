@@ -36,7 +36,7 @@ class BlockTree {
   void update(const Eigen::Matrix3Xd& x, double margin = 0);
 
   /// The two halves of update(), for a body that may turn out to touch nobody. move() follows
-  /// positions and bounds() alone, a quarter of the work; fit() makes the boxes that queries need,
+  /// positions and bounds() alone, a third of the work; fit() makes the boxes that queries need,
   /// if they are not made yet.
   void move(const Eigen::Matrix3Xd& x, double margin = 0);
   void fit();

@@ -20,9 +20,9 @@
 ///
 /// What it cannot do: a contact region without a seed is not found. The pairs of the last time step
 /// as seeds lose every new region until a tree finds it, so that this is no default. Nor is it
-/// faster: on V-shapes of 10 k and 100 k tetrahedra the walk from the last frame's pairs takes 1.7
-/// to 2.1 times as long as update and search of the block tree for two bodies, 0.86 to 0.97 times
-/// for one that crosses itself, and loses some pairs there (medians of interleaved runs,
+/// faster: on V-shapes of 10 k and 100 k tetrahedra the walk from the last frame's pairs takes 1.9
+/// to 2.1 times as long as update and search of the block tree for two bodies, 0.89 to 1.03 times
+/// for one that crosses itself, and loses some pairs in both (medians of interleaved runs,
 /// tests/benchmarks/topology_walk.cpp).
 namespace articular::collision {
 
