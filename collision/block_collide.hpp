@@ -20,7 +20,7 @@ struct BlockQueryOptions {
 
 /// What queries cost; accumulated.
 struct BlockQueryCounts {
-  std::int64_t candidates = 0;  // pairs with overlapping boxes
+  std::int64_t candidates = 0;  // pairs with overlapping boxes that reached the narrow test
   std::int64_t doubtful = 0;    // of these, decided in double precision
   std::int64_t pairs = 0;
   double traverse_seconds = 0;  // wall time down to pairs of blocks

@@ -1,0 +1,75 @@
+// How the block tree's queries scale with threads.
+//
+//   build/release/bin/block_threads [THREADS]...      (default: 1 2)
+//
+// The V-shapes of collision_peers at 100 000 and 1 000 000 tetrahedra a body. Numbers of threads
+// take turns; medians of wall time, which mean something on an idle machine only. The update of the
+// trees, which has one thread, is not in them.
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+#include "collision/block_collide.hpp"
+#include "tests/benchmarks/timing.hpp"
+#include "tests/benchmarks/v_shapes.hpp"
+
+namespace {
+
+using namespace articular::benchmarks;
+using namespace articular::collision;
+
+constexpr double kMotion = 0.1;  // way of a node from frame to frame at most, in cell edges
+constexpr int kRounds = 8;       // each is a whole cycle of frames
+
+void query(const std::vector<BlockTree>& trees, int threads, BlockQueryScratch& scratch) {
+  static std::vector<Penetration> pairs;
+  BlockQueryCounts counts;
+  BlockQueryOptions options;
+  options.threads = threads;
+  if (trees.size() == 1) return faces_in_own_body(trees[0], pairs, counts, scratch, options);
+  faces_in_body(trees[0], trees[1], pairs, counts, scratch, options);
+  faces_in_body(trees[1], trees[0], pairs, counts, scratch, options);
+}
+
+void measure(const char* name, const VShapes& shapes, double apart,
+             const std::vector<int>& numbers_of_threads) {
+  std::vector<BlockTree> trees;
+  for (const Mesh& mesh : shapes.bodies()) trees.emplace_back(mesh.tets, mesh.surface, mesh.X);
+  std::vector<std::vector<double>> milliseconds(numbers_of_threads.size());
+  BlockQueryScratch scratch;
+  for (int round = 0; round < kRounds; ++round)
+    for (const Positions& x : oscillation(shapes, apart, kMotion)) {
+      for (std::size_t k = 0; k < trees.size(); ++k) trees[k].update(x[k]);
+      for (std::size_t i = 0; i < numbers_of_threads.size(); ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        query(trees, numbers_of_threads[i], scratch);
+        const std::chrono::duration<double, std::milli> elapsed =
+            std::chrono::steady_clock::now() - start;
+        milliseconds[i].push_back(elapsed.count());
+      }
+    }
+  std::printf("| %s, %d |", name, shapes.num_tets());
+  for (const std::vector<double>& times : milliseconds) std::printf(" %.2f |", median(times));
+  std::printf("\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<int> numbers_of_threads;
+  for (int i = 1; i < argc; ++i) numbers_of_threads.push_back(std::atoi(argv[i]));
+  if (numbers_of_threads.empty()) numbers_of_threads = {1, 2};
+  for (const int threads : numbers_of_threads)
+    if (threads < 1) {
+      std::fprintf(stderr, "usage: block_threads [THREADS]...\n");
+      return 2;
+    }
+  std::printf("| query [ms], threads |");
+  for (const int threads : numbers_of_threads) std::printf(" %d |", threads);
+  std::printf("\n");
+  for (const int num_tets : {100000, 1000000}) {
+    measure("V through V", TwoVShapes(bar_with(num_tets)), 1.2, numbers_of_threads);
+    measure("V itself", CrossedVShape(bar_with(num_tets)), -0.5, numbers_of_threads);
+  }
+}
