@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "collision/simd_box4.hpp"
+
 /// Eight floats of AVX2. A mask has a bit for each lane.
 namespace {
 
@@ -64,20 +66,5 @@ struct Pick {
 inline Vec look_up(const std::uint8_t* places, const float* table, int) {
   return {_mm256_i32gather_ps(table, Pick::bytes(places), 4)};
 }
-
-/// A box of points of four doubles.
-struct Box4 {
-  __m256d low, high;
-  static Box4 at(const double* p) { return {_mm256_loadu_pd(p), _mm256_loadu_pd(p)}; }
-  void include(const double* p) {
-    const __m256d q = _mm256_loadu_pd(p);
-    low = _mm256_min_pd(low, q);
-    high = _mm256_max_pd(high, q);
-  }
-  void store(double* l, double* h) const {
-    _mm256_storeu_pd(l, low);
-    _mm256_storeu_pd(h, high);
-  }
-};
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "collision/simd_box4.hpp"
+
 /// Sixteen floats of AVX-512 F. A mask has a bit for each lane.
 namespace {
 
@@ -60,20 +62,5 @@ inline Vec look_up(const std::uint8_t* places, const float* table, int num) {
   if (num > 32) return {_mm512_mask_i32gather_ps(_mm512_setzero_ps(), kAll, lanes, table, 4)};
   return {_mm512_permutex2var_ps(_mm512_load_ps(table), lanes, _mm512_load_ps(table + 16))};
 }
-
-/// A box of points of four doubles.
-struct Box4 {
-  __m256d low, high;
-  static Box4 at(const double* p) { return {_mm256_loadu_pd(p), _mm256_loadu_pd(p)}; }
-  void include(const double* p) {
-    const __m256d q = _mm256_loadu_pd(p);
-    low = _mm256_min_pd(low, q);
-    high = _mm256_max_pd(high, q);
-  }
-  void store(double* l, double* h) const {
-    _mm256_storeu_pd(l, low);
-    _mm256_storeu_pd(h, high);
-  }
-};
 
 }  // namespace
