@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <numeric>
+#include <system_error>
 #include <thread>
 
 #include "collision/bad_input.hpp"
@@ -14,6 +16,9 @@
 
 namespace articular::collision {
 namespace {
+
+/// Face blocks that are tested against a block of tetrahedra in one go: bounds the lists of pairs.
+constexpr std::size_t kMostFaceBlocks = 128;
 
 using Clock = std::chrono::steady_clock;
 
@@ -76,6 +81,7 @@ struct Worker {
   std::vector<std::uint32_t> accepted, doubtful;
   std::vector<Penetration> pairs;
   std::int64_t candidates = 0, doubts = 0;
+  std::exception_ptr failure;
 };
 
 }  // namespace
@@ -135,8 +141,9 @@ class Search {
   void find_tasks() const {
     s_.tasks.clear();
     s_.task_faces.clear();
-    s_.lists.resize(W_.tet_levels().size() + 1);
-    BoxList& top = s_.lists.back();
+    const std::size_t num_levels = W_.tet_levels().size();
+    if (s_.lists.size() <= num_levels) s_.lists.resize(num_levels + 1);
+    BoxList& top = s_.lists[num_levels];
     top.clear();
     if (W_.num_tets() > 0) collect_faces(top);
     if (top.ids.empty()) return;
@@ -213,9 +220,13 @@ class Search {
         if (mask == 0) return;
         worker.face_blocks.push_back(s_.face_blocks[i]);
         worker.face_masks.push_back(static_cast<std::uint16_t>(mask));
+        if (worker.face_blocks.size() == kMostFaceBlocks) test_faces(block, worker);
       });
-    if (worker.face_blocks.empty()) return;
+    if (!worker.face_blocks.empty()) test_faces(block, worker);
+  }
 
+  /// The block against the worker's faces, which it then forgets.
+  void test_faces(int block, Worker& worker) const {
     BlockQuery query;
     W_.describe_block(block, query);
     query.face_corners = F_.face_corner_lanes();
@@ -225,9 +236,8 @@ class Search {
     query.num_face_blocks = static_cast<int>(worker.face_blocks.size());
     query.one_mesh = one_mesh_;
     query.boxes_only = narrow_ == NarrowTest::Gjk;
-    const std::size_t room = kLanes * kLanes * worker.face_blocks.size();
-    if (worker.accepted.size() < room) worker.accepted.resize(room);
-    if (worker.doubtful.size() < room) worker.doubtful.resize(room);
+    worker.accepted.resize(kLanes * kLanes * kMostFaceBlocks);
+    worker.doubtful.resize(kLanes * kLanes * kMostFaceBlocks);
     query.accepted = worker.accepted.data();
     query.doubtful = worker.doubtful.data();
     query.num_accepted = query.num_doubtful = query.num_candidates = 0;
@@ -242,6 +252,8 @@ class Search {
                         W_.margin(), narrow_))
         report(id, block, worker);
     }
+    worker.face_blocks.clear();
+    worker.face_masks.clear();
   }
 
   // The ids of BlockQuery.
@@ -267,21 +279,35 @@ class Search {
 void run_tasks(const Search& search, BlockQueryScratch::Parts& s, int threads) {
   const auto num = static_cast<std::size_t>(threads);
   if (s.workers.size() < num) s.workers.resize(num);
+  for (std::size_t w = 0; w < num; ++w) {
+    s.workers[w].pairs.clear();
+    s.workers[w].candidates = s.workers[w].doubts = 0;
+    s.workers[w].failure = nullptr;
+  }
   std::atomic<std::size_t> next{0};
   const auto work = [&](Worker& worker) {
-    worker.pairs.clear();
-    worker.candidates = worker.doubts = 0;
-    for (std::size_t i = next++; i < s.tasks.size(); i = next++) {
-      const std::size_t begin = worker.pairs.size();
-      search.run_task(s.tasks[i], worker);
-      s.tasks[i].found_by = &worker;
-      s.tasks[i].first_pair = begin;
-      s.tasks[i].num_pairs = worker.pairs.size() - begin;
+    try {
+      for (std::size_t i = next++; i < s.tasks.size(); i = next++) {
+        const std::size_t begin = worker.pairs.size();
+        search.run_task(s.tasks[i], worker);
+        s.tasks[i].found_by = &worker;
+        s.tasks[i].first_pair = begin;
+        s.tasks[i].num_pairs = worker.pairs.size() - begin;
+      }
+    } catch (...) {
+      worker.failure = std::current_exception();
     }
   };
   std::vector<std::jthread> others;
-  for (std::size_t w = 1; w < num; ++w) others.emplace_back(work, std::ref(s.workers[w]));
+  try {
+    for (std::size_t w = 1; w < num; ++w) others.emplace_back(work, std::ref(s.workers[w]));
+  } catch (const std::system_error&) {
+    // The system gives no more threads: those that there are do the work.
+  }
   work(s.workers[0]);
+  others.clear();  // joins
+  for (std::size_t w = 0; w < num; ++w)
+    if (s.workers[w].failure) std::rethrow_exception(s.workers[w].failure);
 }
 
 /// The pairs in the order of the tasks, whoever found them.
@@ -295,6 +321,18 @@ void gather(BlockQueryScratch::Parts& s, int threads, std::vector<Penetration>& 
     const auto first = task.found_by->pairs.begin() + static_cast<std::ptrdiff_t>(task.first_pair);
     pairs.insert(pairs.end(), first, first + static_cast<std::ptrdiff_t>(task.num_pairs));
   }
+}
+
+/// Sorts by a key from 0 to num_keys - 1; what has the same key keeps its order.
+template <class Key>
+void sort_by(std::vector<Penetration>& pairs, int num_keys, Key&& key, SortScratch& scratch) {
+  scratch.begin.assign(static_cast<std::size_t>(num_keys) + 1, 0);
+  for (const Penetration& pair : pairs) ++scratch.begin[static_cast<std::size_t>(key(pair)) + 1];
+  std::partial_sum(scratch.begin.begin(), scratch.begin.end(), scratch.begin.begin());
+  scratch.sorted.resize(pairs.size());
+  for (const Penetration& pair : pairs)
+    scratch.sorted[scratch.begin[static_cast<std::size_t>(key(pair))]++] = pair;
+  pairs.swap(scratch.sorted);
 }
 
 void query(const BlockTree& F, const BlockTree& W, bool one_mesh, std::vector<Penetration>& pairs,
@@ -334,14 +372,12 @@ void faces_in_own_body(const BlockTree& tree, std::vector<Penetration>& pairs,
   query(tree, tree, true, pairs, counts, scratch, options);
 }
 
-void group_by_face(std::vector<Penetration>& pairs, int num_faces, GroupScratch& scratch) {
-  scratch.begin.assign(static_cast<std::size_t>(num_faces) + 1, 0);
-  for (const Penetration& pair : pairs) ++scratch.begin[static_cast<std::size_t>(pair.face) + 1];
-  std::partial_sum(scratch.begin.begin(), scratch.begin.end(), scratch.begin.begin());
-  scratch.grouped.resize(pairs.size());
-  for (const Penetration& pair : pairs)
-    scratch.grouped[scratch.begin[static_cast<std::size_t>(pair.face)]++] = pair;
-  pairs.swap(scratch.grouped);
+void sort_pairs(std::vector<Penetration>& pairs, const BlockTree& F, const BlockTree& W,
+                SortScratch& scratch) {
+  sort_by(
+      pairs, W.num_tets(), [](const Penetration& p) { return p.tetrahedron; }, scratch);
+  sort_by(
+      pairs, F.num_faces(), [](const Penetration& p) { return p.face; }, scratch);
 }
 
 }  // namespace articular::collision

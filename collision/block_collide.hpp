@@ -27,7 +27,8 @@ struct BlockQueryCounts {
   double narrow_seconds = 0;    // and in the blocks
 };
 
-/// Memory of a query. Kept from call to call, queries do not allocate once it has grown.
+/// Memory of a query. Kept from call to call, queries of one thread do not allocate once it has
+/// grown.
 class BlockQueryScratch {
  public:
   BlockQueryScratch();
@@ -55,14 +56,15 @@ void faces_in_own_body(const BlockTree& tree, std::vector<Penetration>& pairs,
                        BlockQueryCounts& counts, BlockQueryScratch& scratch,
                        const BlockQueryOptions& options = {});
 
-/// Memory of group_by_face(), kept from call to call.
-struct GroupScratch {
+/// Memory of sort_pairs(), kept from call to call.
+struct SortScratch {
   std::vector<std::size_t> begin;
-  std::vector<Penetration> grouped;
+  std::vector<Penetration> sorted;
 };
 
-/// Puts pairs of the same face one behind the other, faces in ascending order; of one face the
-/// order stays.
-void group_by_face(std::vector<Penetration>& pairs, int num_faces, GroupScratch& scratch);
+/// By face, then by tetrahedron, in a time linear in pairs and elements: an order that depends on
+/// the pairs alone, where that of a query depends on the instruction set.
+void sort_pairs(std::vector<Penetration>& pairs, const BlockTree& F, const BlockTree& W,
+                SortScratch& scratch);
 
 }  // namespace articular::collision

@@ -48,7 +48,7 @@ struct BlockQuery {
   std::uint32_t* accepted;  // certainly meet
   std::uint32_t* doubtful;  // to be decided in double precision
   int num_accepted, num_doubtful;
-  int num_candidates;  // pairs with overlapping boxes, but for those whose face's plane passes the
+  int num_candidates;  // pairs with overlapping boxes, but for those whose face's plane misses the
                        // block
 };
 

@@ -123,7 +123,7 @@ inline Vec error_of_positions(Vec size) {
 
 /// Boxes, normals and errors.
 /// @param half_edges  of the box of the block, which has its centre at the origin
-/// @return faces whose plane is not certain to pass that box
+/// @return faces whose plane is not certain to miss that box
 unsigned prepare(FaceLanes& lanes, float margin, const float* half_edges) {
   unsigned near = 0;
   const Vec half_margin = Vec::all(0.5f * margin);

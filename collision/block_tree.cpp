@@ -14,6 +14,9 @@ namespace {
 /// (2^-25) here, and once more when another tree's are moved into this frame.
 constexpr float kBoxSlack = 0x1p-22f;
 
+/// So that four numbers an element can be counted by int.
+constexpr Eigen::Index kMostElements = Eigen::Index{1} << 28;
+
 /// The smallest scale [m]: the largest coordinate (kMaxCoordinate) divided by it must be finite.
 /// Smaller meshes are points here, and left to double precision.
 constexpr double kMinScale = 1e-150;
@@ -57,6 +60,9 @@ BlockTree::BlockTree(const Eigen::Matrix4Xi& tets, const Surface& surface,
   if (surface.tet_face_begin.size() != static_cast<std::size_t>(num_tets_) + 1)
     bad_input("the surface belongs to a mesh of another number of tetrahedra");
   check_positions(X_rest, X_rest.cols(), "rest position");
+  if (tets.cols() > kMostElements || X_rest.cols() > kMostElements)
+    bad_input("a mesh of ", tets.cols(), " tetrahedra and ", X_rest.cols(), " nodes; at most ",
+              kMostElements, " are possible");
 
   tet_order_ = block_order(tets, X_rest);
   face_order_ = block_order(surface.faces, X_rest);
@@ -94,11 +100,17 @@ void BlockTree::order_nodes(const Eigen::Matrix4Xi& tets, const Surface& surface
       }
     tet_block_nodes_begin_.push_back(static_cast<int>(tet_block_nodes_.size()));
   }
+  tet_block_nodes_.shrink_to_fit();
+  node_order_.shrink_to_fit();
   face_nodes_.resize(3 * face_order_.size());
   for (std::size_t slot = 0; slot < face_order_.size(); ++slot)
-    for (std::size_t k = 0; k < 3; ++k)
-      face_nodes_[node_lane(slot, k)] = own[static_cast<std::size_t>(
-          surface.faces(static_cast<Eigen::Index>(k), face_order_[slot]))];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int user = surface.faces(static_cast<Eigen::Index>(k), face_order_[slot]);
+      if (user < 0 || user >= num_user_nodes_ || own[static_cast<std::size_t>(user)] < 0)
+        bad_input("face ", face_order_[slot], " of the surface has node ", user,
+                  ", which is of no tetrahedron");
+      face_nodes_[node_lane(slot, k)] = own[static_cast<std::size_t>(user)];
+    }
 }
 
 void BlockTree::update(const Eigen::Matrix3Xd& x, double margin) {

@@ -8,8 +8,8 @@
 #include "collision/penetrations.hpp"
 #include "collision/surface.hpp"
 
-/// All pairs with the same box test and narrow test as everything else: the reference that every
-/// faster way must equal. Quadratic; for tests and measurements.
+/// All pairs with the same box test and narrow test as everything else: the reference for the
+/// article's tree. Quadratic; for tests and measurements.
 namespace articular::collision {
 
 /// A deformed mesh.

@@ -8,7 +8,7 @@
 #include "collision/reports.hpp"
 #include "collision/tandem.hpp"
 
-/// The facade that sim uses. One BucketTree a body; update it when its positions change, then
+/// Queries of the article's tree. One BucketTree a body; update it when its positions change, then
 /// query.
 namespace articular::collision {
 

@@ -1,18 +1,21 @@
 #include "collision/narrow_list.hpp"
 
+#include <algorithm>
+
 #include "collision/element_pair.hpp"
 #include "collision/narrow_rule.hpp"
 
 namespace articular::collision {
 
-void narrow_test(const MeshView& F, const MeshView& W, std::span<const Penetration> candidates,
-                 std::vector<Penetration>& pairs, NarrowListScratch& scratch,
-                 InstructionSet instruction_set) {
+namespace {
+
+/// Pairs that are tested in one go.
+constexpr std::size_t kMostPairs = 1 << 16;
+
+void test_part(const MeshView& F, const MeshView& W, std::span<const Penetration> candidates,
+               std::vector<Penetration>& pairs, NarrowListScratch& scratch,
+               InstructionSet instruction_set) {
   static_assert(sizeof(Penetration) == 2 * sizeof(int));
-  pairs.clear();
-  if (candidates.empty()) return;
-  scratch.accepted.resize(candidates.size());
-  scratch.doubtful.resize(candidates.size());
   PairList list;
   list.face_positions = F.x.data();
   list.tet_positions = W.x.data();
@@ -32,6 +35,20 @@ void narrow_test(const MeshView& F, const MeshView& W, std::span<const Penetrati
                       corners<4>(W.x, W.tets.col(pair.tetrahedron)), 0, NarrowTest::SeparatingAxes))
       pairs.push_back(pair);
   }
+}
+
+}  // namespace
+
+void narrow_test(const MeshView& F, const MeshView& W, std::span<const Penetration> candidates,
+                 std::vector<Penetration>& pairs, NarrowListScratch& scratch,
+                 InstructionSet instruction_set) {
+  pairs.clear();
+  scratch.accepted.resize(std::min(kMostPairs, candidates.size()));
+  scratch.doubtful.resize(std::min(kMostPairs, candidates.size()));
+  for (; !candidates.empty();
+       candidates = candidates.subspan(std::min(kMostPairs, candidates.size())))
+    test_part(F, W, candidates.first(std::min(kMostPairs, candidates.size())), pairs, scratch,
+              instruction_set);
 }
 
 }  // namespace articular::collision

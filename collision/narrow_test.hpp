@@ -6,8 +6,8 @@
 namespace articular::collision {
 
 /// Whether a triangle and a tetrahedron are within the margin [m] of each other: GJK, where the
-/// planes of their faces do not tell already. What counts as touching is decided here for every
-/// path.
+/// planes of their faces do not tell already. The rule of the
+/// article's tree; the block tree has elements_meet().
 inline bool elements_overlap(const Eigen::Matrix3d& triangle,
                              const Eigen::Matrix<double, 3, 4>& tetrahedron, double margin) {
   const PlaneVerdict verdict = face_planes(triangle, tetrahedron, margin);

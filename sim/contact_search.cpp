@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "sim/contact_patch.hpp"
 
@@ -102,8 +103,11 @@ bool ContactSearch::needs_update(const Moving& moving, double margin) const {
   return bone.unknown || bone.motion.has_value();
 }
 
-void ContactSearch::place_faces(Moving& moving, const Collider& collider) {
-  const Eigen::Matrix3Xi& faces = collider.surface.faces;
+void ContactSearch::fit(Moving& moving) {
+  if (moving.tree->is_fitted()) return;
+  moving.tree->fit();
+  const BodyModel& body = model_.bodies[static_cast<std::size_t>(moving.body)];
+  const Eigen::Matrix3Xi& faces = body.collider->surface.faces;
   moving.faces.resize(static_cast<std::size_t>(faces.cols()));
   for (Eigen::Index f = 0; f < faces.cols(); ++f) {
     FacePlace& face = moving.faces[static_cast<std::size_t>(f)];
@@ -121,8 +125,7 @@ void ContactSearch::update(Moving& moving, const Configuration& configuration, d
   if (!needs_update(moving, margin)) return;
   const Collider& collider = *model_.bodies[static_cast<std::size_t>(moving.body)].collider;
   positions_of(configuration, collider.nodes, moving.x);
-  place_faces(moving, collider);
-  moving.tree->update(moving.x, margin);
+  moving.tree->move(moving.x, margin);
   moving.margin = margin;
   ++counts_.tree_updates;
 }
@@ -138,25 +141,28 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     CandidateList& list = candidates_[i];
     const ContactModel& contact = model_.contacts[static_cast<std::size_t>(list.contact)];
-    const Moving& a =
+    Moving& a =
         moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(contact.a)])];
-    const Moving& b =
+    Moving& b =
         moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(contact.b)])];
     const auto num_faces = [&](const Moving& moving) {
       return model_.bodies[static_cast<std::size_t>(moving.body)].collider->face_area.size();
     };
     if (contact.a == contact.b) {
+      fit(a);
       collision::faces_in_own_body(*a.tree, faces_of_a_, query, scratch_, options_);
-      collision::group_by_face(faces_of_a_, a.tree->num_faces(), group_scratch_);
+      collision::sort_pairs(faces_of_a_, *a.tree, *a.tree, sort_scratch_);
       collect(faces_of_a_, a, a, margin, list.pairs);
       drop_far_faces(faces_of_a_, num_faces(a), list.pairs);
       continue;
     }
     if (overlap(a.tree->bounds(), b.tree->bounds())) {
+      fit(a);
+      fit(b);
       collision::faces_in_body(*a.tree, *b.tree, faces_of_a_, query, scratch_, options_);
       collision::faces_in_body(*b.tree, *a.tree, faces_of_b_, query, scratch_, options_);
-      collision::group_by_face(faces_of_a_, a.tree->num_faces(), group_scratch_);
-      collision::group_by_face(faces_of_b_, b.tree->num_faces(), group_scratch_);
+      collision::sort_pairs(faces_of_a_, *a.tree, *b.tree, sort_scratch_);
+      collision::sort_pairs(faces_of_b_, *b.tree, *a.tree, sort_scratch_);
       collect(faces_of_a_, a, b, margin, list.pairs);
       drop_far_faces(faces_of_b_, num_faces(b), list.pairs);
       CandidateList& reverse = candidates_[i + 1];

@@ -7,7 +7,7 @@
 #include "collision/block_collide.hpp"
 #include "sim/configuration.hpp"
 
-/// Who may touch whom during the next step: from the BucketTrees' penetrations with a margin to
+/// Who may touch whom during the next step: from the BlockTrees' penetrations with a margin to
 /// pairs of a surface triangle and a facing face of the other body.
 namespace articular::sim {
 
@@ -25,7 +25,7 @@ struct CandidateList {
 
 struct SearchCounts {
   std::int64_t tree_updates = 0;
-  std::int64_t reported_pairs = 0;  // by the BucketTrees, within the margin
+  std::int64_t reported_pairs = 0;  // by the BlockTrees, within the margin
   std::int64_t narrow_tests = 0;
   double update_seconds = 0, traversal_seconds = 0, narrow_seconds = 0;
 };
@@ -68,7 +68,8 @@ class ContactSearch {
     double margin = -1;  // that the tree was updated with
   };
   void update(Moving& moving, const Configuration& configuration, double margin);
-  static void place_faces(Moving& moving, const Collider& collider);
+  /// What a body needs that may touch another: done once a detection, if at all.
+  void fit(Moving& moving);
   bool needs_update(const Moving& moving, double margin) const;
   void collect(const std::vector<collision::Penetration>& found, const Moving& a, const Moving& b,
                double margin, std::vector<ContactCandidate>& pairs);
@@ -80,7 +81,7 @@ class ContactSearch {
   std::vector<collision::Penetration> faces_of_a_, faces_of_b_;
   collision::BlockQueryScratch scratch_;
   collision::BlockQueryOptions options_;
-  collision::GroupScratch group_scratch_;
+  collision::SortScratch sort_scratch_;
   std::vector<int> seen_;  // per face: last triangle that it was paired with
   SearchCounts counts_;
 };

@@ -16,6 +16,19 @@ constexpr double kSnap = 1.0 / 3;
 /// Slopes are means over so many neighbours along the cut, by turns: facets of a scan are noisy.
 constexpr int kSmoothings = 4;
 
+/// Least sine between the direction of continuation and the normals at the cut: steeper sheets
+/// can't be carried on.
+constexpr double kLeastAcross = 0.1;
+/// Rows of triangles beyond the cut: more than this is a wrong length.
+constexpr double kMostRows = 10000;
+
+[[noreturn]] void refuse_slope() {
+  throw std::invalid_argument(
+      "the surface stands across the direction of `continued` where it is cut, or turns over "
+      "there; "
+      "an open sheet that runs along it is needed");
+}
+
 using Edge = std::pair<int, int>;
 
 /// The surface while it is cut: nodes, and how far each lies beyond the plane [m].
@@ -128,9 +141,13 @@ Slopes slopes(const Cut& cut, const std::vector<Edge>& edges, const Vec3& direct
     }
   }
   Slopes result;
-  result.up = (mean - mean.dot(direction) * direction).normalized();
-  for (const auto& [node, normal] : normals)
+  const Vec3 across = mean - mean.dot(direction) * direction;
+  result.up = across.normalized();
+  if (!(across.norm() > kLeastAcross * mean.norm())) refuse_slope();
+  for (const auto& [node, normal] : normals) {
+    if (!(normal.dot(result.up) > kLeastAcross * normal.norm())) refuse_slope();
     result.at[node] = -normal.dot(direction) / normal.dot(result.up);
+  }
   for (int round = 0; round < kSmoothings; ++round) {
     std::map<int, std::pair<double, int>> sums;
     for (const auto& [node, slope] : result.at) sums[node] = {slope, 1};
@@ -150,8 +167,13 @@ void carry_on(const std::vector<Edge>& edges, const Continuation& c, Cut& cut) {
   const Slopes slope = slopes(cut, edges, c.direction);
   double width = 0;
   for (const auto& [a, b] : edges) width += (cut.position(b) - cut.position(a)).norm();
-  const auto rows = static_cast<int>(
-      std::ceil(c.length * static_cast<double>(edges.size()) / width * (1 - 1e-9)));
+  const double wanted =
+      std::ceil(c.length * static_cast<double>(edges.size()) / width * (1 - 1e-9));
+  if (!(wanted <= kMostRows))
+    throw std::invalid_argument(
+        "the length of `continued` is more than 10 000 times an edge of the surface where it is "
+        "cut");
+  const auto rows = static_cast<int>(wanted);
   std::map<int, int> last;  // node of the latest row by node of the rim
   for (const auto& [node, unused] : slope.at) last[node] = node;
   for (int row = 1; row <= rows; ++row) {

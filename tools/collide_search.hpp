@@ -29,7 +29,7 @@ struct FoundPairs {
 /// What queries cost; accumulated.
 struct SearchCost {
   double traverse_seconds = 0, narrow_seconds = 0;
-  std::int64_t candidates = 0;  // pairs with overlapping boxes
+  std::int64_t candidates = 0;  // pairs with overlapping boxes that reached the narrow test
 };
 
 /// One or two bodies, each in a tree.

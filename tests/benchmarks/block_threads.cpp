@@ -4,7 +4,7 @@
 //
 // The V-shapes of collision_peers at 100 000 and 1 000 000 tetrahedra a body. Numbers of threads
 // take turns; medians of wall time, which mean something on an idle machine only. The update of the
-// trees, which has one thread, is not in them.
+// trees, which has one thread, is a column of its own.
 
 #include <chrono>
 #include <cstdio>
@@ -22,6 +22,12 @@ using namespace articular::collision;
 constexpr double kMotion = 0.1;  // way of a node from frame to frame at most, in cell edges
 constexpr int kRounds = 8;       // each is a whole cycle of frames
 
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  const std::chrono::duration<double, std::milli> elapsed =
+      std::chrono::steady_clock::now() - start;
+  return elapsed.count();
+}
+
 void query(const std::vector<BlockTree>& trees, int threads, BlockQueryScratch& scratch) {
   static std::vector<Penetration> pairs;
   BlockQueryCounts counts;
@@ -37,19 +43,20 @@ void measure(const char* name, const VShapes& shapes, double apart,
   std::vector<BlockTree> trees;
   for (const Mesh& mesh : shapes.bodies()) trees.emplace_back(mesh.tets, mesh.surface, mesh.X);
   std::vector<std::vector<double>> milliseconds(numbers_of_threads.size());
+  std::vector<double> updates;
   BlockQueryScratch scratch;
   for (int round = 0; round < kRounds; ++round)
     for (const Positions& x : oscillation(shapes, apart, kMotion)) {
+      const auto begin = std::chrono::steady_clock::now();
       for (std::size_t k = 0; k < trees.size(); ++k) trees[k].update(x[k]);
+      updates.push_back(milliseconds_since(begin));
       for (std::size_t i = 0; i < numbers_of_threads.size(); ++i) {
         const auto start = std::chrono::steady_clock::now();
         query(trees, numbers_of_threads[i], scratch);
-        const std::chrono::duration<double, std::milli> elapsed =
-            std::chrono::steady_clock::now() - start;
-        milliseconds[i].push_back(elapsed.count());
+        milliseconds[i].push_back(milliseconds_since(start));
       }
     }
-  std::printf("| %s, %d |", name, shapes.num_tets());
+  std::printf("| %s, %d | %.2f |", name, shapes.num_tets(), median(updates));
   for (const std::vector<double>& times : milliseconds) std::printf(" %.2f |", median(times));
   std::printf("\n");
 }
@@ -65,7 +72,7 @@ int main(int argc, char** argv) {
       std::fprintf(stderr, "usage: block_threads [THREADS]...\n");
       return 2;
     }
-  std::printf("| query [ms], threads |");
+  std::printf("| [ms] | update | search, threads:");
   for (const int threads : numbers_of_threads) std::printf(" %d |", threads);
   std::printf("\n");
   for (const int num_tets : {100000, 1000000}) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "collision/block_collide.hpp"
 #include "collision/self_intersection.hpp"
 #include "tests/collision/meshes.hpp"
 
@@ -54,6 +55,32 @@ TEST(Allocation, UpdatesAndQueriesDoNotAllocateOnceTheirMemoryHasGrown) {
     EXPECT_EQ(num_allocations - before, 0);
     EXPECT_GT(reported, 1000);
   }
+}
+
+TEST(Allocation, BlockTreesDoNotAllocateOnceTheMemoryOfTheirQueriesHasGrown) {
+  std::mt19937 random(71);
+  // Trees of different depth take turns with one scratch, as in a simulation.
+  const Mesh deep = box_mesh(12, 8, 8, 1e-3), flat = box_mesh(2, 2, 1, 3e-3);
+  BlockTree A(deep.tets, deep.surface, deep.X), B(flat.tets, flat.surface, flat.X);
+  const Eigen::Matrix3Xd x = jittered(deep.X, 0.1e-3, random);
+  const Eigen::Matrix3Xd y = placed(flat.X, x.rowwise().mean(), random);
+  std::vector<Penetration> a_in_b, b_in_a, self;
+  BlockQueryCounts counts;
+  BlockQueryScratch scratch;
+  SortScratch sort_scratch;
+  const auto step = [&] {
+    A.update(x);
+    B.update(y);
+    faces_in_body(A, B, a_in_b, counts, scratch);
+    faces_in_body(B, A, b_in_a, counts, scratch);
+    faces_in_own_body(A, self, counts, scratch);
+    sort_pairs(b_in_a, B, A, sort_scratch);
+  };
+  for (int round = 0; round < 4; ++round) step();  // lists change places with the caller's
+  const std::int64_t before = num_allocations;
+  step();
+  EXPECT_EQ(num_allocations - before, 0);
+  EXPECT_GT(b_in_a.size(), 100u);
 }
 
 }  // namespace

@@ -76,6 +76,35 @@ TEST(BlockTree, MovedAndFittedIsUpdated) {
   EXPECT_GT(answer.pairs.size(), 100u);
 }
 
+TEST(BlockTree, SortedPairsAreTheSameForEveryInstructionSetAndNumberOfThreads) {
+  std::mt19937 random(5);
+  const Mesh a = testing::box_mesh(9, 9, 9, 1), b = testing::box_mesh(8, 8, 8, 1);
+  const BlockTree A = tree_of(a, testing::jittered(a.X, 0.1, random));
+  const BlockTree B = tree_of(b, testing::placed(b.X, Eigen::Vector3d(6, 6, 6), random));
+  std::vector<Penetration> first, pairs;
+  BlockQueryCounts counts;
+  BlockQueryScratch scratch;
+  SortScratch sort_scratch;
+  for (const InstructionSet set : testing::instruction_sets())
+    for (const int threads : {1, 4}) {
+      faces_in_body(A, B, pairs, counts, scratch, {NarrowTest::SeparatingAxes, threads, set});
+      sort_pairs(pairs, A, B, sort_scratch);
+      EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
+      if (first.empty()) first = pairs;
+      EXPECT_EQ(pairs, first);
+    }
+  EXPECT_GT(first.size(), 500u);
+}
+
+TEST(BlockTree, RefusesASurfaceOfAnotherMesh) {
+  const Mesh mesh = testing::box_mesh(2, 2, 2, 1);
+  for (const int node : {-1, static_cast<int>(mesh.X.cols())}) {
+    Surface wrong = mesh.surface;
+    wrong.faces(1, 3) = node;
+    EXPECT_THROW(BlockTree(mesh.tets, wrong, mesh.X), std::invalid_argument);
+  }
+}
+
 TEST(BlockTree, SinglePrecisionDecidesNearlyAll) {
   std::mt19937 random(3);
   const Mesh a = testing::box_mesh(12, 12, 12, 1), b = testing::box_mesh(12, 12, 12, 1);

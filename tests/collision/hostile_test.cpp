@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "collision/narrow_list.hpp"
 #include "tests/collision/hostile_meshes.hpp"
@@ -54,6 +55,50 @@ TEST(Hostile, EveryPairIsDecidedAsByTheRuleOfGjk) {
   for (const HostilePair& pair : hostile_pairs(random))
     for (const double margin : {0.0, 0.1})
       expect_the_rule(pair, margin * pair.size, NarrowTest::Gjk);
+}
+
+/// Meshes from dice: any nodes to a tetrahedron, coordinates from a list of awkward numbers. Not
+/// all have a surface; those are passed over.
+TEST(Hostile, FuzzedMeshesAreDecidedAsByTheRule) {
+  std::mt19937 random(106);
+  const auto dice = [&](std::size_t sides) {
+    return std::uniform_int_distribution<std::size_t>(0, sides - 1)(random);
+  };
+  const std::vector<double> awkward = {0,    0,      1,   -1,   0.5,  1 + 1e-15, 1e-9,
+                                       1e-7, 1e-300, 1e9, -1e9, 1e60, 1e-60,     2};
+  const auto fuzzed = [&]() -> std::optional<Body> {
+    Body body;
+    const auto num_nodes = static_cast<Eigen::Index>(4 + dice(20));
+    const std::size_t num_choices = 3 + dice(awkward.size() - 2);  // some keep to the tame ones
+    body.mesh.X.resize(3, num_nodes);
+    for (double& x : body.mesh.X.reshaped())
+      x = awkward[dice(num_choices)] + (dice(3) == 0 ? 0.1 * static_cast<double>(dice(9)) : 0);
+    body.mesh.tets.resize(4, static_cast<Eigen::Index>(1 + dice(40)));
+    std::vector<int> nodes(static_cast<std::size_t>(num_nodes));
+    std::iota(nodes.begin(), nodes.end(), 0);
+    for (Eigen::Index e = 0; e < body.mesh.tets.cols(); ++e) {
+      std::shuffle(nodes.begin(), nodes.end(), random);
+      for (std::size_t k = 0; k < 4; ++k) body.mesh.tets(static_cast<int>(k), e) = nodes[k];
+    }
+    try {
+      body.mesh.surface = build_surface(body.mesh.tets, static_cast<int>(num_nodes));
+    } catch (const std::invalid_argument&) {
+      return {};
+    }
+    body.x = body.mesh.X;
+    return body;
+  };
+  int num_tested = 0;
+  while (num_tested < 60) {
+    const std::optional<Body> a = fuzzed(), b = fuzzed();
+    if (!a || !b) continue;
+    ++num_tested;
+    SCOPED_TRACE(num_tested);
+    for (const double margin : {0.0, 1e-12, 0.3}) {
+      expect_the_rule(a->mesh, a->x, b->mesh, b->x, margin, NarrowTest::SeparatingAxes);
+      expect_the_rule(a->mesh, a->x, a->mesh, a->x, margin, NarrowTest::SeparatingAxes);
+    }
+  }
 }
 
 // The list of a caller's own broad phase, here all pairs.

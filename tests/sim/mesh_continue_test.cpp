@@ -96,6 +96,18 @@ TEST(MeshContinue, NothingGapesAndNothingIsTurnedOver) {
   EXPECT_GT(least, 0.1 * mean);  // no slivers at the cut
 }
 
+TEST(MeshContinue, ASheetThatStandsAcrossTheDirectionIsRefused) {
+  Continuation c = forward();
+  c.at.y() = kRadius * std::cos(3 * std::numbers::pi / 180);
+  EXPECT_THROW(continued(slope(), c), std::invalid_argument);
+}
+
+TEST(MeshContinue, ALengthOfMoreRowsThanAnyoneWantsIsRefused) {
+  Continuation c = forward();
+  c.length = 1e4;
+  EXPECT_THROW(continued(slope(), c), std::invalid_argument);
+}
+
 TEST(MeshContinue, APlaneThatMissesTheSheetIsRefused) {
   Continuation c = forward();
   c.at.y() = -0.1;
