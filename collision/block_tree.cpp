@@ -57,6 +57,9 @@ BlockTree::BlockTree(const Eigen::Matrix4Xi& tets, const Surface& surface,
       num_user_nodes_(X_rest.cols()) {
   if (tets.size() > 0 && (tets.minCoeff() < 0 || tets.maxCoeff() >= X_rest.cols()))
     bad_input("node index outside [0, ", X_rest.cols(), ") in a tetrahedron");
+  if (surface.faces.size() > 0 &&
+      (surface.faces.minCoeff() < 0 || surface.faces.maxCoeff() >= X_rest.cols()))
+    bad_input("node index outside [0, ", X_rest.cols(), ") in a face of the surface");
   if (surface.tet_face_begin.size() != static_cast<std::size_t>(num_tets_) + 1)
     bad_input("the surface belongs to a mesh of another number of tetrahedra");
   check_positions(X_rest, X_rest.cols(), "rest position");
@@ -106,7 +109,7 @@ void BlockTree::order_nodes(const Eigen::Matrix4Xi& tets, const Surface& surface
   for (std::size_t slot = 0; slot < face_order_.size(); ++slot)
     for (std::size_t k = 0; k < 3; ++k) {
       const int user = surface.faces(static_cast<Eigen::Index>(k), face_order_[slot]);
-      if (user < 0 || user >= num_user_nodes_ || own[static_cast<std::size_t>(user)] < 0)
+      if (own[static_cast<std::size_t>(user)] < 0)
         bad_input("face ", face_order_[slot], " of the surface has node ", user,
                   ", which is of no tetrahedron");
       face_nodes_[node_lane(slot, k)] = own[static_cast<std::size_t>(user)];

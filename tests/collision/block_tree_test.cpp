@@ -103,6 +103,12 @@ TEST(BlockTree, RefusesASurfaceOfAnotherMesh) {
     wrong.faces(1, 3) = node;
     EXPECT_THROW(BlockTree(mesh.tets, wrong, mesh.X), std::invalid_argument);
   }
+  // A node that is there but belongs to no tetrahedron.
+  Eigen::Matrix3Xd X(3, mesh.X.cols() + 1);
+  X << mesh.X, Eigen::Vector3d(1, 1, 1);
+  Surface wrong = mesh.surface;
+  wrong.faces(1, 3) = static_cast<int>(mesh.X.cols());
+  EXPECT_THROW(BlockTree(mesh.tets, wrong, X), std::invalid_argument);
 }
 
 TEST(BlockTree, SinglePrecisionDecidesNearlyAll) {
