@@ -108,7 +108,7 @@ struct TetEdge {
 constexpr TetEdge kTetEdges[6] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
                                   {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
 
-/// The edges of both. Pairs that by_planes() left open.
+/// The edges of both, for pairs that the planes leave open.
 Verdict by_edges(const Signs& s) {
   const Vec e = s.error_L, e0 = Vec::all(kErrorOfL0) * e;
   unsigned positive[4][3], negative_L[4][3];

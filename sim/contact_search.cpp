@@ -95,7 +95,7 @@ ContactSearch::ContactSearch(const Model& model)
 }
 
 bool ContactSearch::needs_update(const Moving& moving, double margin) const {
-  if (moving.margin != margin) return true;
+  if (moving.tree->num_updates() == 0 || moving.tree->margin() != margin) return true;
   const BodyModel& body = model_.bodies[static_cast<std::size_t>(moving.body)];
   if (body.bone < 0) return true;
   // Fixed bones are mapped once (for a margin).
@@ -126,7 +126,6 @@ void ContactSearch::update(Moving& moving, const Configuration& configuration, d
   const Collider& collider = *model_.bodies[static_cast<std::size_t>(moving.body)].collider;
   positions_of(configuration, collider.nodes, moving.x);
   moving.tree->move(moving.x, margin);
-  moving.margin = margin;
   ++counts_.tree_updates;
 }
 

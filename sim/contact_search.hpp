@@ -65,7 +65,6 @@ class ContactSearch {
     std::unique_ptr<collision::BlockTree> tree;
     Positions x;  // where it was found
     std::vector<FacePlace> faces;
-    double margin = -1;  // that the tree was updated with
   };
   void update(Moving& moving, const Configuration& configuration, double margin);
   /// What a body needs that may touch another: done once a detection, if at all.
