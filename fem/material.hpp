@@ -14,6 +14,10 @@ struct Lame {
 /// @throws std::invalid_argument outside those ranges, naming value and range
 Lame lame_parameters(double E, double nu);
 
+/// The value. @throws std::invalid_argument naming it, unless it is finite and positive (or zero)
+double checked_positive(double value, const char* name, const char* unit);
+double checked_not_negative(double value, const char* name, const char* unit);
+
 /// What the assembly asks of a material. vec() stacks columns: vec(A)[3j + i] = A(i, j).
 template <class M>
 concept Hyperelastic = requires(const M& m, const Mat3& F) {
