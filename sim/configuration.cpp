@@ -36,7 +36,9 @@ void read_state(const Model& model, const double* y, double t, Configuration& co
                                      at(layout.velocities() + 3 * bone.block + 3)};
     } else if (bone.motion) {
       configuration.poses[b] = driven_pose(*bone.motion, bone.rest, t);
-      configuration.velocities[b] = driven_velocity(*bone.motion, bone.rest, t);
+      configuration.velocities[b] = model.scenario.analysis == Scenario::Analysis::Static
+                                        ? RigidVelocity{}
+                                        : driven_velocity(*bone.motion, bone.rest, t);
     } else {
       configuration.poses[b] = bone.rest;
       configuration.velocities[b] = {};

@@ -82,13 +82,13 @@ void add_contact_force(const Model& model, const Configuration& configuration,
 
 void add_contact_stiffness(const Model& model, const Configuration& configuration,
                            const std::vector<CandidateList>& candidates, fem::Tangent tangent,
-                           double gamma, fem::BlockMatrix& A) {
+                           double scale, fem::BlockMatrix& A) {
   const auto hessian = tangent == fem::Tangent::Consistent ? contact_tangent : contact_hessian;
   for (const CandidateList& list : candidates)
     for_each_patch(
         model, configuration, list,
         [&](const SixNodes& nodes, const ContactPatch& patch, double k, const ContactCandidate&) {
-          add_stiffness(model, configuration, nodes, hessian(patch, gamma * gamma * k), A);
+          add_stiffness(model, configuration, nodes, hessian(patch, scale * k), A);
         });
 }
 

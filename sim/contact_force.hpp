@@ -22,10 +22,10 @@ void add_contact_force(const Model& model, const Configuration& configuration,
                        const std::vector<CandidateList>& candidates, Eigen::VectorXd& f,
                        std::vector<ContactSummary>& summaries);
 
-/// A += gamma² times the contact stiffness: all of it, or (projected) its Gauss–Newton part.
+/// A += scale times the contact stiffness: all of it, or (projected) its Gauss–Newton part.
 void add_contact_stiffness(const Model& model, const Configuration& configuration,
                            const std::vector<CandidateList>& candidates, fem::Tangent tangent,
-                           double gamma, fem::BlockMatrix& A);
+                           double scale, fem::BlockMatrix& A);
 
 /// Contact force at each node of each collider [N] (by body), for output.
 std::vector<Positions> nodal_contact_forces(const Model& model, const Configuration& configuration,

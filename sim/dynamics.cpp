@@ -88,6 +88,8 @@ bool Dynamics::carries_own_weight(const NodeRef& node) const {
 void Dynamics::evaluate(const double* y, double t) {
   read_state(model_, y, t, configuration_);
   f_.setZero();
+  largest_force_ = 0;
+  const auto enters = [this](double force) { largest_force_ = std::max(largest_force_, force); };
   {
     const Stopwatch watch(times_.elastic_force);
     for (std::size_t k = 0; k < tissues_.size(); ++k) {
@@ -99,8 +101,12 @@ void Dynamics::evaluate(const double* y, double t) {
       for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
         const auto column = static_cast<Eigen::Index>(i);
         Vec3 force = -work.f.col(column);
-        if (carries_own_weight(tissue.nodes[i]))
-          force += tissue.lumped_mass[column] * model_.gravity;
+        enters(force.norm());
+        if (carries_own_weight(tissue.nodes[i])) {
+          const Vec3 weight = tissue.lumped_mass[column] * model_.gravity;
+          enters(weight.norm());
+          force += weight;
+        }
         add_force(configuration_, tissue.nodes[i], force, f_);
       }
     }
@@ -108,17 +114,23 @@ void Dynamics::evaluate(const double* y, double t) {
   for (int r = 0; r < model_.layout.num_rigid; ++r) {
     const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
     f_.segment<3>(3 * bone.block) += bone.mass.mass * model_.gravity;
+    enters(bone.mass.mass * model_.gravity.norm());
   }
-  for (const ForceModel& force : model_.forces)
-    add_force(configuration_, force.point, value_at(force.profile, t) * force.force, f_);
+  for (const ForceModel& force : model_.forces) {
+    const Vec3 now = value_at(force.profile, t) * force.force;
+    add_force(configuration_, force.point, now, f_);
+    enters(now.norm());
+  }
   lines_.resize(model_.lines.size());
   for (std::size_t l = 0; l < model_.lines.size(); ++l) {
     lines_[l] = line_state(model_, model_.lines[l], configuration_);
     add_line_force(model_.lines[l], configuration_, lines_[l].tension, f_);
+    enters(lines_[l].tension);
   }
   if (candidates_ != nullptr) {
     const Stopwatch watch(times_.contact_force);
     add_contact_force(model_, configuration_, *candidates_, f_, contacts_);
+    for (const ContactSummary& contact : contacts_) enters(contact.force.norm());
   }
 }
 
@@ -129,7 +141,7 @@ Mat3 Dynamics::world_inertia(int bone) const {
 
 double Dynamics::activation_time(const double* y, double t, int muscle) const {
   const Muscle& m = model_.muscles[static_cast<std::size_t>(muscle)].given;
-  const double u = m.excitation.time.empty() ? 0 : value_at(m.excitation, t);
+  const double u = steady_activation(model_.muscles[static_cast<std::size_t>(muscle)], t);
   return u >= y[model_.layout.activations() + muscle] ? m.activation_time : m.deactivation_time;
 }
 
@@ -142,10 +154,8 @@ void Dynamics::rate(const double* y, double* y_dot) const {
     return Eigen::Map<Vec3>(y_dot + layout.velocities() + 3 * block);
   };
   for (int block = 0; block < layout.num_free_nodes; ++block) {
-    const auto [t, node] = mass_nodes_[static_cast<std::size_t>(block)];
     Eigen::Map<Vec3>(y_dot + layout.node_x(block)) = velocity(block);
-    acceleration(block) =
-        f_.segment<3>(3 * block) / model_.tissues[static_cast<std::size_t>(t)].lumped_mass[node];
+    acceleration(block) = f_.segment<3>(3 * block) / mass_of(block);
   }
   for (int r = 0; r < layout.num_rigid; ++r) {
     const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
@@ -166,19 +176,35 @@ void Dynamics::rate(const double* y, double* y_dot) const {
         inertia.llt().solve(f_.segment<3>(3 * bone.block + 3) - omega.cross(inertia * omega));
   }
   for (int m = 0; m < layout.num_muscles; ++m) {
-    const Curve& excitation = model_.muscles[static_cast<std::size_t>(m)].given.excitation;
-    const double u = excitation.time.empty() ? 0 : value_at(excitation, configuration_.t);
+    const double u =
+        steady_activation(model_.muscles[static_cast<std::size_t>(m)], configuration_.t);
     const int i = layout.activations() + m;
     y_dot[i] = (u - y[i]) / activation_time(y, configuration_.t, m);
   }
 }
 
+std::pair<Vec3, Vec3> Dynamics::attachment_force(int tissue, int bone) const {
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  const auto& nodes = model_.tissues[static_cast<std::size_t>(tissue)].nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].bone != bone) continue;
+    const Vec3 pull =
+        -tissues_[static_cast<std::size_t>(tissue)].f.col(static_cast<Eigen::Index>(i));
+    force += pull;
+    moment += configuration_.lever(nodes[i]).cross(pull);
+  }
+  return {force, moment};
+}
+
+double Dynamics::mass_of(int block) const {
+  const auto [t, node] = mass_nodes_[static_cast<std::size_t>(block)];
+  return model_.tissues[static_cast<std::size_t>(t)].lumped_mass[node];
+}
+
 void Dynamics::multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const {
   r.resize(b.size());
   for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
-    const auto [t, node] = mass_nodes_[static_cast<std::size_t>(block)];
-    r.segment<3>(3 * block) =
-        model_.tissues[static_cast<std::size_t>(t)].lumped_mass[node] * b.segment<3>(3 * block);
+    r.segment<3>(3 * block) = mass_of(block) * b.segment<3>(3 * block);
   }
   for (int k = 0; k < model_.layout.num_rigid; ++k) {
     const Bone& bone = model_.bones[static_cast<std::size_t>(k)];
@@ -187,11 +213,11 @@ void Dynamics::multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const
   }
 }
 
-void Dynamics::add_tissue_stiffness(std::size_t t, double gamma, fem::Tangent tangent) {
+void Dynamics::add_tissue_stiffness(std::size_t t, double scale, fem::Tangent tangent) {
   const Tissue& tissue = model_.tissues[t];
   TissueWork& work = tissues_[t];
   work.K.set_zero();
-  tissue.elasticity.add_stiffness(work.x, tangent, gamma * gamma, work.K);
+  tissue.elasticity.add_stiffness(work.x, tangent, scale, work.K);
   for (int i = 0; i < work.K.num_blocks(); ++i)
     for (int s = work.K.row_begin()[static_cast<std::size_t>(i)];
          s < work.K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
@@ -206,33 +232,30 @@ void Dynamics::add_tissue_stiffness(std::size_t t, double gamma, fem::Tangent ta
     }
 }
 
-const fem::BlockMatrix& Dynamics::matrix(double gamma, fem::Tangent tangent) {
+const fem::BlockMatrix& Dynamics::matrix(const SystemScale& scale, fem::Tangent tangent) {
   const Stopwatch watch(times_.assembly);
   A_.set_zero();
-  for (std::size_t t = 0; t < tissues_.size(); ++t) add_tissue_stiffness(t, gamma, tangent);
+  for (std::size_t t = 0; t < tissues_.size(); ++t)
+    add_tissue_stiffness(t, scale.stiffness, tangent);
   for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
-    const auto [t, node] = mass_nodes_[static_cast<std::size_t>(block)];
-    A_.block(A_.slot(block, block)) +=
-        model_.tissues[static_cast<std::size_t>(t)].lumped_mass[node] * Mat3::Identity();
+    A_.block(A_.slot(block, block)).diagonal().array() += scale.mass * mass_of(block);
   }
   for (int r = 0; r < model_.layout.num_rigid; ++r) {
     const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
-    A_.block(A_.slot(bone.block, bone.block)) += bone.mass.mass * Mat3::Identity();
-    A_.block(A_.slot(bone.block + 1, bone.block + 1)) += world_inertia(r);
+    A_.block(A_.slot(bone.block, bone.block)).diagonal().array() += scale.mass * bone.mass.mass;
+    A_.block(A_.slot(bone.block + 1, bone.block + 1)) += scale.mass * world_inertia(r);
   }
   for (std::size_t l = 0; l < model_.lines.size(); ++l)
-    add_line_stiffness(model_, model_.lines[l], configuration_, lines_[l], gamma, A_);
+    add_line_stiffness(model_, model_.lines[l], configuration_, lines_[l], scale, A_);
   if (candidates_ != nullptr)
-    add_contact_stiffness(model_, configuration_, *candidates_, tangent, gamma, A_);
+    add_contact_stiffness(model_, configuration_, *candidates_, tangent, scale.stiffness, A_);
   return A_;
 }
 
 double Dynamics::kinetic_energy() const {
   double energy = 0;
   for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
-    const auto [t, node] = mass_nodes_[static_cast<std::size_t>(block)];
-    energy += 0.5 * model_.tissues[static_cast<std::size_t>(t)].lumped_mass[node] *
-              configuration_.v.col(block).squaredNorm();
+    energy += 0.5 * mass_of(block) * configuration_.v.col(block).squaredNorm();
   }
   for (int r = 0; r < model_.layout.num_rigid; ++r) {
     const auto& velocity = configuration_.velocities[static_cast<std::size_t>(r)];

@@ -26,14 +26,21 @@ class Dynamics {
   void evaluate(const double* y, double t);
   const Configuration& configuration() const { return configuration_; }
   const Eigen::VectorXd& forces() const { return f_; }
+  /// Force [N] on a bone of the tissue that is tied to it, and its moment [N m] about the bone's
+  /// reference point.
+  std::pair<Vec3, Vec3> attachment_force(int tissue, int bone) const;
   const std::vector<LineState>& lines() const { return lines_; }
   const std::vector<ContactSummary>& contacts() const { return contacts_; }
 
   /// ẏ from the forces of the last evaluate().
   void rate(const double* y, double* y_dot) const;
 
-  /// M + gamma D + gamma² K at the last evaluate(), over the unknown blocks.
-  const fem::BlockMatrix& matrix(double gamma, fem::Tangent tangent);
+  /// Mass, damping and stiffness at the last evaluate(), over the unknown blocks.
+  const fem::BlockMatrix& matrix(const SystemScale& scale, fem::Tangent tangent);
+
+  /// The largest force on one node, bone or line that entered the last evaluate() [N]: what a
+  /// residual is small against.
+  double largest_force() const { return largest_force_; }
 
   /// How far anything may move in one correction of Newton's iteration, or stray from its path in
   /// one step: the smallest mean element size. Beyond, neither linearisation nor contact search
@@ -42,6 +49,8 @@ class Dynamics {
 
   std::uint64_t pattern_id() const { return A_.pattern_id(); }
 
+  /// Mass of a free node [kg].
+  double mass_of(int block) const;
   /// r = M b for block velocities b.
   void multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const;
 
@@ -60,7 +69,7 @@ class Dynamics {
     std::vector<int> slot;  // of each block of K in the matrix; -1: a bone is involved
   };
   void build_pattern();
-  void add_tissue_stiffness(std::size_t t, double gamma, fem::Tangent tangent);
+  void add_tissue_stiffness(std::size_t t, double scale, fem::Tangent tangent);
   Mat3 world_inertia(int bone) const;
   /// All tissue nodes but those whose mass a rigid bone has taken over.
   bool carries_own_weight(const NodeRef& node) const;
@@ -69,6 +78,7 @@ class Dynamics {
   const std::vector<CandidateList>* candidates_ = nullptr;
   Configuration configuration_;
   Eigen::VectorXd f_;
+  double largest_force_ = 0;
   std::vector<LineState> lines_;
   std::vector<ContactSummary> contacts_;
   std::vector<TissueWork> tissues_;

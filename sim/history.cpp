@@ -8,11 +8,10 @@
 #include <iterator>
 #include <numbers>
 
+#include "sim/convergence.hpp"
+
 namespace articular::sim {
 namespace {
-
-/// Times are printed with twelve digits: a row's time may be this much off, relatively.
-constexpr double kTimeRounding = 1e-11;
 
 std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model) {
   const std::string& length = model.scenario.output.length_unit_name;
@@ -45,11 +44,13 @@ std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model)
     }
     case Probe::Kind::Energy: {
       std::vector<std::string> names;
-      for (const char* what : {"kinetic", "elastic", "gravity", "contact", "lines", "muscle_work",
-                               "load_work", "motion_work", "ligament_loss", "numerical_loss"})
+      for (const char* what :
+           {"kinetic", "elastic", "gravity", "contact", "lines", "muscle_work", "load_work",
+            "motion_work", "ligament_loss", "settling_loss", "numerical_loss"})
         names.push_back(scalar(what, "J"));
       return names;
     }
+    case Probe::Kind::Attachment:
     case Probe::Kind::Reaction: {
       auto names = vector("force", "N");
       for (auto& name : vector("moment", "N m")) names.push_back(name);
@@ -117,9 +118,17 @@ void History::append(const ProbeModel& probe, const State& state, const Stepper&
     case Probe::Kind::Energy: {
       const StoredEnergy e = stepper.stored_energy();
       const EnergyLedger& l = state.energy;
-      values_.insert(values_.end(),
-                     {e.kinetic, e.elastic, e.gravity, e.contact, e.lines, l.muscle_work,
-                      l.load_work, l.motion_work, l.ligament_loss, numerical_loss(state, e)});
+      values_.insert(values_.end(), {e.kinetic, e.elastic, e.gravity, e.contact, e.lines,
+                                     l.muscle_work, l.load_work, l.motion_work, l.ligament_loss,
+                                     l.settling_loss, numerical_loss(state, e)});
+      return;
+    }
+    case Probe::Kind::Attachment: {
+      const auto [force, moment] = stepper.dynamics().attachment_force(
+          model_.bodies[static_cast<std::size_t>(probe.body)].tissue,
+          model_.bodies[static_cast<std::size_t>(probe.other)].bone);
+      push(force);
+      push(moment);
       return;
     }
     case Probe::Kind::Reaction: {
@@ -134,16 +143,6 @@ void History::append(const ProbeModel& probe, const State& state, const Stepper&
 
 std::string History::text() const { return fmt::format("{}\n", fmt::join(columns_, ",")) + rows_; }
 
-void History::resume(const std::string& earlier, double time) {
-  rows_.clear();
-  std::size_t begin = earlier.find('\n');
-  while (begin != std::string::npos && begin + 1 < earlier.size()) {
-    const std::size_t end = earlier.find('\n', begin + 1);
-    const std::string row = earlier.substr(begin + 1, end - begin);
-    if (std::stod(row) > time * (1 + kTimeRounding)) break;
-    rows_ += row;
-    begin = end;
-  }
-}
+void History::resume(const std::string& earlier, double time) { rows_ = rows_until(earlier, time); }
 
 }  // namespace articular::sim

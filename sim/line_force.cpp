@@ -81,7 +81,7 @@ void add_line_force(const Line& line, const Configuration& configuration, double
 }
 
 void add_line_stiffness(const Model& model, const Line& line, const Configuration& configuration,
-                        const LineState& state, double gamma, fem::BlockMatrix& A) {
+                        const LineState& state, const SystemScale& scale, fem::BlockMatrix& A) {
   // l = Σ |P_i+1 − P_i|: ∂l/∂P_i = u_i−1 − u_i, and the Hessian couples the ends of each segment.
   const std::size_t n = line.path.size();
   std::vector<Segment> parts;
@@ -94,10 +94,10 @@ void add_line_stiffness(const Model& model, const Line& line, const Configuratio
   };
   const auto transverse = [&](std::size_t k) -> Mat3 {
     if (!(parts[k].length > 0)) return Mat3::Zero();
-    return gamma * gamma * state.tension / parts[k].length *
+    return scale.stiffness * state.tension / parts[k].length *
            (Mat3::Identity() - parts[k].direction * parts[k].direction.transpose());
   };
-  const double axial = gamma * gamma * state.stiffness + gamma * state.viscosity;
+  const double axial = scale.stiffness * state.stiffness + scale.damping * state.viscosity;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
       Mat3 K = axial * gradient(i) * gradient(j).transpose();

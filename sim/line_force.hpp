@@ -23,9 +23,9 @@ LineState line_state(const Model& model, const Line& line, const Configuration& 
 void add_line_force(const Line& line, const Configuration& configuration, double tension,
                     Eigen::VectorXd& f);
 
-/// A += gamma² ∂²/∂x² + gamma ∂/∂v of the line's pull (with opposite sign: as a stiffness).
+/// A += the line's part of stiffness and damping.
 void add_line_stiffness(const Model& model, const Line& line, const Configuration& configuration,
-                        const LineState& state, double gamma, fem::BlockMatrix& A);
+                        const LineState& state, const SystemScale& scale, fem::BlockMatrix& A);
 
 /// Couplings that add_line_stiffness writes.
 void append_stencil(const Model& model, const Line& line, Stencils& stencils);

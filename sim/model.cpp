@@ -455,6 +455,17 @@ class Builder {
       }
   }
 
+  void check_tied(const ProbeModel& probe) const {
+    const int bone = model_.bodies[static_cast<std::size_t>(probe.other)].bone;
+    const int tissue = model_.bodies[static_cast<std::size_t>(probe.body)].tissue;
+    const auto& nodes = model_.tissues[static_cast<std::size_t>(tissue)].nodes;
+    const auto is_tied = [&](const NodeRef& node) { return node.bone == bone; };
+    if (std::none_of(nodes.begin(), nodes.end(), is_tied))
+      throw InputError(probe.given.where,
+                       fmt::format("[[probe]] `{}`: no node of `{}` is attached to `{}`",
+                                   probe.given.name, probe.given.body, probe.given.other));
+  }
+
   void make_probes() {
     for (const Probe& probe : scenario().probes) {
       ProbeModel p;
@@ -462,6 +473,7 @@ class Builder {
       if (probe.kind == Probe::Kind::Point) p.point = resolve(probe.anchor);
       if (!probe.body.empty()) p.body = body_index(probe.body);
       if (!probe.other.empty()) p.other = body_index(probe.other);
+      if (probe.kind == Probe::Kind::Attachment) check_tied(p);
       if (probe.kind == Probe::Kind::Line)
         for (std::size_t l = 0; l < model_.lines.size(); ++l)
           if (model_.lines[l].name == probe.line) p.line = static_cast<int>(l);
@@ -478,6 +490,10 @@ class Builder {
 }  // namespace
 
 Model build_model(Scenario scenario) { return Builder(std::move(scenario)).build(); }
+
+double steady_activation(const MuscleModel& muscle, double t) {
+  return muscle.given.excitation.time.empty() ? 0 : value_at(muscle.given.excitation, t);
+}
 
 double value_at(const Curve& curve, double t) {
   if (curve.time.empty()) return 1;

@@ -150,6 +150,9 @@ Model build_model(Scenario scenario);
 /// y at t = 0.
 Eigen::VectorXd initial_state(const Model& model);
 
+/// A muscle's activation after a long time of the excitation that it has at t.
+double steady_activation(const MuscleModel& muscle, double t);
+
 /// A curve's value at a time; 1 for the empty curve.
 double value_at(const Curve& curve, double t);
 

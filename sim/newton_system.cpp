@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/newton_weights.hpp"
 #include "sim/stopwatch.hpp"
 
 namespace articular::sim {
@@ -11,11 +12,6 @@ namespace {
 /// Conjugate gradients stop here: Newton's iteration corrects the rest.
 constexpr double kLinearTolerance = 1e-6;
 constexpr int kMostLinearIterations = 2000;
-
-std::unique_ptr<fem::LinearSolver> make_solver(const Model& model) {
-  if (model.scenario.integrator.solver == Integrator::Solver::Cholesky) return fem::make_cholesky();
-  return fem::make_conjugate_gradients(kLinearTolerance, kMostLinearIterations);
-}
 
 /// A residual that falls by less than this asks for a new matrix.
 constexpr double kSlowFall = 0.1;
@@ -45,12 +41,18 @@ double lengthening(const Line& line, const Configuration& now, const Eigen::Vect
 
 }  // namespace
 
+std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model) {
+  if (model.scenario.integrator.solver == Integrator::Solver::Cholesky) return fem::make_cholesky();
+  return fem::make_conjugate_gradients(kLinearTolerance, kMostLinearIterations);
+}
+
 NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
-    : model_(model), dynamics_(dynamics), solver_(make_solver(model)) {}
+    : model_(model), dynamics_(dynamics), solver_(make_linear_solver(model)) {}
 
 void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
   iteration_ = 0;
   first_ = tangent;
+  used_consistent_ = false;
   if (!keep_matrix) gamma_ = 0;
 }
 
@@ -59,9 +61,9 @@ bool NewtonSystem::needs_matrix(double gamma) const {
   return iteration_ > 0 && residual_ > kSlowFall * last_residual_;
 }
 
-bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, IntegratorCounts& counts) {
-  const fem::BlockMatrix& A = dynamics_.matrix(gamma, tangent);
-  const Stopwatch watch(counts.solve_seconds);
+bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, SolverCounts& counts) {
+  const fem::BlockMatrix& A = dynamics_.matrix({1, gamma, gamma * gamma}, tangent);
+  const Stopwatch watch(solve_seconds_);
   ++counts.factorizations;
   if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
   const bool ready = solver_->prepare(A) == fem::FactorStatus::Ready;
@@ -71,15 +73,16 @@ bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, IntegratorCounts&
   return ready;
 }
 
-bool NewtonSystem::solve_linear(IntegratorCounts& counts) {
-  const Stopwatch watch(counts.solve_seconds);
+bool NewtonSystem::solve_linear(SolverCounts& counts) {
+  const Stopwatch watch(solve_seconds_);
   w_.setZero(mass_rhs_.size());
   const fem::SolveReport report = solver_->solve(mass_rhs_, w_);
   counts.linear_iterations += report.iterations;
+  used_consistent_ |= tangent_ == fem::Tangent::Consistent;
   return report.converged && w_.allFinite();
 }
 
-bool NewtonSystem::find_correction(double gamma, IntegratorCounts& counts) {
+bool NewtonSystem::find_correction(double gamma, SolverCounts& counts) {
   bool ready = !needs_matrix(gamma) || prepare(gamma, first_, counts);
   ++iteration_;
   if (ready && solve_linear(counts)) return true;
@@ -95,16 +98,16 @@ double NewtonSystem::step_fraction(double gamma) const {
     largest = std::max(largest, w_.segment<3>(3 * block).squaredNorm());
   for (int r = 0; r < model_.layout.num_rigid; ++r) {
     const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
-    const double radius_squared = bone.mass.inertia.trace() / (2 * bone.mass.mass);  // of gyration
+    const double radius = turning_radius(bone);
     largest = std::max({largest, w_.segment<3>(3 * bone.block).squaredNorm(),
-                        radius_squared * w_.segment<3>(3 * bone.block + 3).squaredNorm()});
+                        radius * radius * w_.segment<3>(3 * bone.block + 3).squaredNorm()});
   }
   const double motion = gamma * std::sqrt(largest);
   return motion > dynamics_.trusted_motion() ? dynamics_.trusted_motion() / motion : 1;
 }
 
 bool NewtonSystem::solve(const double* y, double gamma, const double* b, double* x,
-                         IntegratorCounts& counts) {
+                         SolverCounts& counts) {
   const Layout& layout = model_.layout;
   const int num_velocities = 3 * layout.num_unknown_blocks();
   // b_x by blocks, a bone's as a rotation vector; then b_v + b_x/γ.

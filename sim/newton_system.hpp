@@ -1,11 +1,21 @@
 #pragma once
 
 #include "fem/linear_solver.hpp"
-#include "sim/integrator.hpp"
+#include "sim/dynamics.hpp"
+#include "sim/state.hpp"
 
 namespace articular::sim {
 
-/// The linear solves of Newton's iteration at the state that `dynamics` evaluated last. A matrix is
+/// The linear solver that the scenario asks for.
+std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model);
+
+/// The linear solves of Newton's iteration for y' = rate(t, y), reduced to block velocities: with
+/// δx = b_x + γ δv for the kinematic rows (rotations: δθ in place of quaternions) and
+/// w = δv + b_x/γ,
+///   (M + γ D + γ² K) w = M (b_v + b_x/γ) + D b_x + γ ∂f/∂a δa,   δx = γ w.
+/// Gyroscopic and moment terms are left out of the matrix, never out of the residual.
+///
+/// They are solved at the state that `dynamics` evaluated last. A matrix is
 /// kept from one iteration, and from one step, to the next as long as the residual falls fast with
 /// it.
 class NewtonSystem {
@@ -19,16 +29,20 @@ class NewtonSystem {
   /// Solves (I − γ ∂rate/∂y) x = b, reduced to block velocities.
   /// @return false when the matrix can't be made positive definite or the solver fails
   [[nodiscard]] bool solve(const double* y, double gamma, const double* b, double* x,
-                           IntegratorCounts& counts);
+                           SolverCounts& counts);
+
+  /// This step did without a consistent matrix: with the projected one it would go the same way.
+  bool used_projected_only() const { return !used_consistent_; }
+  double solve_seconds() const { return solve_seconds_; }
 
  private:
   bool needs_matrix(double gamma) const;
   /// Part of the correction w that stays within Dynamics::trusted_motion().
   double step_fraction(double gamma) const;
-  [[nodiscard]] bool prepare(double gamma, fem::Tangent tangent, IntegratorCounts& counts);
-  [[nodiscard]] bool solve_linear(IntegratorCounts& counts);
+  [[nodiscard]] bool prepare(double gamma, fem::Tangent tangent, SolverCounts& counts);
+  [[nodiscard]] bool solve_linear(SolverCounts& counts);
   /// w, with the consistent matrix if it is positive definite, else with the projected one.
-  [[nodiscard]] bool find_correction(double gamma, IntegratorCounts& counts);
+  [[nodiscard]] bool find_correction(double gamma, SolverCounts& counts);
 
   const Model& model_;
   Dynamics& dynamics_;
@@ -38,8 +52,10 @@ class NewtonSystem {
   std::uint64_t pattern_ = 0;                        // of that matrix
   fem::Tangent tangent_ = fem::Tangent::Consistent;  // of that matrix
   fem::Tangent first_ = fem::Tangent::Consistent;    // to try in this step
+  bool used_consistent_ = false;                     // in this step
   int iteration_ = 0;                                // in this step
   double residual_ = 0, last_residual_ = 0;          // of this iteration and the one before
+  double solve_seconds_ = 0;
 };
 
 }  // namespace articular::sim

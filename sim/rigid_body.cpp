@@ -10,6 +10,15 @@ Mat3 rotation_matrix(const Vec3& rotation_vector) {
   return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
 }
 
+void turn(double* q, const Vec3& rotation_vector) {
+  const Eigen::Quaterniond turned = Eigen::Quaterniond(rotation_matrix(rotation_vector)) *
+                                    Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  q[0] = turned.w();
+  q[1] = turned.x();
+  q[2] = turned.y();
+  q[3] = turned.z();
+}
+
 MassProperties solid_mass_properties(const Positions& X, const Triangles& surface, double density) {
   // Sum over the tetrahedra (origin, a, b, c); moments of a tetrahedron with one corner at the
   // origin: ∫x dV = V/4 Σx, ∫x xᵀ dV = V/20 (Σ x xᵀ + (Σx)(Σx)ᵀ).

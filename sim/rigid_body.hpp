@@ -45,4 +45,7 @@ RigidVelocity driven_velocity(const Motion& motion, const Pose& rest, double t);
 /// Rotation by a rotation vector [rad].
 Mat3 rotation_matrix(const Vec3& rotation_vector);
 
+/// Turns a quaternion (w, x, y, z) by a rotation vector [rad] of the world frame.
+void turn(double* q, const Vec3& rotation_vector);
+
 }  // namespace articular::sim

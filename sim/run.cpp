@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "sim/checkpoint.hpp"
+#include "sim/convergence.hpp"
 #include "sim/frames.hpp"
 #include "sim/history.hpp"
 #include "sim/stopwatch.hpp"
@@ -76,6 +77,7 @@ class Run {
       }
     } catch (const SimulationError& error) {
       how = error.what();
+      convergence_ += convergence_rows(model_, stepper_.take_convergence());
       finish();
       throw;
     }
@@ -97,6 +99,7 @@ class Run {
         stepper_.restart(state_);
         writer_.resume_at(state_.t);
         history_.resume(read_text(options_.directory / "history.csv"), state_.t);
+        if (is_static()) convergence_ = rows_until(read_text(convergence_file()), state_.t);
         return;
       }
     }
@@ -114,7 +117,11 @@ class Run {
     return next;
   }
 
+  bool is_static() const { return model_.scenario.analysis == Scenario::Analysis::Static; }
+  std::filesystem::path convergence_file() const { return options_.directory / "convergence.csv"; }
+
   void observe() {
+    convergence_ += convergence_rows(model_, stepper_.take_convergence());
     history_.record(state_, stepper_);
     const bool end = state_.t >= model_.scenario.duration;
     if (frames_.due(state_.t) || end) output_frame();
@@ -137,6 +144,7 @@ class Run {
 
   void write_history() const {
     write_text_file(options_.directory / "history.csv", history_.text());
+    if (is_static()) write_text_file(convergence_file(), convergence_header(model_) + convergence_);
   }
 
   const Model& model_;
@@ -148,6 +156,7 @@ class Run {
   Schedule frames_, checkpoints_;
   State state_;
   std::string fingerprint_;
+  std::string convergence_;  // rows
   double output_seconds_ = 0;
 };
 

@@ -11,14 +11,20 @@ Scenario read_scenario(const std::filesystem::path& file,
   for (const std::string& text : overrides) apply_override(root, text);
   const TableReader document(
       root, "scenario",
-      {"title", "duration", "accuracy", "contact", "integrator", "detection", "output", "body",
-       "attach", "muscle", "muscle_table", "ligament", "load", "probe"});
+      {"title", "duration", "analysis", "accuracy", "contact", "integrator", "detection", "output",
+       "body", "attach", "muscle", "muscle_table", "ligament", "load", "probe"});
   Scenario scenario;
   scenario.file = file;
   scenario.name = file.stem().string();
   const std::filesystem::path folder = file.parent_path();
   read_settings(document, scenario);
   scenario.bodies = read_bodies(document, folder);
+  if (scenario.analysis == Scenario::Analysis::Static)
+    for (const Body& body : scenario.bodies)
+      if (!body.velocity.isZero(0) || !body.angular_velocity.isZero(0))
+        throw InputError(body.where, fmt::format("body `{}` has a velocity at the start, but the "
+                                                 "analysis is static: there is no motion in it",
+                                                 body.name));
   const Context context{folder, scenario.bodies};
   scenario.attachments = read_attachments(document, context);
   scenario.muscles = read_muscles(document, context);

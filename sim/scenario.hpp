@@ -205,19 +205,19 @@ struct ContactPair {
 };
 
 struct Probe {
-  enum class Kind { Point, Angle, Contact, Line, Energy, Reaction };
+  enum class Kind { Point, Angle, Contact, Line, Energy, Reaction, Attachment };
   std::string name;
   Kind kind = Kind::Point;
   Anchor anchor;              // Point
-  std::string body;           // Angle, Reaction, Contact (first body)
-  std::string other;          // Contact: second body
+  std::string body;           // Angle, Reaction, Contact (first body), Attachment (the tissue)
+  std::string other;          // Contact: second body; Attachment: the bone
   Vec3 axis = Vec3::UnitX();  // Angle: rotation of a rigid body about this unit axis [rad]
   std::string line;           // Line: a muscle or ligament: force and length
   Location where;
 };
 
 struct Integrator {
-  enum class Scheme { ImplicitEuler, TrBdf2 };
+  enum class Scheme { ImplicitEuler, TrBdf2, Dirk3, Bdf, Explicit };
   enum class Solver { Cholesky, ConjugateGradients };
   Scheme scheme = Scheme::ImplicitEuler;
   Solver solver = Solver::Cholesky;
@@ -245,6 +245,7 @@ struct Scenario {
   std::string title;
   std::string name;     // file name without ending: names the results
   double duration = 0;  // [s]
+  enum class Analysis { Dynamic, Static } analysis = Analysis::Dynamic;
   enum class Accuracy { Fast, Balanced, Accurate } accuracy = Accuracy::Balanced;
   Integrator integrator;
   Detection detection;

@@ -79,6 +79,17 @@ void read_target(const TableReader& table, const Context& context, const Names& 
       probe.other = read_touching_body(bodies[1], context).name;
       break;
     }
+    case Probe::Kind::Attachment: {
+      keep_only(table, {"bodies"});
+      const Node::List& bodies = read_list(table.at("bodies"), "a tissue and a bone", 2);
+      probe.body = read_body_of_kind(bodies[0], context, Body::Kind::Tissue, "tissue");
+      const Body& bone = read_body_reference(bodies[1], context);
+      if (bone.kind == Body::Kind::Tissue)
+        fail(bodies[1],
+             fmt::format("expected a fixed or rigid body, body `{}` is tissue", bone.name));
+      probe.other = bone.name;
+      break;
+    }
     case Probe::Kind::Line:
       keep_only(table, {"line"});
       probe.line = read_line_reference(table.at("line"), context, lines);
@@ -97,12 +108,14 @@ Probe read_probe(const TableReader& table, const Context& context, const Names& 
   Probe probe;
   probe.where = table.node().where;
   probe.name = read_name(table.at("name")) + side_suffix(table, context.side);
-  probe.kind = read_choice<Probe::Kind>(table.at("kind"), {{"point", Probe::Kind::Point},
-                                                           {"angle", Probe::Kind::Angle},
-                                                           {"contact", Probe::Kind::Contact},
-                                                           {"line", Probe::Kind::Line},
-                                                           {"energy", Probe::Kind::Energy},
-                                                           {"reaction", Probe::Kind::Reaction}});
+  probe.kind =
+      read_choice<Probe::Kind>(table.at("kind"), {{"point", Probe::Kind::Point},
+                                                  {"angle", Probe::Kind::Angle},
+                                                  {"contact", Probe::Kind::Contact},
+                                                  {"line", Probe::Kind::Line},
+                                                  {"energy", Probe::Kind::Energy},
+                                                  {"reaction", Probe::Kind::Reaction},
+                                                  {"attachment", Probe::Kind::Attachment}});
   read_target(table, context, lines, probe);
   return probe;
 }

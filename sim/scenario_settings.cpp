@@ -8,6 +8,13 @@ namespace {
 
 using Accuracy = Scenario::Accuracy;
 
+constexpr std::pair<std::string_view, Integrator::Scheme> kSchemes[] = {
+    {"implicit-euler", Integrator::Scheme::ImplicitEuler},
+    {"tr-bdf2", Integrator::Scheme::TrBdf2},
+    {"dirk-3", Integrator::Scheme::Dirk3},
+    {"bdf", Integrator::Scheme::Bdf},
+    {"explicit", Integrator::Scheme::Explicit}};
+
 /// The presets; [integrator] overrides each setting.
 Integrator preset(Accuracy accuracy) {
   Integrator integrator;
@@ -25,16 +32,17 @@ Integrator preset(Accuracy accuracy) {
   return integrator;
 }
 
-void read_integrator(const Node& node, Integrator& integrator) {
+void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& integrator) {
   constexpr int kMostIterations = 1000;
   const TableReader table(
       node, "[integrator]",
       {"scheme", "step", "solver", "position_tolerance", "max_iterations", "min_step"});
   table.may("scheme", integrator.scheme, [](const Node& n) {
-    return read_choice<Integrator::Scheme>(n,
-                                           {{"implicit-euler", Integrator::Scheme::ImplicitEuler},
-                                            {"tr-bdf2", Integrator::Scheme::TrBdf2}});
+    return read_choice<Integrator::Scheme>(
+        n, {kSchemes[0], kSchemes[1], kSchemes[2], kSchemes[3], kSchemes[4]});
   });
+  if (analysis == Scenario::Analysis::Static)
+    table.refuse({"scheme"}, "a static analysis has no time integration");
   table.may("solver", integrator.solver, [](const Node& n) {
     return read_choice<Integrator::Solver>(
         n, {{"cholesky", Integrator::Solver::Cholesky},
@@ -96,8 +104,13 @@ void read_settings(const TableReader& document, Scenario& scenario) {
                                      {"balanced", Accuracy::Balanced},
                                      {"accurate", Accuracy::Accurate}});
   });
+  document.may("analysis", scenario.analysis, [](const Node& n) {
+    return read_choice<Scenario::Analysis>(
+        n, {{"dynamic", Scenario::Analysis::Dynamic}, {"static", Scenario::Analysis::Static}});
+  });
   scenario.integrator = preset(scenario.accuracy);
-  if (const Node* node = document.find("integrator")) read_integrator(*node, scenario.integrator);
+  if (const Node* node = document.find("integrator"))
+    read_integrator(*node, scenario.analysis, scenario.integrator);
   if (const Node* node = document.find("detection")) read_detection(*node, scenario.detection);
   if (const Node* node = document.find("output")) read_output(*node, scenario.output);
 }
@@ -110,10 +123,10 @@ std::string settings_as_json(const Scenario& scenario) {
   json["title"] = scenario.title;
   json["duration_s"] = scenario.duration;
   json["accuracy"] = kAccuracies[static_cast<int>(scenario.accuracy)];
+  json["analysis"] = scenario.analysis == Scenario::Analysis::Static ? "static" : "dynamic";
   json["contact"] = contact_as_json(scenario);
   json["integrator"] = {
-      {"scheme",
-       integrator.scheme == Integrator::Scheme::ImplicitEuler ? "implicit-euler" : "tr-bdf2"},
+      {"scheme", kSchemes[static_cast<int>(integrator.scheme)].first},
       {"step_s", integrator.step},
       {"solver",
        integrator.solver == Integrator::Solver::Cholesky ? "cholesky" : "conjugate-gradients"},

@@ -11,18 +11,26 @@ struct EnergyLedger {
   double load_work = 0;      // by forces of the scenario (gravity is a stored energy)
   double motion_work = 0;    // by what drives prescribed motions
   double ligament_loss = 0;  // in ligaments' dampers
+  double settling_loss = 0;  // against pseudo-time damping of a static analysis
   double start = 0;          // stored and kinetic energy at t = 0
 };
 
-struct Counts {
-  std::int64_t steps = 0;            // taken by SUNDIALS
+/// What SUNDIALS did.
+struct SolverCounts {
+  std::int64_t steps = 0;            // taken
   std::int64_t rejected_newton = 0;  // Newton's iteration did not converge: step halved
-  std::int64_t rejected_motion = 0;  // something moved farther than the detection covered
   std::int64_t newton_iterations = 0;
   std::int64_t factorizations = 0;
-  std::int64_t projected_tangents = 0;
+  std::int64_t projected_tangents = 0;  // matrices that were not positive definite as they came
   std::int64_t linear_iterations = 0;
   std::int64_t force_evaluations = 0;
+};
+
+SolverCounts operator+(SolverCounts a, const SolverCounts& b);
+SolverCounts operator-(SolverCounts a, const SolverCounts& b);
+
+struct Counts : SolverCounts {
+  std::int64_t rejected_motion = 0;  // something moved farther than the detection covered
   std::int64_t tree_updates = 0;
   std::int64_t narrow_tests = 0;
   std::int64_t reported_pairs = 0;

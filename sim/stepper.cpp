@@ -13,26 +13,20 @@ namespace {
 /// it would just do.
 constexpr double kMarginPerStray = 4;
 
-Counts operator+(Counts c, const IntegratorCounts& i) {
-  c.steps += i.steps;
-  c.newton_iterations += i.newton_iterations;
-  c.factorizations += i.factorizations;
-  c.projected_tangents += i.projected_tangents;
-  c.linear_iterations += i.linear_iterations;
-  c.force_evaluations += i.force_evaluations;
-  return c;
-}
-
 }  // namespace
 
 double numerical_loss(const State& state, const StoredEnergy& now) {
   const EnergyLedger& l = state.energy;
-  return l.start + l.muscle_work + l.load_work + l.motion_work - l.ligament_loss - now.total();
+  return l.start + l.muscle_work + l.load_work + l.motion_work - l.ligament_loss - l.settling_loss -
+         now.total();
 }
 
 Stepper::Stepper(const Model& model) : model_(model) {
   dynamics_ = std::make_unique<Dynamics>(model);
-  integrator_ = std::make_unique<ImplicitIntegrator>(model, *dynamics_);
+  if (model.scenario.analysis == Scenario::Analysis::Static)
+    equilibrium_ = std::make_unique<Equilibrium>(model, *dynamics_);
+  else
+    integrator_ = make_time_integrator(model, *dynamics_);
   if (!model.contacts.empty()) search_ = std::make_unique<ContactSearch>(model);
 }
 
@@ -48,7 +42,7 @@ State Stepper::initial() {
 
 void Stepper::restart(const State& state) {
   dynamics_->forget();
-  integrator_->forget();
+  if (integrator_) integrator_->restart(state.next_step);
   Configuration now;
   read_state(model_, state.y.data(), state.t, now);
   find_contacts(now, state.next_margin);
@@ -64,37 +58,38 @@ void Stepper::find_contacts(const Configuration& where, double margin) {
 void Stepper::step(State& state, double t_target) {
   const double nominal = model_.scenario.integrator.step;
   const double remaining = t_target - state.t;
-  double h = std::min(state.next_step, nominal);
-  h = remaining / std::max(1.0, std::ceil(remaining / h - 1e-9));
+  const bool free_steps = integrator_ && integrator_->next_step();
+  double h = std::min(free_steps ? nominal : std::min(state.next_step, nominal), remaining);
+  if (!free_steps) h = remaining / std::max(1.0, std::ceil(remaining / h - 1e-9));
   const bool last = h >= remaining * (1 - 1e-12);
 
   const SearchCounts search_before = search_ ? search_->counts() : SearchCounts{};
-  const IntegratorCounts integrator_before = integrator_->counts();
+  const SolverCounts solver_before = solver_counts();
   remember_start(state);
 
   double tried = h;
+  const double t_start = state.t;
   for (;;) {
     if (try_step(state, tried)) break;
     tried *= 0.5;
     if (tried < model_.scenario.integrator.min_step) fail(state, tried);
   }
-  if (last && tried == h) state.t = t_target;
-  state.next_step = tried < h ? tried : std::min(nominal, 2 * state.next_step);
+  if (last && state.t - t_start >= remaining * (1 - 1e-12)) state.t = t_target;
+  if (free_steps)
+    state.next_step = *integrator_->next_step();
+  else
+    state.next_step = tried < h ? tried : std::min(nominal, 2 * state.next_step);
 
-  IntegratorCounts done = integrator_->counts();
-  done.steps -= integrator_before.steps;
-  done.newton_iterations -= integrator_before.newton_iterations;
-  done.factorizations -= integrator_before.factorizations;
-  done.projected_tangents -= integrator_before.projected_tangents;
-  done.linear_iterations -= integrator_before.linear_iterations;
-  done.force_evaluations -= integrator_before.force_evaluations;
-  state.counts = state.counts + done;
-  state.counts.rejected_newton += done.failed - integrator_before.failed;
+  static_cast<SolverCounts&>(state.counts) = state.counts + (solver_counts() - solver_before);
   if (search_) {
     state.counts.tree_updates += search_->counts().tree_updates - search_before.tree_updates;
     state.counts.narrow_tests += search_->counts().narrow_tests - search_before.narrow_tests;
     state.counts.reported_pairs += search_->counts().reported_pairs - search_before.reported_pairs;
   }
+}
+
+SolverCounts Stepper::solver_counts() const {
+  return integrator_ ? integrator_->counts() : equilibrium_->counts();
 }
 
 void Stepper::remember_start(const State& state) {
@@ -115,31 +110,77 @@ double Stepper::margin_for(double stray) const {
 }
 
 bool Stepper::try_step(State& state, double h) {
-  // Implicit Euler needs contacts where the step ends: they are looked for where everything will be
-  // if it moves on as now. A scheme with stages between needs them on the whole way.
-  const bool only_end = model_.scenario.integrator.scheme == Integrator::Scheme::ImplicitEuler;
+  if (!(integrator_ ? try_time_step(state, h) : try_load_step(state, h))) return false;
+  account(state);
+  return true;
+}
+
+bool Stepper::try_time_step(State& state, double h) {
+  // Implicit Euler and BDF need contacts where the step ends: they are looked for where everything
+  // will be if it moves on as now. A scheme with stages between needs them on the whole way.
+  const Integrator::Scheme scheme = model_.scenario.integrator.scheme;
+  const bool only_end =
+      scheme == Integrator::Scheme::ImplicitEuler || scheme == Integrator::Scheme::Bdf;
   const Configuration where = only_end ? predicted(model_, start_, h) : start_;
   for (;;) {
     find_contacts(where, state.next_margin);
     y_ = state.y;
-    if (!integrator_->advance(y_, state.t, h)) return false;
-    for (int r = 0; r < model_.layout.num_rigid; ++r)
-      y_.segment<4>(model_.layout.bone_q(r)).normalize();
-    dynamics_->evaluate(y_.data(), state.t + h);
-    if (!search_) break;
-    const double stray = search_->motion_since(dynamics_->configuration());
-    if (stray > dynamics_->trusted_motion()) {
-      ++state.counts.rejected_motion;
-      return false;
+    const std::optional<double> reached =
+        y_.size() == 0 ? std::optional(state.t + h)  // only driven bones move
+                       : integrator_->advance(y_, state.t, h);
+    if (!reached) return false;
+    dynamics_->evaluate(y_.data(), *reached);
+    bool covered = true;
+    if (search_) {
+      const double stray = search_->motion_since(dynamics_->configuration());
+      if (stray > dynamics_->trusted_motion()) {
+        ++state.counts.rejected_motion;
+        return false;
+      }
+      covered = stray <= 0.5 * state.next_margin;
+      state.next_margin = margin_for(stray);
     }
-    const bool covered = stray <= 0.5 * state.next_margin;
-    state.next_margin = margin_for(stray);
-    if (covered) break;
+    if (covered) {
+      state.y = y_;
+      state.t = *reached;
+      return true;
+    }
     ++state.counts.rejected_motion;
   }
+}
+
+bool Stepper::try_load_step(State& state, double h) {
+  y_ = state.y;
+  for (std::size_t m = 0; m < model_.muscles.size(); ++m)
+    y_[model_.layout.activations() + static_cast<int>(m)] =
+        steady_activation(model_.muscles[m], state.t + h);
+  ContactHooks contacts;
+  if (search_) {
+    contacts.find = [&](const Configuration& where, double motion) {
+      state.next_margin = std::max(state.next_margin, 2 * motion);
+      find_contacts(where, state.next_margin);
+    };
+    contacts.covered = [&] {
+      const double stray = search_->motion_since(dynamics_->configuration());
+      const bool covered = stray <= 0.5 * state.next_margin;
+      state.next_margin = std::min(margin_for(stray), dynamics_->trusted_motion());
+      if (!covered) ++state.counts.rejected_motion;
+      return covered;
+    };
+  }
+  const LoadStepResult result = take_load_step(model_, *dynamics_, *equilibrium_, contacts, state.t,
+                                               state.t + h, y_, convergence_);
+  loose_ = result.loose;
+  if (!result.reached) {
+    if (loose_) fail(state, h);  // a smaller load would not hold it either
+    return false;
+  }
+  const auto same_body = [&](const FreeMotion& other) { return other.body == loose_->body; };
+  if (loose_ && std::none_of(indifferent_.begin(), indifferent_.end(), same_body))
+    indifferent_.push_back(*loose_);
+  state.energy.settling_loss += result.settling_loss;
   state.y = y_;
   state.t += h;
-  account(state);
   return true;
 }
 
@@ -189,11 +230,13 @@ void Stepper::fail(const State& state, double h) const {
     cause = fmt::format("; the most squeezed element is {} of tissue `{}` (volume ratio {:.3g})",
                         worst, model_.bodies[static_cast<std::size_t>(tissue.body)].name, lowest);
   }
-  throw SimulationError(
-      fmt::format("the simulation cannot go on at t = {:.6g} s: Newton's iteration did not "
-                  "converge with a step "
-                  "of {:.3g} s{}; results are valid until then",
-                  state.t, h, cause));
+  if (loose_)
+    cause = fmt::format("; {}: a support is missing, or contact is not made", loose_->words);
+  const char* what = integrator_ ? "Newton's iteration did not converge with a step"
+                                 : "no equilibrium was found with a load step";
+  throw SimulationError(fmt::format(
+      "the simulation cannot go on at t = {:.6g} s: {} of {:.3g} s{}; results are valid until then",
+      state.t, what, h, cause));
 }
 
 StoredEnergy Stepper::stored_energy() const {
@@ -221,7 +264,7 @@ PhaseTimes Stepper::times() {
   times.elastic_force = dynamics_->times().elastic_force;
   times.contact_force = dynamics_->times().contact_force;
   times.assembly = dynamics_->times().assembly;
-  times.solve = integrator_->counts().solve_seconds;
+  times.solve = integrator_ ? integrator_->solve_seconds() : equilibrium_->solve_seconds();
   return times;
 }
 

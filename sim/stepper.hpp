@@ -2,8 +2,9 @@
 
 #include "sim/contact_search.hpp"
 #include "sim/dynamics.hpp"
-#include "sim/integrator.hpp"
+#include "sim/load_step.hpp"
 #include "sim/state.hpp"
+#include "sim/time_integrator.hpp"
 
 namespace articular::sim {
 
@@ -31,8 +32,9 @@ class Stepper {
 
   State initial();
 
-  /// One step of Listing 1.5.1 towards t_target: find contacts, advance, check, account. Halves the
-  /// step as often as needed.
+  /// One step of Listing 1.5.1 towards t_target: find contacts, advance (or, in a static analysis,
+  /// find equilibrium under the loads of its end), check, account. Halves the step as often as
+  /// needed.
   /// @throws SimulationError when the step would get smaller than the scenario's least one
   void step(State& state, double t_target);
 
@@ -45,10 +47,18 @@ class Stepper {
   std::vector<Positions> contact_forces() const;  // at colliders' nodes, by body [N]
   PhaseTimes times();
 
+  /// Of a static analysis: every iteration since the last call.
+  std::vector<ConvergenceRow> take_convergence() { return std::exchange(convergence_, {}); }
+  /// Bodies that nothing holds, though nothing drives them either: they stay where they were.
+  const std::vector<FreeMotion>& indifferent() const { return indifferent_; }
+
  private:
   void find_contacts(const Configuration& where, double margin);
   void remember_start(const State& state);
   bool try_step(State& state, double h);
+  bool try_time_step(State& state, double h);
+  bool try_load_step(State& state, double h);
+  SolverCounts solver_counts() const;
   double margin_for(double stray) const;
   void account(State& after);
   [[noreturn]] void fail(const State& state, double h) const;
@@ -56,7 +66,11 @@ class Stepper {
   const Model& model_;
   std::unique_ptr<ContactSearch> search_;
   std::unique_ptr<Dynamics> dynamics_;
-  std::unique_ptr<ImplicitIntegrator> integrator_;
+  std::unique_ptr<TimeIntegrator> integrator_;  // dynamic analysis
+  std::unique_ptr<Equilibrium> equilibrium_;    // static analysis
+  std::vector<ConvergenceRow> convergence_;
+  std::optional<FreeMotion> loose_;  // in the last load step: what nothing holds
+  std::vector<FreeMotion> indifferent_;
   Eigen::VectorXd y_;  // being tried
 
   /// What the step started from, for the prediction and the ledger.

@@ -51,6 +51,7 @@ Json energy(const State& state, const StoredEnergy& now) {
           {"load_work", l.load_work},
           {"motion_work", l.motion_work},
           {"ligament_loss", l.ligament_loss},
+          {"settling_loss", l.settling_loss},
           {"numerical_loss", numerical_loss(state, now)},
           {"end",
            {{"kinetic", now.kinetic},
@@ -68,6 +69,9 @@ std::string summary_json(const Model& model, const State& state, const Stepper& 
                          const std::string& outcome) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
+  std::vector<std::string> warnings = model.warnings;
+  for (const FreeMotion& motion : stepper.indifferent())
+    warnings.push_back(motion.words + ": nothing holds it, and nothing drives it");
   Json json = {
       {"outcome", outcome},
       {"scenario", model.scenario.file.filename().string()},
@@ -89,7 +93,7 @@ std::string summary_json(const Model& model, const State& state, const Stepper& 
         {"solve", phases.solve},
         {"output", wall.output}}},
       {"peak_memory_MB", static_cast<double>(usage.ru_maxrss) / 1024},
-      {"warnings", model.warnings},
+      {"warnings", warnings},
       {"versions",
        {{"articular", kVersion},
         {"SUNDIALS", SUNDIALS_VERSION},

@@ -7,6 +7,11 @@
 
 namespace articular::sim {
 
+/// What a system matrix is made of: mass M + damping D + stiffness K.
+struct SystemScale {
+  double mass = 0, damping = 0, stiffness = 0;
+};
+
 /// Blocks of unknowns that a set of nodes moves with; fixed and driven bones have none.
 void append_blocks(const Model& model, const NodeRef& node, std::vector<int>& blocks);
 

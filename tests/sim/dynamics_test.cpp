@@ -160,7 +160,8 @@ double matrix_error(Forces& scene, const Eigen::VectorXd& y, double step, bool s
     for (int block = 0; block < model.layout.num_unknown_blocks(); ++block)
       if (position_scale(model, block) != 1) turning.segment<3>(3 * block).setZero();
     scene.at(y);
-    const fem::BlockMatrix& A = scene.dynamics.matrix(gamma, fem::Tangent::Consistent);
+    const fem::BlockMatrix& A =
+        scene.dynamics.matrix({1, gamma, gamma * gamma}, fem::Tangent::Consistent);
     Eigen::VectorXd mass;
     scene.dynamics.multiply_mass(w, mass);
     Eigen::VectorXd K = dense_product(A, w) - mass;
@@ -219,8 +220,10 @@ TEST(Dynamics, TheNewtonMatrixsDampingIsTheDerivativeByTheVelocities) {
   const Eigen::VectorXd w = random.vector(count);
   const Eigen::VectorXd D =
       0.5 / gamma *
-      (dense_product(scene.dynamics.matrix(gamma, fem::Tangent::Consistent), w) -
-       dense_product(scene.dynamics.matrix(-gamma, fem::Tangent::Consistent), w));
+      (dense_product(scene.dynamics.matrix({1, gamma, gamma * gamma}, fem::Tangent::Consistent),
+                     w) -
+       dense_product(scene.dynamics.matrix({1, -gamma, gamma * gamma}, fem::Tangent::Consistent),
+                     w));
   const auto at = [&](double by) -> Eigen::VectorXd {
     Eigen::VectorXd there = y;
     there.segment(begin, count) += by * w;
@@ -290,7 +293,7 @@ TEST(Dynamics, TheNewtonSystemSolvesWithTheJacobianOfTheRate) {
 
   scene.at(y);
   NewtonSystem newton(model, scene.dynamics);
-  IntegratorCounts counts;
+  SolverCounts counts;
   Eigen::VectorXd solved(y.size());
   ASSERT_TRUE(newton.solve(y.data(), gamma, b.data(), solved.data(), counts));
   EXPECT_EQ(counts.projected_tangents, 0);

@@ -1,0 +1,108 @@
+#include <arkode/arkode_arkstep.h>
+
+#include <algorithm>
+
+#include "sim/newton_weights.hpp"
+#include "sim/runge_kutta.hpp"
+#include "sim/sundials.hpp"
+
+namespace articular::sim {
+namespace {
+
+using sundials::check;
+using sundials::view;
+
+struct FreeArkode {
+  void operator()(void* memory) const { ARKStepFree(&memory); }
+};
+
+class ExplicitRungeKutta final : public TimeIntegrator {
+ public:
+  ExplicitRungeKutta(const Model& model, Dynamics& dynamics);
+  std::optional<double> advance(Eigen::VectorXd& y, double t, double h) override;
+  void restart(double next_step) override { next_step_ = next_step; }
+  std::optional<double> next_step() const override { return next_step_; }
+  const SolverCounts& counts() const override { return counts_; }
+  double solve_seconds() const override { return 0; }
+
+ private:
+  static int rate(realtype t, N_Vector y, N_Vector y_dot, void* data);
+  static int weights(N_Vector, N_Vector w, void* data);
+
+  const Model& model_;
+  Dynamics& dynamics_;
+  SolverCounts counts_;
+  double next_step_ = 0;  // [s]
+  std::exception_ptr error_;
+  sundials::Context context_;
+  sundials::Vector y_;
+  sundials::Owned<void*, FreeArkode> arkode_;
+};
+
+int ExplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
+  auto& self = *static_cast<ExplicitRungeKutta*>(data);
+  return sundials::guarded(self.error_, [&] {
+    ++self.counts_.force_evaluations;
+    self.dynamics_.evaluate(N_VGetArrayPointer(y), t);
+    self.dynamics_.rate(N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
+    return self.dynamics_.forces().allFinite() ? 0 : 1;
+  });
+}
+
+/// Velocities against what moves the tolerance in the longest step: what steps are shorter for is
+/// stability, whose limit has nothing to do with the accuracy that is asked for.
+int ExplicitRungeKutta::weights(N_Vector, N_Vector w, void* data) {
+  const auto& self = *static_cast<const ExplicitRungeKutta*>(data);
+  set_weights(self.model_, self.model_.scenario.integrator.step, view(w));
+  return 0;
+}
+
+ExplicitRungeKutta::ExplicitRungeKutta(const Model& model, Dynamics& dynamics)
+    : model_(model),
+      dynamics_(dynamics),
+      context_(sundials::make_context()),
+      y_(sundials::make_vector(model.layout.size(), context_)),
+      arkode_(ARKStepCreate(rate, nullptr, 0, y_.get(), context_.get())) {
+  if (!arkode_) throw std::runtime_error("ARKStepCreate failed");
+  void* arkode = arkode_.get();
+  check(ARKStepSetErrHandlerFn(arkode, sundials::ignore_message, nullptr),
+        "ARKStepSetErrHandlerFn");
+  check(ARKStepSetUserData(arkode, this), "ARKStepSetUserData");
+  check(ARKStepWFtolerances(arkode, weights), "ARKStepWFtolerances");
+  check(ARKStepSetTableNum(arkode, ARKODE_DIRK_NONE, ARKODE_BOGACKI_SHAMPINE_4_2_3),
+        "ARKStepSetTableNum");
+  check(ARKStepSetMaxStep(arkode, model.scenario.integrator.step), "ARKStepSetMaxStep");
+}
+
+std::optional<double> ExplicitRungeKutta::advance(Eigen::VectorXd& y, double t, double h) {
+  view(y_) = y;
+  void* arkode = arkode_.get();
+  check(ARKStepReset(arkode, t, y_.get()), "ARKStepReset");
+  check(ARKStepSetInitStep(arkode, std::min(next_step_, h)), "ARKStepSetInitStep");
+  check(ARKStepSetStopTime(arkode, t + h), "ARKStepSetStopTime");
+  double reached = t;
+  const int flag = ARKStepEvolve(arkode, t + h, y_.get(), &reached, ARK_ONE_STEP);
+  sundials::rethrow(error_);
+  if (flag < 0 || !view(y_).allFinite()) {
+    ++counts_.rejected_newton;
+    next_step_ = 0.1 * std::min(next_step_, h);
+    return std::nullopt;
+  }
+  // A step that was cut short by the stop says nothing of what accuracy allows.
+  double next = 0;
+  check(ARKStepGetCurrentStep(arkode, &next), "ARKStepGetCurrentStep");
+  if (reached < t + h || next > next_step_) next_step_ = next;
+  ++counts_.steps;
+  y = view(y_);
+  for (int r = 0; r < model_.layout.num_rigid; ++r)
+    y.segment<4>(model_.layout.bone_q(r)).normalize();
+  return reached;
+}
+
+}  // namespace
+
+std::unique_ptr<TimeIntegrator> make_explicit_runge_kutta(const Model& model, Dynamics& dynamics) {
+  return std::make_unique<ExplicitRungeKutta>(model, dynamics);
+}
+
+}  // namespace articular::sim

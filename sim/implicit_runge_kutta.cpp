@@ -1,0 +1,209 @@
+#include <arkode/arkode_arkstep.h>
+
+#include <cmath>
+#include <utility>
+
+#include "sim/newton_system.hpp"
+#include "sim/newton_weights.hpp"
+#include "sim/runge_kutta.hpp"
+#include "sim/sundials.hpp"
+
+namespace articular::sim {
+namespace {
+
+using sundials::check;
+using sundials::guarded;
+using sundials::view;
+
+struct FreeArkode {
+  void operator()(void* memory) const { ARKStepFree(&memory); }
+};
+struct FreeTable {
+  void operator()(ARKodeButcherTable table) const { ARKodeButcherTable_Free(table); }
+};
+
+/// Newton's correction is converged when it is below this part of the tolerances.
+constexpr double kNewtonFraction = 0.1;
+/// Contact that opens and closes makes corrections grow for an iteration or two; ARKODE's limit of
+/// 2.3 gives up then.
+constexpr double kDivergenceRatio = 1e3;
+
+class ImplicitRungeKutta final : public TimeIntegrator {
+ public:
+  ImplicitRungeKutta(const Model& model, Dynamics& dynamics);
+  std::optional<double> advance(Eigen::VectorXd& y, double t, double h) override;
+  void restart(double) override { keep_matrix_ = false; }
+  const SolverCounts& counts() const override { return counts_; }
+  double solve_seconds() const override { return newton_.solve_seconds(); }
+
+ private:
+  static int rate(realtype t, N_Vector y, N_Vector y_dot, void* data);
+  static int solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype);
+  static int weights(N_Vector, N_Vector w, void* data);
+  static int predict_stage(realtype t, N_Vector z, void* data);
+  [[nodiscard]] bool evolve(const Eigen::VectorXd& start, double t, double h);
+
+  const Model& model_;
+  Dynamics& dynamics_;
+  NewtonSystem newton_;
+  SolverCounts counts_;
+  double step_ = 0;     // [s] being tried
+  double t_start_ = 0;  // [s] of that step
+  bool keep_matrix_ = false;
+  std::exception_ptr error_;  // thrown below a C callback
+  sundials::Context context_;
+  sundials::Vector y_;
+  sundials::Solver solver_;
+  sundials::Owned<void*, FreeArkode> arkode_;
+};
+
+int ImplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
+  auto& self = *static_cast<ImplicitRungeKutta*>(data);
+  return guarded(self.error_, [&] {
+    ++self.counts_.force_evaluations;
+    self.dynamics_.evaluate(N_VGetArrayPointer(y), t);
+    self.dynamics_.rate(N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
+    return self.dynamics_.forces().allFinite() ? 0 : 1;
+  });
+}
+
+/// The right-hand side was evaluated last where Newton's iteration stands: the residual comes
+/// first.
+int ImplicitRungeKutta::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+  auto& self = *static_cast<ImplicitRungeKutta*>(solver->content);
+  return guarded(self.error_, [&] {
+    ++self.counts_.newton_iterations;
+    double gamma = 0;
+    N_Vector y = nullptr;
+    check(ARKStepGetCurrentGamma(self.arkode_.get(), &gamma), "ARKStepGetCurrentGamma");
+    check(ARKStepGetCurrentState(self.arkode_.get(), &y), "ARKStepGetCurrentState");
+    const bool solved = self.newton_.solve(N_VGetArrayPointer(y), gamma, N_VGetArrayPointer(b),
+                                           N_VGetArrayPointer(x), self.counts_);
+    return solved ? 0 : 1;
+  });
+}
+
+int ImplicitRungeKutta::weights(N_Vector, N_Vector w, void* data) {
+  const auto& self = *static_cast<const ImplicitRungeKutta*>(data);
+  set_weights(self.model_, self.step_, view(w));
+  return 0;
+}
+
+/// A stage's iteration starts where everything would be if it moved on with its velocity of the
+/// step's start: what is left to find is due to forces, and near what the contact search covers.
+int ImplicitRungeKutta::predict_stage(realtype t, N_Vector z, void* data) {
+  const auto& self = *static_cast<const ImplicitRungeKutta*>(data);
+  const Layout& layout = self.model_.layout;
+  double* y = N_VGetArrayPointer(z);
+  const double h = t - self.t_start_;
+  Eigen::Map<Eigen::VectorXd> vector(y, layout.size());
+  vector.head(3 * layout.num_free_nodes) +=
+      h * vector.segment(layout.velocities(), 3 * layout.num_free_nodes);
+  for (int r = 0; r < layout.num_rigid; ++r) {
+    const int velocity =
+        layout.velocities() + 3 * self.model_.bones[static_cast<std::size_t>(r)].block;
+    vector.segment<3>(layout.bone_p(r)) += h * vector.segment<3>(velocity);
+    turn(y + layout.bone_q(r), h * vector.segment<3>(velocity + 3));
+  }
+  return 0;
+}
+
+SUNLinearSolver_Type embedded(SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; }
+
+void set_scheme(void* arkode, Integrator::Scheme scheme) {
+  if (scheme == Integrator::Scheme::ImplicitEuler) {
+    double one = 1;  // implicit Euler: y1 = y0 + h f(t1, y1)
+    const sundials::Owned<ARKodeButcherTable, FreeTable> table(
+        ARKodeButcherTable_Create(1, 1, 0, &one, &one, &one, nullptr));
+    check(ARKStepSetTables(arkode, 1, 0, table.get(), nullptr), "ARKStepSetTables");
+    return;
+  }
+  // Kvaernoe's 4(2)3 scheme is stiffly accurate and L-stable like the other two: what is stiff is
+  // damped, not carried on.
+  const ARKODE_DIRKTableID table =
+      scheme == Integrator::Scheme::TrBdf2 ? ARKODE_TRBDF2_3_3_2 : ARKODE_KVAERNO_4_2_3;
+  check(ARKStepSetTableNum(arkode, table, ARKODE_ERK_NONE), "ARKStepSetTableNum");
+}
+
+ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics)
+    : model_(model),
+      dynamics_(dynamics),
+      newton_(model, dynamics),
+      context_(sundials::make_context()),
+      y_(sundials::make_vector(model.layout.size(), context_)),
+      solver_(sundials::make_solver(context_, this, embedded, solve)),
+      arkode_(ARKStepCreate(nullptr, rate, 0, y_.get(), context_.get())) {
+  if (!arkode_) throw std::runtime_error("ARKStepCreate failed");
+  void* arkode = arkode_.get();
+  check(ARKStepSetErrHandlerFn(arkode, sundials::ignore_message, nullptr),
+        "ARKStepSetErrHandlerFn");
+  check(ARKStepSetUserData(arkode, this), "ARKStepSetUserData");
+  set_scheme(arkode, model.scenario.integrator.scheme);
+  check(ARKStepWFtolerances(arkode, weights), "ARKStepWFtolerances");
+  check(ARKStepSetLinearSolver(arkode, solver_.get(), nullptr), "ARKStepSetLinearSolver");
+  check(ARKStepSetMaxNonlinIters(arkode, model.scenario.integrator.max_iterations),
+        "ARKStepSetMaxNonlinIters");
+  check(ARKStepSetMaxConvFails(arkode, 1), "ARKStepSetMaxConvFails");
+  check(ARKStepSetNonlinConvCoef(arkode, kNewtonFraction), "ARKStepSetNonlinConvCoef");
+  check(ARKStepSetNonlinRDiv(arkode, kDivergenceRatio), "ARKStepSetNonlinRDiv");
+  // The stage's own rate, (z − y)/γ, and not f(z): a remaining error in z would come out amplified
+  // by the stiffness.
+  check(ARKStepSetDeduceImplicitRhs(arkode, SUNTRUE), "ARKStepSetDeduceImplicitRhs");
+  check(ARKStepSetStagePredictFn(arkode, predict_stage), "ARKStepSetStagePredictFn");
+  check(ARKStepSetInterpolantType(arkode, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
+}
+
+/// One step of ARKODE from y. @return false if Newton's iteration did not converge
+bool ImplicitRungeKutta::evolve(const Eigen::VectorXd& start, double t, double h) {
+  view(y_) = start;
+  void* arkode = arkode_.get();
+  check(ARKStepReset(arkode, t, y_.get()), "ARKStepReset");
+  check(ARKStepSetFixedStep(arkode, h), "ARKStepSetFixedStep");
+  check(ARKStepSetStopTime(arkode, t + h), "ARKStepSetStopTime");
+  double reached = t;
+  const int flag = ARKStepEvolve(arkode, t + h, y_.get(), &reached, ARK_ONE_STEP);
+  sundials::rethrow(error_);
+  switch (flag) {
+    case ARK_CONV_FAILURE:
+    case ARK_LSOLVE_FAIL:
+    case ARK_FIRST_RHSFUNC_ERR:  // forces that are not finite
+    case ARK_REPTD_RHSFUNC_ERR:
+    case ARK_UNREC_RHSFUNC_ERR:
+      return false;
+    default:
+      check(flag, "ARKStepEvolve");
+  }
+  return view(y_).allFinite();
+}
+
+std::optional<double> ImplicitRungeKutta::advance(Eigen::VectorXd& y, double t, double h) {
+  step_ = h;
+  t_start_ = t;
+  // Over a jump of the active contacts the Gauss–Newton matrix may get where the consistent one,
+  // whose curvature is of the wrong side, does not: it has a try before the step is shortened.
+  bool done = false;
+  for (const fem::Tangent tangent : {fem::Tangent::Consistent, fem::Tangent::Projected}) {
+    newton_.begin_step(keep_matrix_, tangent);
+    keep_matrix_ = false;  // after a failure
+    done = evolve(y, t, h);
+    if (done || newton_.used_projected_only()) break;
+  }
+  if (!done) {
+    ++counts_.rejected_newton;
+    return std::nullopt;
+  }
+  ++counts_.steps;
+  keep_matrix_ = true;
+  y = view(y_);
+  for (int r = 0; r < model_.layout.num_rigid; ++r)
+    y.segment<4>(model_.layout.bone_q(r)).normalize();
+  return t + h;
+}
+
+}  // namespace
+
+std::unique_ptr<TimeIntegrator> make_implicit_runge_kutta(const Model& model, Dynamics& dynamics) {
+  return std::make_unique<ImplicitRungeKutta>(model, dynamics);
+}
+
+}  // namespace articular::sim
