@@ -25,14 +25,14 @@ std::vector<Mat3> deformation_gradients() {
 }
 
 template <class Material>
-class SplitTest : public testing::Test {
+class MooneyRivlinTest : public testing::Test {
  protected:
   Material material{3e3, 1e3, 2e4};
 };
 using Materials = testing::Types<MooneyRivlin<VolumeChange>, MooneyRivlin<LogVolumeChange>>;
-TYPED_TEST_SUITE(SplitTest, Materials);
+TYPED_TEST_SUITE(MooneyRivlinTest, Materials);
 
-TYPED_TEST(SplitTest, StressAndTangentAreDerivatives) {
+TYPED_TEST(MooneyRivlinTest, StressAndTangentAreDerivatives) {
   const auto& material = this->material;
   const auto energy = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
     return Eigen::VectorXd::Constant(1, material.energy_density(Mat3(v.reshaped(3, 3))));
@@ -48,7 +48,7 @@ TYPED_TEST(SplitTest, StressAndTangentAreDerivatives) {
 }
 
 // The distortion does not feel a change of volume.
-TYPED_TEST(SplitTest, DistortionIsThatOfTheShapeAlone) {
+TYPED_TEST(MooneyRivlinTest, DistortionIsThatOfTheShapeAlone) {
   for (const Mat3& F : deformation_gradients()) {
     const double energy = this->material.distortion().energy_density(F);
     EXPECT_NEAR(this->material.distortion().energy_density(1.7 * F), energy, 1e-11 * energy);
