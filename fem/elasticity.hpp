@@ -23,9 +23,6 @@ using Material =
                  TransverselyIsotropic<VolumeChange>, TransverselyIsotropic<LogVolumeChange>,
                  BlemkerMuscle<VolumeChange>, BlemkerMuscle<LogVolumeChange>>;
 
-/// Unit vectors along the fibres at rest, one column an element.
-using FibreDirections = Eigen::Matrix3Xd;
-
 /// Which tangent the assembly uses: the consistent one, or each element's projected to be positive
 /// semidefinite (for solvers that need it far from equilibrium).
 enum class Tangent { Consistent, Projected };

@@ -12,15 +12,6 @@
 ///              transversely isotropic hyperelasticity. Comput. Methods Appl. Mech. Eng. 135.
 namespace articular::fem {
 
-/// A ⊗ 1, the matrix of dF ↦ dF A for a symmetric A.
-inline Mat9 on_columns(const Mat3& A) {
-  Mat9 result;
-  for (int j = 0; j < 3; ++j) {
-    for (int l = 0; l < 3; ++l) result.block<3, 3>(3 * j, 3 * l) = A(j, l) * Mat3::Identity();
-  }
-  return result;
-}
-
 /// I4 = a0·C a0 = |F a0|², the square of the stretch of the fibre
 inline Jet fourth_invariant(const Mat3& F, const Vec3& a0) {
   const Vec3 b = F * a0;

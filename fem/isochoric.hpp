@@ -16,6 +16,15 @@ struct Jet {
   Mat9 hessian;   // ∂²/∂vec(F)²
 };
 
+/// A ⊗ 1, the matrix of dF ↦ dF A for a symmetric A.
+inline Mat9 on_columns(const Mat3& A) {
+  Mat9 result;
+  for (int j = 0; j < 3; ++j) {
+    for (int l = 0; l < 3; ++l) result.block<3, 3>(3 * j, 3 * l) = A(j, l) * Mat3::Identity();
+  }
+  return result;
+}
+
 /// f(I) from f and its first two derivatives at I.
 inline Jet composed(const Jet& I, double f, double df, double ddf) {
   const Vec9 g = I.gradient.reshaped();
