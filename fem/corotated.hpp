@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "fem/material.hpp"
 #include "fem/rotation_svd.hpp"
+#include "fem/split_material.hpp"
 
 namespace articular::fem {
 
@@ -20,10 +20,17 @@ namespace articular::fem {
 ///            SIGGRAPH 2022 Courses.
 class Corotated {
  public:
+  using Dilatation = StretchDilatation;
+
   /// @param E   Young's modulus [Pa], > 0
   /// @param nu  Poisson's ratio [-], in (-1, 0.5)
   /// @throws std::invalid_argument outside those ranges
   Corotated(double E, double nu) : lame_(lame_parameters(E, nu)) {}
+
+  double shear_modulus() const { return lame_.mu; }                 // [Pa]
+  double bulk_modulus() const { return fem::bulk_modulus(lame_); }  // [Pa]
+  /// Ψ_d = μ |dev S|² with F = R S
+  Corotated distortion() const { return Corotated(without_bulk_modulus(lame_.mu)); }
 
   double energy_density(const Mat3& F) const {
     const Vec3 strain = rotation_svd(F).sigma - Vec3::Ones();
@@ -46,10 +53,7 @@ class Corotated {
   }
 
  private:
-  // Where σi + σj = 0 (an element turned inside out just so far) R jumps, and the tangent has no
-  // bound. A smaller sum [-] counts as this one, which leaves a stiffness that still can be
-  // factored.
-  static constexpr double kSmallestSum = 1e-6;
+  explicit Corotated(const Lame& lame) : lame_(lame) {}
 
   /// The tangent, with `twist_stiffness` applied to its eigenvalues of the twists T_k.
   template <class Function>
@@ -61,20 +65,15 @@ class Corotated {
     Mat9 C = lame_.lambda * r * r.transpose();
     C.diagonal().array() += 2 * lame_.mu;
     for (int k = 0; k < 3; ++k) {
-      const int i = (k + 1) % 3, j = (k + 2) % 3;
-      const double sum = std::max(svd.sigma[i] + svd.sigma[j], kSmallestSum);
-      const double eigenvalue = 2 * lame_.mu + of_rotation * 2 / sum;
-      // √2 T_k = u_j v_iᵀ − u_i v_jᵀ
-      const Mat3 T =
-          svd.U.col(j) * svd.V.col(i).transpose() - svd.U.col(i) * svd.V.col(j).transpose();
-      const Vec9 t = T.reshaped();
-      C += 0.5 * (twist_stiffness(eigenvalue) - 2 * lame_.mu) * t * t.transpose();
+      const double eigenvalue = 2 * lame_.mu + of_rotation * 2 / twist_stretch(svd, k);
+      const Vec9 t = twist(svd, k);
+      C += (twist_stiffness(eigenvalue) - 2 * lame_.mu) * t * t.transpose();
     }
     return C;
   }
 
   Lame lame_;
 };
-static_assert(Hyperelastic<Corotated>);
+static_assert(Split<Corotated>);
 
 }  // namespace articular::fem

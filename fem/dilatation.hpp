@@ -38,6 +38,18 @@ struct LogVolumeChange {
 };
 static_assert(DilatationMeasure<LogVolumeChange>);
 
+/// Θ = tr S − 3 of the polar decomposition F = R S, with R the rotation nearest to F: the sum of
+/// the principal strains of corotated elasticity. Defined for every F.
+struct StretchDilatation {
+  static double value(const Mat3& F) { return rotation_svd(F).sigma.sum() - 3; }
+  static Mat3 gradient(const Mat3& F) {
+    const RotationSvd svd = rotation_svd(F);
+    return svd.U * svd.V.transpose();
+  }
+  static Mat9 hessian(const Mat3& F) { return rotation_derivative(rotation_svd(F)); }
+};
+static_assert(DilatationMeasure<StretchDilatation>);
+
 /// Θ = tr ε = tr F − 3, of the theory of small strain.
 struct SmallDilatation {
   static double value(const Mat3& F) { return F.trace() - 3; }

@@ -63,6 +63,25 @@ double checked_volume(const Positions& X, const Tetrahedra& tets, Eigen::Index e
   throw std::invalid_argument(message.str());
 }
 
+/// @throws std::invalid_argument where a material with fibres has none, or one is no unit vector
+void check_fibres(const Material& material, const FibreDirections& fibres, const Tetrahedra& tets) {
+  // Directions of a file are normalised where they are read; a product of rotations stays as close.
+  constexpr double kUnit = 1e-9;  // [-]
+  const bool fibred = std::visit([]<class M>(const M&) { return Fibred<M>; }, material);
+  std::ostringstream message;
+  if ((fibred || fibres.cols() > 0) && fibres.cols() != tets.cols()) {
+    message << "there are " << fibres.cols() << " directions of fibres for " << tets.cols()
+            << " tetrahedra, must be one each";
+    throw std::invalid_argument(message.str());
+  }
+  for (Eigen::Index e = 0; e < fibres.cols(); ++e) {
+    if (std::abs(fibres.col(e).norm() - 1) <= kUnit) continue;  // false for NaN
+    message << "direction of the fibres of " << name_of(tets, e) << " is ("
+            << fibres.col(e).transpose() << "), must be a unit vector";
+    throw std::invalid_argument(message.str());
+  }
+}
+
 /// The nearest positive semidefinite matrix (in the Frobenius norm): eigenvalues below 0 become 0.
 Mat9 projected(const Mat9& tangent) {
   const double round_off = kRoundOff * tangent.norm();
@@ -94,8 +113,13 @@ Mat3 cauchy(const M& material, const Mat3& F) {
 
 }  // namespace
 
-Elasticity::Elasticity(const Positions& X, const Tetrahedra& tets, Material material)
-    : num_nodes_(static_cast<int>(X.cols())), tets_(tets), material_(std::move(material)) {
+Elasticity::Elasticity(const Positions& X, const Tetrahedra& tets, Material material,
+                       FibreDirections fibres)
+    : num_nodes_(static_cast<int>(X.cols())),
+      tets_(tets),
+      material_(std::move(material)),
+      fibres_(std::move(fibres)) {
+  check_fibres(material_, fibres_, tets_);
   volume_.reserve(static_cast<std::size_t>(tets.cols()));
   inverse_edges_.reserve(static_cast<std::size_t>(tets.cols()));
   for (Eigen::Index e = 0; e < tets.cols(); ++e) {
@@ -111,30 +135,36 @@ Elasticity::Elasticity(const Positions& X, const Tetrahedra& tets, Material mate
   }
 }
 
-/// Calls function(material, e, F) for the elements in their order; the material is chosen once.
+/// Calls function(material, e, F) for the elements in their order; the material is chosen once. One
+/// with fibres is handed over as that of the element.
 template <class Function>
-void Elasticity::for_each_element(const Positions& x, Function function) const {
+void Elasticity::for_each_element(const Positions& x, double activation, Function function) const {
   assert(x.cols() == num_nodes_);
   std::visit(
-      [&](const auto& material) {
+      [&]<class M>(const M& material) {
         for (int e = 0; e < num_elements(); ++e) {
-          function(material, e, deformation_gradient(gather(x, tets_, e), inverse_edges_[e]));
+          const Mat3 F = deformation_gradient(gather(x, tets_, e), inverse_edges_[e]);
+          if constexpr (Fibred<M>) {
+            function(material.along(fibres_.col(e), activation), e, F);
+          } else {
+            function(material, e, F);
+          }
         }
       },
       material_);
 }
 
-double Elasticity::energy(const Positions& x) const {
+double Elasticity::energy(const Positions& x, double activation) const {
   double W = 0;
-  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+  for_each_element(x, activation, [&](const auto& material, int e, const Mat3& F) {
     W += volume_[e] * material.energy_density(F);
   });
   return W;
 }
 
-void Elasticity::add_internal_force(const Positions& x, Positions& f) const {
+void Elasticity::add_internal_force(const Positions& x, Positions& f, double activation) const {
   assert(f.cols() == num_nodes_);
-  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+  for_each_element(x, activation, [&](const auto& material, int e, const Mat3& F) {
     const Mat34 f_e =
         nodal_force(material.first_piola(F), shape_gradients(inverse_edges_[e]), volume_[e]);
     for (int a = 0; a < 4; ++a) f.col(tets_(a, e)) += f_e.col(a);
@@ -147,8 +177,8 @@ BlockMatrix Elasticity::make_matrix() const {
   return {num_nodes_, {tets_.data(), 4 * volume_.size()}, offsets};
 }
 
-void Elasticity::add_stiffness(const Positions& x, Tangent tangent, double scale,
-                               BlockMatrix& K) const {
+void Elasticity::add_stiffness(const Positions& x, Tangent tangent, double scale, BlockMatrix& K,
+                               double activation) const {
   assert(K.num_blocks() == num_nodes_);
   const auto scatter = [&](int e, const Mat9& C) {
     const Mat12 K_e = stiffness(C, shape_gradients(inverse_edges_[e]), scale * volume_[e]);
@@ -158,27 +188,28 @@ void Elasticity::add_stiffness(const Positions& x, Tangent tangent, double scale
     }
   };
   if (tangent == Tangent::Projected) {
-    for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+    for_each_element(x, activation, [&](const auto& material, int e, const Mat3& F) {
       scatter(e, projected_tangent(material, F));
     });
   } else {
-    for_each_element(
-        x, [&](const auto& material, int e, const Mat3& F) { scatter(e, material.tangent(F)); });
+    for_each_element(x, activation, [&](const auto& material, int e, const Mat3& F) {
+      scatter(e, material.tangent(F));
+    });
   }
 }
 
-Eigen::MatrixXd Elasticity::cauchy_stress(const Positions& x) const {
+Eigen::MatrixXd Elasticity::cauchy_stress(const Positions& x, double activation) const {
   Eigen::MatrixXd stress(6, num_elements());
-  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+  for_each_element(x, activation, [&](const auto& material, int e, const Mat3& F) {
     const Mat3 s = cauchy(material, F);
     stress.col(e) << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2);
   });
   return stress;
 }
 
-Eigen::VectorXd Elasticity::von_mises(const Positions& x) const {
+Eigen::VectorXd Elasticity::von_mises(const Positions& x, double activation) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+  for_each_element(x, activation, [&](const auto& material, int e, const Mat3& F) {
     const Mat3 sigma = cauchy(material, F);
     const Mat3 deviator = sigma - sigma.trace() / 3 * Mat3::Identity();
     result[e] = std::sqrt(1.5) * deviator.norm();
@@ -188,15 +219,23 @@ Eigen::VectorXd Elasticity::von_mises(const Positions& x) const {
 
 Eigen::VectorXd Elasticity::volume_ratio(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, [&](const auto&, int e, const Mat3& F) { result[e] = F.determinant(); });
+  for_each_element(x, 0, [&](const auto&, int e, const Mat3& F) { result[e] = F.determinant(); });
   return result;
 }
 
-Eigen::VectorXd Elasticity::strain_energy_density(const Positions& x) const {
+Eigen::VectorXd Elasticity::strain_energy_density(const Positions& x, double activation) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+  for_each_element(x, activation, [&](const auto& material, int e, const Mat3& F) {
     result[e] = material.energy_density(F);
   });
+  return result;
+}
+
+Eigen::VectorXd Elasticity::fibre_stretch(const Positions& x) const {
+  assert(fibres_.cols() == num_elements());
+  Eigen::VectorXd result(num_elements());
+  for_each_element(
+      x, 0, [&](const auto&, int e, const Mat3& F) { result[e] = (F * fibres_.col(e)).norm(); });
   return result;
 }
 

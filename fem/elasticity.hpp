@@ -3,26 +3,39 @@
 #include <variant>
 #include <vector>
 
+#include "fem/blemker_muscle.hpp"
 #include "fem/block_matrix.hpp"
 #include "fem/corotated.hpp"
 #include "fem/linear.hpp"
+#include "fem/mooney_rivlin.hpp"
 #include "fem/neo_hookean.hpp"
+#include "fem/transversely_isotropic.hpp"
 #include "fem/types.hpp"
+#include "fem/veronda_westmann.hpp"
+#include "fem/yeoh.hpp"
 
 namespace articular::fem {
 
-using Material = std::variant<Linear, Corotated, NeoHookean>;
+using Material =
+    std::variant<Linear, Corotated, NeoHookean, MooneyRivlin<VolumeChange>,
+                 MooneyRivlin<LogVolumeChange>, Yeoh<VolumeChange>, Yeoh<LogVolumeChange>,
+                 VerondaWestmann<VolumeChange>, VerondaWestmann<LogVolumeChange>,
+                 TransverselyIsotropic<VolumeChange>, TransverselyIsotropic<LogVolumeChange>,
+                 BlemkerMuscle<VolumeChange>, BlemkerMuscle<LogVolumeChange>>;
 
 /// Which tangent the assembly uses: the consistent one, or each element's projected to be positive
 /// semidefinite (for solvers that need it far from equilibrium).
 enum class Tangent { Consistent, Projected };
 
 /// Elastic energy, internal force and stiffness of one mesh of linear tetrahedra with one material.
+/// Materials with fibres pull along them with the given activation, in [0, 1]; others ignore it.
 class Elasticity {
  public:
   /// @throws std::invalid_argument naming the element where its rest volume is not positive
-  ///         (inverted or flat), or an index that is out of range
-  Elasticity(const Positions& X, const Tetrahedra& tets, Material material);
+  ///         (inverted or flat), or an index that is out of range, or a fibre that is not a unit
+  ///         vector; and where a material with fibres has not got one an element
+  Elasticity(const Positions& X, const Tetrahedra& tets, Material material,
+             FibreDirections fibres = {});
 
   int num_nodes() const { return num_nodes_; }
   int num_elements() const { return static_cast<int>(volume_.size()); }
@@ -30,27 +43,31 @@ class Elasticity {
   const std::vector<double>& rest_volume() const { return volume_; }  // [m³], one an element
 
   /// W [J]
-  double energy(const Positions& x) const;
+  double energy(const Positions& x, double activation = 0) const;
   /// f += ∂W/∂x [N]: the force needed to hold the shape.
-  void add_internal_force(const Positions& x, Positions& f) const;
+  void add_internal_force(const Positions& x, Positions& f, double activation = 0) const;
   /// A matrix with the pattern of this mesh: one block row a node.
   BlockMatrix make_matrix() const;
   /// K += scale * ∂²W/∂x² [N/m], for a K of make_matrix().
-  void add_stiffness(const Positions& x, Tangent tangent, double scale, BlockMatrix& K) const;
+  void add_stiffness(const Positions& x, Tangent tangent, double scale, BlockMatrix& K,
+                     double activation = 0) const;
 
   /// Per element, for output. cauchy_stress: 6 x M (xx yy zz xy yz xz) [Pa].
-  Eigen::MatrixXd cauchy_stress(const Positions& x) const;
-  Eigen::VectorXd von_mises(const Positions& x) const;              // [Pa]
-  Eigen::VectorXd volume_ratio(const Positions& x) const;           // J
-  Eigen::VectorXd strain_energy_density(const Positions& x) const;  // [J/m³]
+  Eigen::MatrixXd cauchy_stress(const Positions& x, double activation = 0) const;
+  Eigen::VectorXd von_mises(const Positions& x, double activation = 0) const;              // [Pa]
+  Eigen::VectorXd volume_ratio(const Positions& x) const;                                  // J
+  Eigen::VectorXd strain_energy_density(const Positions& x, double activation = 0) const;  // [J/m³]
+  /// |F a0|, for a mesh that was given fibres.
+  Eigen::VectorXd fibre_stretch(const Positions& x) const;
 
  private:
   template <class Function>
-  void for_each_element(const Positions& x, Function function) const;
+  void for_each_element(const Positions& x, double activation, Function function) const;
 
   int num_nodes_ = 0;
   Tetrahedra tets_;
   Material material_;
+  FibreDirections fibres_;           // none, or one an element
   std::vector<Mat3> inverse_edges_;  // (X1-X0, X2-X0, X3-X0)⁻¹ [1/m]
   std::vector<double> volume_;       // [m³]
   std::vector<int> slots_;           // 16 an element, 4b + a, into the matrix of make_matrix()

@@ -16,6 +16,27 @@ struct Jet {
   Mat9 hessian;   // ∂²/∂vec(F)²
 };
 
+/// A ⊗ 1, the matrix of dF ↦ dF A for a symmetric A.
+inline Mat9 on_columns(const Mat3& A) {
+  Mat9 result;
+  for (int j = 0; j < 3; ++j) {
+    for (int l = 0; l < 3; ++l) result.block<3, 3>(3 * j, 3 * l) = A(j, l) * Mat3::Identity();
+  }
+  return result;
+}
+
+/// f(I) from f and its first two derivatives at I.
+inline Jet composed(const Jet& I, double f, double df, double ddf) {
+  const Vec9 g = I.gradient.reshaped();
+  return {f, df * I.gradient, df * I.hessian + ddf * g * g.transpose()};
+}
+
+inline Jet product(const Jet& A, const Jet& B) {
+  const Vec9 a = A.gradient.reshaped(), b = B.gradient.reshaped();
+  return {A.value * B.value, A.value * B.gradient + B.value * A.gradient,
+          A.value * B.hessian + B.value * A.hessian + a * b.transpose() + b * a.transpose()};
+}
+
 /// J^p I from the jet of I.
 inline Jet times_power_of_volume(const Jet& I, double p, const Mat3& F) {
   const double J = F.determinant(), scale = std::pow(J, p);

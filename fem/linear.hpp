@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "fem/material.hpp"
+#include "fem/split_material.hpp"
 
 namespace articular::fem {
 
@@ -13,10 +13,17 @@ namespace articular::fem {
 /// For small rotations only: a finite rotation strains it.
 class Linear {
  public:
+  using Dilatation = SmallDilatation;
+
   /// @param E   Young's modulus [Pa], > 0
   /// @param nu  Poisson's ratio [-], in (-1, 0.5)
   /// @throws std::invalid_argument outside those ranges
   Linear(double E, double nu) : lame_(lame_parameters(E, nu)) {}
+
+  double shear_modulus() const { return lame_.mu; }                 // [Pa]
+  double bulk_modulus() const { return fem::bulk_modulus(lame_); }  // [Pa]
+  /// Ψ_d = μ dev ε : dev ε
+  Linear distortion() const { return Linear(without_bulk_modulus(lame_.mu)); }
 
   double energy_density(const Mat3& F) const {
     const Mat3 strain = small_strain(F);
@@ -45,10 +52,12 @@ class Linear {
   Mat3 cauchy_stress(const Mat3& F) const { return first_piola(F); }
 
  private:
+  explicit Linear(const Lame& lame) : lame_(lame) {}
+
   static Mat3 small_strain(const Mat3& F) { return 0.5 * (F + F.transpose()) - Mat3::Identity(); }
 
   Lame lame_;
 };
-static_assert(Hyperelastic<Linear>);
+static_assert(Split<Linear>);
 
 }  // namespace articular::fem

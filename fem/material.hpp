@@ -14,6 +14,13 @@ struct Lame {
 /// @throws std::invalid_argument outside those ranges, naming value and range
 Lame lame_parameters(double E, double nu);
 
+/// κ = λ + 2μ/3 [Pa]
+inline double bulk_modulus(const Lame& lame) { return lame.lambda + 2 * lame.mu / 3; }
+
+/// The constants of the same shear modulus and no bulk modulus: of the part of a law that is left
+/// when κ/2 (tr ε)² is taken from it.
+inline Lame without_bulk_modulus(double mu) { return {.mu = mu, .lambda = -2 * mu / 3}; }
+
 /// The value. @throws std::invalid_argument naming it, unless it is finite and positive (or zero)
 double checked_positive(double value, const char* name, const char* unit);
 double checked_not_negative(double value, const char* name, const char* unit);

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 
 #include "fem/cofactor.hpp"
-#include "fem/material.hpp"
+#include "fem/split_material.hpp"
 
 namespace articular::fem {
 
@@ -23,10 +23,17 @@ namespace articular::fem {
 /// [Smith 2018] Smith, De Goes, Kim. Stable Neo-Hookean Flesh Simulation. ACM TOG 37(2).
 class NeoHookean {
  public:
+  using Dilatation = VolumeChange;
+
   /// @param E   Young's modulus [Pa], > 0
   /// @param nu  Poisson's ratio [-], in (-1, 0.5)
   /// @throws std::invalid_argument outside those ranges
   NeoHookean(double E, double nu) : NeoHookean(lame_parameters(E, nu)) {}
+
+  double shear_modulus() const { return mu_; }               // [Pa]
+  double bulk_modulus() const { return lambda_ - mu_ / 3; }  // [Pa]
+  /// Ψ_d = μ/2 (tr FᵀF − 3) − μ (J − 1) + μ/6 (J − 1)²: the law of bulk modulus 0
+  NeoHookean distortion() const { return NeoHookean(without_bulk_modulus(mu_)); }
 
   double energy_density(const Mat3& F) const {
     const double dJ = F.determinant() - alpha_, dJ_rest = 1 - alpha_;
@@ -50,6 +57,6 @@ class NeoHookean {
   double mu_, lambda_;  // [Pa]
   double alpha_;        // [-]
 };
-static_assert(Hyperelastic<NeoHookean>);
+static_assert(Split<NeoHookean>);
 
 }  // namespace articular::fem

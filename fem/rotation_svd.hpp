@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -77,6 +78,35 @@ inline RotationSvd rotation_svd(const Mat3& F) {
   svd.U.col(2) = u0.cross(svd.U.col(1));
   svd.sigma << sigma0, svd.U.col(1).dot(A.col(1)), svd.U.col(2).dot(A.col(2));
   return svd;
+}
+
+/// The twist T_k = U [e_k]× Vᵀ/√2, stacked: the change of F that turns its stretches i and j into
+/// each other (i, j, k cyclic) [Kim 2022, ch. 5].
+///
+/// [Kim 2022] Kim, Eberle. Dynamic Deformables: Implementation and Production Practicalities.
+///            SIGGRAPH 2022 Courses.
+inline Vec9 twist(const RotationSvd& svd, int k) {
+  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  const Mat3 T = svd.U.col(j) * svd.V.col(i).transpose() - svd.U.col(i) * svd.V.col(j).transpose();
+  return T.reshaped() / std::sqrt(2.0);
+}
+
+/// σi + σj of twist k. Where it is 0 (an element turned inside out just so far) the rotation jumps,
+/// and its derivative has no bound; a smaller sum counts as 1e-6, which leaves a stiffness that
+/// still can be factored.
+inline double twist_stretch(const RotationSvd& svd, int k) {
+  constexpr double kSmallestSum = 1e-6;  // [-]
+  return std::max(svd.sigma[(k + 1) % 3] + svd.sigma[(k + 2) % 3], kSmallestSum);
+}
+
+/// ∂vec(R)/∂vec(F) = Σ_k 2/(σi + σj) T_k⊗T_k of the rotation R = U Vᵀ nearest to F.
+inline Mat9 rotation_derivative(const RotationSvd& svd) {
+  Mat9 result = Mat9::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Vec9 t = twist(svd, k);
+    result += 2 / twist_stretch(svd, k) * t * t.transpose();
+  }
+  return result;
 }
 
 }  // namespace articular::fem

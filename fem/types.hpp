@@ -15,6 +15,8 @@ using Mat12 = Eigen::Matrix<double, 12, 12>;
 using Positions = Eigen::Matrix3Xd;
 /// Tetrahedra, one column an element: node indices, positively oriented (volume > 0 at rest).
 using Tetrahedra = Eigen::Matrix4Xi;
+/// Unit vectors along the fibres at rest, one column a tetrahedron.
+using FibreDirections = Eigen::Matrix3Xd;
 /// Triangles, one column a face: node indices, counter-clockwise seen from outside.
 using Triangles = Eigen::Matrix3Xi;
 
