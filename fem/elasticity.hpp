@@ -7,15 +7,12 @@
 #include "fem/corotated.hpp"
 #include "fem/linear.hpp"
 #include "fem/neo_hookean.hpp"
+#include "fem/projected_tangent.hpp"
 #include "fem/types.hpp"
 
 namespace articular::fem {
 
 using Material = std::variant<Linear, Corotated, NeoHookean>;
-
-/// Which tangent the assembly uses: the consistent one, or each element's projected to be positive
-/// semidefinite (for solvers that need it far from equilibrium).
-enum class Tangent { Consistent, Projected };
 
 /// Elastic energy, internal force and stiffness of one mesh of linear tetrahedra with one material.
 class Elasticity {
