@@ -17,6 +17,8 @@ class IsochoricMooneyRivlin {
     checked_positive(c10 + c01, "c10 + c01", "Pa");
   }
 
+  double shear_modulus() const { return 2 * (c10_ + c01_); }  // [Pa]
+
   double energy_density(const Mat3& F) const {
     const double J = F.determinant(), a = std::pow(J, -2.0 / 3);
     double energy = c10_ * (a * F.squaredNorm() - 3);

@@ -14,11 +14,12 @@ namespace articular::fem {
 template <class M>
 concept Split = Hyperelastic<M> && DilatationMeasure<typename M::Dilatation> &&
     requires(const M& m) {
-  { m.bulk_modulus() } -> std::same_as<double>;  // κ [Pa]
-  { m.distortion() } -> Hyperelastic;            // Ψ_d
+  { m.bulk_modulus() } -> std::same_as<double>;   // κ [Pa]
+  { m.shear_modulus() } -> std::same_as<double>;  // μ [Pa], at small strain
+  { m.distortion() } -> Hyperelastic;             // Ψ_d
 };
 
-/// The sum of the two parts.
+/// The sum of the two parts. The distortion has a shear_modulus() [Pa] too.
 template <Hyperelastic Distortion, DilatationMeasure Theta>
 class SplitMaterial {
  public:
@@ -29,6 +30,7 @@ class SplitMaterial {
       : distortion_(distortion), kappa_(checked_positive(kappa, "bulk modulus", "Pa")) {}
 
   double bulk_modulus() const { return kappa_; }
+  double shear_modulus() const { return distortion_.shear_modulus(); }
   const Distortion& distortion() const { return distortion_; }
 
   double energy_density(const Mat3& F) const {
