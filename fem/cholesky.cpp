@@ -1,84 +1,22 @@
-#include <cholmod.h>
-#include <omp.h>
-
 #include <Eigen/Core>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <new>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
+#include "fem/cholmod_handles.hpp"
 #include "fem/linear_solver.hpp"
-
-// Declared here: cblas.h may be that of another BLAS, which has no such function.
-extern "C" void openblas_set_num_threads(int num_threads);
 
 namespace articular::fem {
 namespace {
 
-class Common {
- public:
-  Common() {
-    cholmod_start(&common_);
-    common_.print = 0;
-    common_.quick_return_if_not_posdef = 1;
-  }
-  ~Common() { cholmod_finish(&common_); }
-  Common(const Common&) = delete;
-  Common& operator=(const Common&) = delete;
-
-  cholmod_common* get() { return &common_; }
-  cholmod_common* operator->() { return &common_; }
-
-  /// Turns CHOLMOD's status into an exception, except the outcomes that a caller must expect.
-  void check() const {
-    if (common_.status >= CHOLMOD_OK) return;  // warnings: not positive definite
-    if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (common_.status == CHOLMOD_TOO_LARGE) {
-      throw std::length_error("the Cholesky factor has more than 2^31 - 1 entries");
-    }
-    throw std::logic_error("CHOLMOD status " + std::to_string(common_.status));
-  }
-
- private:
-  cholmod_common common_{};
-};
-
-struct Free {
-  cholmod_common* common;
-  void operator()(cholmod_sparse* p) const { cholmod_free_sparse(&p, common); }
-  void operator()(cholmod_factor* p) const { cholmod_free_factor(&p, common); }
-  void operator()(cholmod_dense* p) const { cholmod_free_dense(&p, common); }
-};
-template <class T>
-using Handle = std::unique_ptr<T, Free>;
-
-/// CHOLMOD asks OpenMP for four threads for its copying loops whatever it is told; on a machine
-/// with fewer free cores their spinning doubles the time of a factorization. While this lives, a
-/// parallel region of the calling thread has one thread.
-class OneThread {
- public:
-  OneThread() { omp_set_max_active_levels(0); }
-  ~OneThread() { omp_set_max_active_levels(levels_); }
-  OneThread(const OneThread&) = delete;
-  OneThread& operator=(const OneThread&) = delete;
-
- private:
-  int levels_ = omp_get_max_active_levels();
-};
-
 /// The lower half of A, row by row, is the upper half of a symmetric matrix in compressed columns.
 class Cholesky final : public LinearSolver {
  public:
-  Cholesky() {
-    // OpenBLAS splits its sums by the number of threads: with one the answer has the same bits
-    // everywhere. The setting is that of the process; this file is the only user of BLAS.
-    openblas_set_num_threads(1);
-  }
+  Cholesky() { use_one_blas_thread(); }
 
   FactorStatus prepare(const BlockMatrix& A) override {
     if (!factor_ || A.pattern_id() != pattern_id_) analyze(A);
@@ -133,16 +71,16 @@ class Cholesky final : public LinearSolver {
   }
 
   template <class T>
-  Handle<T> own(T* p) {
+  CholmodHandle<T> own(T* p) {
     common_.check();
-    return {p, Free{common_.get()}};
+    return {p, CholmodFree{common_.get()}};
   }
 
   /// A fill-reducing order of the blocks: a third of the unknowns, a ninth of the entries.
   std::vector<int> block_order(const BlockMatrix& A) {
     const auto n = static_cast<std::size_t>(A.num_blocks());
     const std::size_t num_lower = (static_cast<std::size_t>(A.num_nonzero_blocks()) + n) / 2;
-    const Handle<cholmod_sparse> graph = own(cholmod_allocate_sparse(
+    const CholmodHandle<cholmod_sparse> graph = own(cholmod_allocate_sparse(
         n, n, num_lower, /*sorted=*/1, /*packed=*/1, /*stype=*/1, CHOLMOD_PATTERN, common_.get()));
     int* column_begin = static_cast<int*>(graph->p);
     int* row = static_cast<int*>(graph->i);
@@ -158,7 +96,7 @@ class Cholesky final : public LinearSolver {
     common_->nmethods = 1;
     common_->method[0].ordering = CHOLMOD_NESDIS;
     common_->supernodal = CHOLMOD_SIMPLICIAL;
-    const Handle<cholmod_factor> factor = own(cholmod_analyze(graph.get(), common_.get()));
+    const CholmodHandle<cholmod_factor> factor = own(cholmod_analyze(graph.get(), common_.get()));
     const int* order = static_cast<const int*>(factor->Perm);
     return {order, order + n};
   }
@@ -216,12 +154,12 @@ class Cholesky final : public LinearSolver {
         .allFinite();
   }
 
-  Common common_;
-  Handle<cholmod_sparse> matrix_{nullptr, Free{common_.get()}};
-  Handle<cholmod_factor> factor_{nullptr, Free{common_.get()}};
-  Handle<cholmod_dense> solution_{nullptr, Free{common_.get()}};
-  Handle<cholmod_dense> work_y_{nullptr, Free{common_.get()}},
-      work_e_{nullptr, Free{common_.get()}};
+  CholmodCommon common_;
+  CholmodHandle<cholmod_sparse> matrix_{nullptr, CholmodFree{common_.get()}};
+  CholmodHandle<cholmod_factor> factor_{nullptr, CholmodFree{common_.get()}};
+  CholmodHandle<cholmod_dense> solution_{nullptr, CholmodFree{common_.get()}};
+  CholmodHandle<cholmod_dense> work_y_{nullptr, CholmodFree{common_.get()}},
+      work_e_{nullptr, CholmodFree{common_.get()}};
   Eigen::VectorXd residual_;
   std::uint64_t pattern_id_ = 0;
   bool ready_ = false;

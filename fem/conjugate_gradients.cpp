@@ -1,38 +1,36 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cassert>
-#include <cmath>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include "fem/linear_solver.hpp"
+#include "fem/preconditioned_iteration.hpp"
 
 namespace articular::fem {
 namespace {
 
-/// Preconditioned conjugate gradients [Saad 2003, algorithm 9.1] on the lower half of A, which
-/// halves what a product reads from memory. Sums run in a fixed order.
-///
-/// The residual of the recurrence drifts from b − A x by round-off: where it says that the goal is
-/// reached, b − A x is computed, and if it is not below the goal, the iteration starts anew from x.
-///
-/// [Saad 2003] Saad. Iterative Methods for Sparse Linear Systems, 2nd ed. SIAM.
+/// Block Jacobi as preconditioner. Only the lower half of A is kept, which halves what a product
+/// reads from memory. Sums run in a fixed order.
 class ConjugateGradients final : public LinearSolver {
  public:
   ConjugateGradients(double tolerance, int max_iterations)
       : tolerance_(tolerance), max_iterations_(max_iterations) {}
 
-  FactorStatus prepare(const BlockMatrix& A) override {
+  FactorStatus prepare(const BlockMatrix& A) override { return prepare_with_pressure(A, {}); }
+
+  FactorStatus prepare_with_pressure(const BlockMatrix& A, const PressurePart& part) override {
+    pressure_.set(part.terms);
     if (A.num_blocks() != num_blocks() || A.pattern_id() != pattern_id_) take_pattern(A);
     for (std::size_t k = 0; k < slot_.size(); ++k) lower_[k] = A.block(slot_[k]);
     ready_ = false;
     for (int i = 0; i < num_blocks(); ++i) {
       // The lower half is mirrored, as in the off-diagonal blocks.
       diagonal_[i] = Mat3(A.block(diagonal_slot_[i])).selfadjointView<Eigen::Lower>();
-      const Eigen::LLT<Mat3> factor(diagonal_[i]);
-      if (factor.info() != Eigen::Success || !diagonal_[i].allFinite()) {
+      const Mat3 whole = diagonal_[i] + pressure_.diagonal_estimate(i);
+      const Eigen::LLT<Mat3> factor(whole);
+      if (factor.info() != Eigen::Success || !whole.allFinite()) {
         return FactorStatus::NotPositiveDefinite;
       }
       inverse_diagonal_[i] = factor.solve(Mat3::Identity());
@@ -43,26 +41,14 @@ class ConjugateGradients final : public LinearSolver {
 
   SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) override {
     assert(ready_);
-    assert(b.size() == r_.size());
-    SolveReport report;
-    const double b_norm = b.norm();
-    if (b_norm == 0 || x.size() != b.size()) x.setZero(b.size());
-    if (b_norm == 0) return report;
-
-    report.relative_residual = std::numeric_limits<double>::infinity();
-    while (true) {
-      multiply(x, q_);
-      r_ = b - q_;
-      const double residual = r_.norm() / b_norm;
-      const bool stagnates = !(residual < 0.5 * report.relative_residual);  // true for NaN
-      report.relative_residual = residual;
-      report.converged = residual <= tolerance_;
-      if (report.converged || stagnates || report.iterations >= max_iterations_) return report;
-      if (!iterate(tolerance_ * b_norm, x, report.iterations)) {
-        report.converged = false;
-        return report;
-      }
-    }
+    assert(b.size() == memory_.r.size());
+    return preconditioned_iteration(
+        [this](const Eigen::VectorXd& v, Eigen::VectorXd& y) {
+          multiply(v, y);
+          pressure_.add_product(v, y);
+        },
+        [this](const Eigen::VectorXd& r, Eigen::VectorXd& z) { precondition(r, z); }, tolerance_,
+        max_iterations_, b, x, memory_);
   }
 
  private:
@@ -88,7 +74,7 @@ class ConjugateGradients final : public LinearSolver {
     lower_.resize(column_.size());
     diagonal_.resize(n);
     inverse_diagonal_.resize(n);
-    for (Eigen::VectorXd* vector : {&r_, &z_, &p_, &q_}) vector->resize(3 * A.num_blocks());
+    memory_.resize(3 * Eigen::Index{A.num_blocks()});
   }
 
   /// y = A x
@@ -105,34 +91,12 @@ class ConjugateGradients final : public LinearSolver {
     }
   }
 
-  /// Iterates from the residual r_ until its norm is `goal` or the iterations are used up.
-  /// @return false where A proves not to be positive definite
-  bool iterate(double goal, Eigen::VectorXd& x, int& iterations) {
-    double rz = precondition();
-    p_ = z_;
-    while (iterations < max_iterations_) {
-      multiply(p_, q_);
-      const double curvature = p_.dot(q_);
-      if (!(curvature > 0)) return false;  // NaN included
-      const double alpha = rz / curvature;
-      x += alpha * p_;
-      r_ -= alpha * q_;
-      ++iterations;
-      if (r_.norm() <= goal) return true;
-      const double rz_next = precondition();
-      p_ = z_ + (rz_next / rz) * p_;
-      rz = rz_next;
-    }
-    return true;
-  }
-
-  /// z = M⁻¹ r. @return r·z
-  double precondition() {
+  /// z = M⁻¹ r
+  void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const {
     for (int i = 0; i < num_blocks(); ++i) {
       const Eigen::Index row = 3 * Eigen::Index{i};
-      z_.segment<3>(row) = inverse_diagonal_[i] * r_.segment<3>(row);
+      z.segment<3>(row) = inverse_diagonal_[i] * r.segment<3>(row);
     }
-    return r_.dot(z_);
   }
 
   double tolerance_;
@@ -142,7 +106,8 @@ class ConjugateGradients final : public LinearSolver {
   std::vector<int> row_begin_{0}, column_;  // of the blocks below the diagonal
   std::vector<int> slot_, diagonal_slot_;   // where A holds them
   std::vector<Mat3> lower_, diagonal_, inverse_diagonal_;
-  Eigen::VectorXd r_, z_, p_, q_;
+  PressureOperator pressure_;
+  IterationMemory memory_;
 };
 
 }  // namespace

@@ -1,67 +1,18 @@
 #include "fem/elasticity.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "fem/projected_tangent.hpp"
+#include "fem/rest_shape.hpp"
 #include "fem/tetrahedron.hpp"
 
 namespace articular::fem {
 namespace {
-
-// An element counts as flat below this volume relative to its longest edge cubed (a regular one has
-// 0.12). Rounding of the coordinates alone puts about 1e-16 there; 1e-12 leaves four digits of the
-// volume, and a stiffness that is no more than about 1e12 times that of its neighbours.
-constexpr double kFlat = 1e-12;  // [-]
-
-// A tangent whose lowest eigenvalue lies above minus this part of its norm is positive semidefinite
-// up to round-off: rigid rotations put zeros there.
-constexpr double kRoundOff = 1e-13;  // [-]
-
-Mat34 gather(const Positions& x, const Tetrahedra& tets, Eigen::Index e) {
-  Mat34 x_e;
-  for (int a = 0; a < 4; ++a) x_e.col(a) = x.col(tets(a, e));
-  return x_e;
-}
-
-std::string name_of(const Tetrahedra& tets, Eigen::Index e) {
-  std::ostringstream name;
-  name << "tetrahedron " << e << " (nodes " << tets(0, e) << ' ' << tets(1, e) << ' ' << tets(2, e)
-       << ' ' << tets(3, e) << ')';
-  return name.str();
-}
-
-/// Volume of element e [m³]. @throws std::invalid_argument unless it is positive and not flat
-double checked_volume(const Positions& X, const Tetrahedra& tets, Eigen::Index e) {
-  for (int a = 0; a < 4; ++a) {
-    if (tets(a, e) < 0 || tets(a, e) >= X.cols()) {
-      std::ostringstream message;
-      message << name_of(tets, e) << " has a node out of range: there are " << X.cols() << " nodes";
-      throw std::invalid_argument(message.str());
-    }
-  }
-  const Mat34 X_e = gather(X, tets, e);
-  const double volume = edge_matrix(X_e).determinant() / 6;
-  double longest2 = 0;
-  for (int a = 0; a < 4; ++a) {
-    for (int b = a + 1; b < 4; ++b) {
-      longest2 = std::max(longest2, (X_e.col(a) - X_e.col(b)).squaredNorm());
-    }
-  }
-  const double smallest = kFlat * longest2 * std::sqrt(longest2);
-  if (volume > smallest && std::isfinite(volume)) return volume;  // false for NaN
-  std::ostringstream message;
-  message << name_of(tets, e) << " is " << (volume < -smallest ? "inverted" : "flat")
-          << ": its volume is " << volume << " m^3, must be above " << smallest
-          << " m^3 (1e-12 of its longest edge cubed)";
-  throw std::invalid_argument(message.str());
-}
 
 /// @throws std::invalid_argument where a material with fibres has none, or one is no unit vector
 void check_fibres(const Material& material, const FibreDirections& fibres, const Tetrahedra& tets) {
@@ -79,35 +30,6 @@ void check_fibres(const Material& material, const FibreDirections& fibres, const
     message << "direction of the fibres of " << name_of(tets, e) << " is ("
             << fibres.col(e).transpose() << "), must be a unit vector";
     throw std::invalid_argument(message.str());
-  }
-}
-
-/// The nearest positive semidefinite matrix (in the Frobenius norm): eigenvalues below 0 become 0.
-Mat9 projected(const Mat9& tangent) {
-  const double round_off = kRoundOff * tangent.norm();
-  const Eigen::LLT<Mat9> shifted(tangent + round_off * Mat9::Identity());
-  if (shifted.info() == Eigen::Success) return tangent;
-  const Eigen::SelfAdjointEigenSolver<Mat9> eigen(tangent);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-         eigen.eigenvectors().transpose();
-}
-
-template <Hyperelastic M>
-Mat9 projected_tangent(const M& material, const Mat3& F) {
-  if constexpr (requires { material.projected_tangent(F); }) {
-    return material.projected_tangent(F);
-  } else {
-    return projected(material.tangent(F));
-  }
-}
-
-/// Cauchy stress σ = P Fᵀ/J [Pa]; not finite where J = 0.
-template <Hyperelastic M>
-Mat3 cauchy(const M& material, const Mat3& F) {
-  if constexpr (requires { material.cauchy_stress(F); }) {
-    return material.cauchy_stress(F);
-  } else {
-    return material.first_piola(F) * F.transpose() / F.determinant();
   }
 }
 

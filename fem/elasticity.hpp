@@ -9,6 +9,7 @@
 #include "fem/linear.hpp"
 #include "fem/mooney_rivlin.hpp"
 #include "fem/neo_hookean.hpp"
+#include "fem/projected_tangent.hpp"
 #include "fem/transversely_isotropic.hpp"
 #include "fem/types.hpp"
 #include "fem/veronda_westmann.hpp"
@@ -22,10 +23,6 @@ using Material =
                  VerondaWestmann<VolumeChange>, VerondaWestmann<LogVolumeChange>,
                  TransverselyIsotropic<VolumeChange>, TransverselyIsotropic<LogVolumeChange>,
                  BlemkerMuscle<VolumeChange>, BlemkerMuscle<LogVolumeChange>>;
-
-/// Which tangent the assembly uses: the consistent one, or each element's projected to be positive
-/// semidefinite (for solvers that need it far from equilibrium).
-enum class Tangent { Consistent, Projected };
 
 /// Elastic energy, internal force and stiffness of one mesh of linear tetrahedra with one material.
 /// Materials with fibres pull along them with the given activation, in [0, 1]; others ignore it.

@@ -62,7 +62,7 @@ std::string fingerprint(const Model& model) {
     if (body.collider) put_numbers(body.collider->X);
     if (body.collider) put_numbers(body.collider->tets);
   }
-  for (const Tissue& tissue : model.tissues) put_numbers(tissue.elasticity.tets());
+  for (const Tissue& tissue : model.tissues) put_numbers(tissue.elements.tets());
   for (const Bone& bone : model.bones) put_numbers(bone.rest.p);
   for (const MuscleModel& muscle : model.muscles) {
     put(muscle.given.max_force, bytes);

@@ -14,15 +14,15 @@ Dynamics::Dynamics(const Model& model) : model_(model) {
     const Tissue& tissue = model.tissues[t];
     tissues_.push_back({Positions(3, tissue.X.cols()),
                         Positions(3, tissue.X.cols()),
-                        tissue.elasticity.make_matrix(),
+                        tissue.elements.make_matrix(),
                         {}});
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
       if (tissue.nodes[i].bone < 0)
         mass_nodes_[static_cast<std::size_t>(tissue.nodes[i].block)] = {static_cast<int>(t),
                                                                         static_cast<int>(i)};
-    const Tetrahedra& tets = tissue.elasticity.tets();
+    const Tetrahedra& tets = tissue.elements.tets();
     double volume = 0;
-    for (const double element : tissue.elasticity.rest_volume()) volume += element;
+    for (const double element : tissue.elements.rest_volume()) volume += element;
     // Edge of the cube that six mean tetrahedra fill.
     trusted_motion_ =
         std::min(trusted_motion_, std::cbrt(6 * volume / static_cast<double>(tets.cols())));
@@ -97,7 +97,7 @@ void Dynamics::evaluate(const double* y, double t) {
       TissueWork& work = tissues_[k];
       positions_of(configuration_, tissue.nodes, work.x);
       work.f.setZero();
-      tissue.elasticity.add_internal_force(work.x, work.f);
+      tissue.elements.add_internal_force(work.x, work.f);
       for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
         const auto column = static_cast<Eigen::Index>(i);
         Vec3 force = -work.f.col(column);
@@ -217,7 +217,7 @@ void Dynamics::add_tissue_stiffness(std::size_t t, double scale, fem::Tangent ta
   const Tissue& tissue = model_.tissues[t];
   TissueWork& work = tissues_[t];
   work.K.set_zero();
-  tissue.elasticity.add_stiffness(work.x, tangent, scale, work.K);
+  tissue.elements.add_stiffness(work.x, tangent, scale, work.K);
   for (int i = 0; i < work.K.num_blocks(); ++i)
     for (int s = work.K.row_begin()[static_cast<std::size_t>(i)];
          s < work.K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
@@ -269,7 +269,7 @@ double Dynamics::kinetic_energy() const {
 double Dynamics::elastic_energy() const {
   double energy = 0;
   for (std::size_t t = 0; t < tissues_.size(); ++t)
-    energy += model_.tissues[t].elasticity.energy(tissues_[t].x);
+    energy += model_.tissues[t].elements.energy(tissues_[t].x);
   return energy;
 }
 

@@ -35,7 +35,7 @@ std::vector<Field> tissue_point_fields(const Model& model, const Tissue& tissue,
 }
 
 std::vector<Field> tissue_cell_fields(const Tissue& tissue, const Positions& x) {
-  const fem::Elasticity& e = tissue.elasticity;
+  const fem::Elasticity& e = tissue.elements;
   return {{"cauchy_stress", "Pa", e.cauchy_stress(x)},
           {"von_mises", "Pa", e.von_mises(x).transpose()},
           {"volume_ratio", "1", e.volume_ratio(x).transpose()},
@@ -106,7 +106,7 @@ void write_frame(const Model& model, const Stepper& stepper, int index, double t
       Positions x;
       positions_of(now, tissue.nodes, x);
       writer.write_tissue(
-          {body.name, x, tissue.elasticity.tets(),
+          {body.name, x, tissue.elements.tets(),
            tissue_point_fields(model, tissue, now, x,
                                contact_forces[static_cast<std::size_t>(tissue.body)]),
            tissue_cell_fields(tissue, x)},

@@ -10,6 +10,7 @@
 #include "sim/body_geometry.hpp"
 #include "sim/collider.hpp"
 #include "sim/muscle_law.hpp"
+#include "sim/tissue.hpp"
 #include "sim/region.hpp"
 
 namespace articular::sim {
@@ -29,8 +30,6 @@ constexpr double kDefaultShell = 1e-3;
 /// A muscle that gives less than this part of its maximal force at rest and full activation is
 /// probably a table applied to another subject.
 constexpr double kLeastForceAtRest = 0.1;
-
-double constrained_modulus(double E, double nu) { return E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)); }
 
 class Builder {
  public:
@@ -102,37 +101,13 @@ class Builder {
 
   void make_tissues() {
     for (std::size_t b = 0; b < scenario().bodies.size(); ++b) {
-      const Body& body = scenario().bodies[b];
-      if (body.kind != Body::Kind::Tissue) continue;
+      if (scenario().bodies[b].kind != Body::Kind::Tissue) continue;
       const MeshData& mesh = geometry_[b].mesh;
-      const Location& where = body.mesh ? body.mesh->where : body.where;
-      try {
-        Tissue tissue{static_cast<int>(b),
-                      fem::Elasticity(mesh.X, mesh.tets, make_material(*body.material)),
-                      fem::lumped_mass(mesh.X, mesh.tets, *body.density),
-                      {},
-                      mesh.X};
-        tissue.nodes.resize(static_cast<std::size_t>(mesh.X.cols()));
-        model_.bodies[b].tissue = static_cast<int>(model_.tissues.size());
-        model_.tissues.push_back(std::move(tissue));
-        surface_.push_back(collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())));
-      } catch (const std::invalid_argument& error) {
-        throw InputError(
-            where, fmt::format("tissue `{}`{}: {}", body.name, mesh_name(body), error.what()));
-      }
+      surface_.push_back(collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())));
+      model_.bodies[b].tissue = static_cast<int>(model_.tissues.size());
+      model_.tissues.push_back(
+          make_tissue(model_, geometry_, surface_.back(), static_cast<int>(b)));
     }
-  }
-
-  static fem::Material make_material(const Material& m) {
-    switch (m.law) {
-      case Material::Law::Linear:
-        return fem::Linear(m.young_modulus, m.poisson_ratio);
-      case Material::Law::Corotated:
-        return fem::Corotated(m.young_modulus, m.poisson_ratio);
-      case Material::Law::NeoHookean:
-        break;
-    }
-    return fem::NeoHookean(m.young_modulus, m.poisson_ratio);
   }
 
   /// Attached nodes to their bones, the others to blocks of their own; then the bones' blocks.
@@ -235,12 +210,10 @@ class Builder {
     const Material& material = *scenario().bodies[b].material;
     Collider collider;
     collider.X = tissue.X;
-    collider.tets = tissue.elasticity.tets();
+    collider.tets = tissue.elements.tets();
     collider.nodes = tissue.nodes;
     complete_collider(collider, {});
-    collider.stiffness = kContactFactor *
-                         constrained_modulus(material.young_modulus, material.poisson_ratio) /
-                         collider.size;
+    collider.stiffness = kContactFactor * constrained_modulus(material) / collider.size;
     collider.reach = kTissueReach * collider.size;
     return collider;
   }
@@ -359,8 +332,25 @@ class Builder {
     return line;
   }
 
+  void make_fibre_muscle(const Muscle& muscle) {
+    const BodyModel& body = model_.bodies[static_cast<std::size_t>(body_index(muscle.tissue))];
+    Tissue& tissue = model_.tissues[static_cast<std::size_t>(body.tissue)];
+    if (tissue.muscle >= 0)
+      throw InputError(muscle.where, fmt::format("the fibres of `{}` have two muscles, `{}` and "
+                                                 "`{}`",
+                                                 body.name,
+                                                 model_.muscles[static_cast<std::size_t>(tissue.muscle)].given.name,
+                                                 muscle.name));
+    tissue.muscle = static_cast<int>(model_.muscles.size());
+    model_.muscles.push_back({.given = muscle});
+  }
+
   void make_lines() {
     for (const Muscle& muscle : scenario().muscles) {
+      if (!muscle.tissue.empty()) {
+        make_fibre_muscle(muscle);
+        continue;
+      }
       Line line = make_line(muscle.name, muscle.path, muscle.where);
       line.muscle = static_cast<int>(model_.muscles.size());
       MuscleModel m{muscle, muscle.optimal_length.value_or(line.start_length),

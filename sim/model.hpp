@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "collision/surface.hpp"
-#include "fem/elasticity.hpp"
+#include "fem/dashpots.hpp"
 #include "sim/rigid_body.hpp"
 #include "sim/scenario.hpp"
+#include "sim/tissue_elements.hpp"
 
 /// The scenario made ready to compute: immutable, holding only what the scene requires.
 ///
@@ -50,10 +51,14 @@ struct Collider {
 
 struct Tissue {
   int body = 0;
-  fem::Elasticity elasticity;
+  TissueElements elements;
+  std::optional<fem::Dashpots> dashpots;
   Eigen::VectorXd lumped_mass;  // [kg], one a node
+  double mass_damping = 0;      // α [1/s]: a force −α m v on each node
   std::vector<NodeRef> nodes;   // what moves each node
   Positions X;                  // at the start, world [m]
+  fem::FibreDirections fibres;  // one an element, or none
+  int muscle = -1;              // index into Model::muscles: what activates the fibres
 };
 
 struct BodyModel {
@@ -82,8 +87,8 @@ struct Line {
 
 struct MuscleModel {
   Muscle given;
-  double optimal_length = 0;  // [m]
-  int line = 0;
+  double optimal_length = 0;  // [m], of a line
+  int line = -1;              // -1: the muscle is made of a tissue's fibres
 };
 
 struct LigamentModel {

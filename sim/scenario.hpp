@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collision/narrow_rule.hpp"
+#include "fem/elasticity.hpp"
 #include "sim/error.hpp"
 
 /// A scenario as the user wrote it, in SI units: plain data, no meshes loaded, nothing looked up.
@@ -64,11 +65,21 @@ struct VShapeGeometry {
   Eigen::Vector2i cells = Eigen::Vector2i::Ones();  // along a leg, across it
 };
 
+/// The directions of a tissue's fibres at the start: exactly one of these.
+struct Fibres {
+  std::optional<Vec3> direction;                      // the same everywhere, unit vector
+  std::optional<std::string> array;                   // a cell array of the mesh, three components
+  std::optional<std::pair<Region, Region>> between;   // along the gradient of the harmonic field
+  Location where;
+};
+
 struct Material {
-  enum class Law { Linear, Corotated, NeoHookean };
-  Law law = Law::NeoHookean;
-  double young_modulus = 0;  // [Pa]
-  double poisson_ratio = 0;
+  fem::Material law = fem::NeoHookean(1, 0);
+  std::optional<Fibres> fibres;  // where the law has them
+  /// Plain linear tetrahedra, or smoothed ones that do not lock.
+  enum class Element { Plain, Smoothed } element = Element::Plain;
+  double mass_damping = 0;       // α [1/s] of Rayleigh damping
+  double stiffness_damping = 0;  // β [s]
   Location where;
 };
 
@@ -155,7 +166,8 @@ struct Anchor {
 
 struct Muscle {
   std::string name;
-  std::vector<Anchor> path;              // from origin to insertion, via points between; at least 2
+  std::string tissue;        // whose fibres it activates; empty: a line, for which the rest is
+  std::vector<Anchor> path;  // from origin to insertion, via points between; at least 2
   double max_force = 0;                  // [N], isometric, at full activation
   std::optional<double> optimal_length;  // [m]; default: length of the path at the start
   double max_length_ratio =

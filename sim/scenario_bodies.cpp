@@ -98,19 +98,6 @@ void read_geometry(const Node& node, Body& body) {
   table.may("place", body.placement, read_placement);
 }
 
-Material read_material(const Node& node) {
-  const TableReader table(node, "material", {"law", "young_modulus", "poisson_ratio"});
-  Material material;
-  material.where = node.where;
-  material.law =
-      read_choice<Material::Law>(table.at("law"), {{"linear", Material::Law::Linear},
-                                                   {"corotated", Material::Law::Corotated},
-                                                   {"neo-hookean", Material::Law::NeoHookean}});
-  material.young_modulus = read_quantity(table.at("young_modulus"), kStress, kPositive);
-  material.poisson_ratio = read_number(table.at("poisson_ratio"), kPoissonRange);
-  return material;
-}
-
 Layer read_layer(const Node& node) {
   const TableReader table(node, "layer", {"thickness", "young_modulus", "poisson_ratio"});
   return {read_quantity(table.at("thickness"), kLength, kPositive),

@@ -51,6 +51,19 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
   Muscle muscle;
   muscle.where = table.node().where;
   muscle.name = read_name(table.at("name")) + side_suffix(table, context.side);
+  table.exactly_one({"path", "tissue"});
+  if (const Node* tissue = table.find("tissue")) {
+    table.refuse({"max_force", "optimal_length", "max_length_ratio", "tendon_ratio",
+                  "passive_fraction", "max_velocity"},
+                 "the muscle is made of a tissue's fibres, whose material says how they pull");
+    const Body& body = read_body_reference(*tissue, context);
+    if (!body.material || !body.material->fibres)
+      fail(*tissue, fmt::format("body `{}` has no fibres", body.name));
+    muscle.tissue = body.name;
+    table.may("excitation", muscle.excitation, read_excitation);
+    read_dynamics(table, muscle);
+    return muscle;
+  }
   muscle.path = read_path(table, context);
   muscle.max_force = read_quantity(table.at("max_force"), kForce, kPositive);
   table.may("optimal_length", muscle.optimal_length, as_quantity(kLength, kPositive));

@@ -147,7 +147,8 @@ std::vector<Probe> read_probes(const TableReader& document, const Context& conte
                                const std::vector<Muscle>& muscles,
                                const std::vector<Ligament>& ligaments) {
   Names lines;
-  for (const Muscle& muscle : muscles) lines.push_back(muscle.name);
+  for (const Muscle& muscle : muscles)
+    if (muscle.tissue.empty()) lines.push_back(muscle.name);
   for (const Ligament& ligament : ligaments) lines.push_back(ligament.name);
   std::vector<Probe> probes;
   for (const Node& node : entries(document, "probe")) {

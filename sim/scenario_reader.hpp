@@ -59,6 +59,8 @@ bool has_surface(const Body& body);
 Placement read_placement(const Node& node);
 Region read_region(const Node& node, const Context& context);
 
+Material read_material(const Node& node);
+
 /// `body`, `point` and `radius` of a table.
 Anchor read_anchor(const TableReader& table, const Context& context);
 

@@ -222,7 +222,7 @@ void Stepper::fail(const State& state, double h) const {
   for (const Tissue& tissue : model_.tissues) {
     Positions x;
     positions_of(dynamics_->configuration(), tissue.nodes, x);
-    const Eigen::VectorXd J = tissue.elasticity.volume_ratio(x);
+    const Eigen::VectorXd J = tissue.elements.volume_ratio(x);
     Eigen::Index worst = 0;
     const double lowest = J.minCoeff(&worst);
     if (!(lowest < least)) continue;

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 Json sizes(const Model& model) {
   std::int64_t elements = 0, collision_elements = 0;
-  for (const Tissue& tissue : model.tissues) elements += tissue.elasticity.num_elements();
+  for (const Tissue& tissue : model.tissues) elements += tissue.elements.num_elements();
   for (const BodyModel& body : model.bodies)
     if (body.collider) collision_elements += body.collider->tets.cols();
   return {{"bodies", model.bodies.size()},

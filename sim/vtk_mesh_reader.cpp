@@ -1,5 +1,7 @@
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkCellTypes.h>
+#include <vtkDataArray.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -82,6 +84,24 @@ class CellCollector {
   std::vector<int> tets_, triangles_;
 };
 
+/// Cell arrays with three components, of the tetrahedra alone.
+std::vector<std::pair<std::string, Eigen::Matrix3Xd>> tetrahedra_vectors(vtkUnstructuredGrid& grid) {
+  std::vector<vtkIdType> tets;
+  for (vtkIdType e = 0; e < grid.GetNumberOfCells(); ++e)
+    if (grid.GetCellType(e) == VTK_TETRA) tets.push_back(e);
+  std::vector<std::pair<std::string, Eigen::Matrix3Xd>> vectors;
+  for (int a = 0; a < grid.GetCellData()->GetNumberOfArrays(); ++a) {
+    vtkDataArray* const array = grid.GetCellData()->GetArray(a);  // null for texts
+    if (array == nullptr || array->GetNumberOfComponents() != 3 || array->GetName() == nullptr)
+      continue;
+    Eigen::Matrix3Xd values(3, static_cast<Eigen::Index>(tets.size()));
+    for (std::size_t e = 0; e < tets.size(); ++e)
+      array->GetTuple(tets[e], values.col(static_cast<Eigen::Index>(e)).data());
+    vectors.emplace_back(array->GetName(), std::move(values));
+  }
+  return vectors;
+}
+
 }  // namespace
 
 MeshData read_with_vtk(const std::filesystem::path& file) {
@@ -100,6 +120,8 @@ MeshData read_with_vtk(const std::filesystem::path& file) {
   }
   MeshData mesh;
   cells.put_into(mesh);
+  if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(set))
+    mesh.cell_vectors = tetrahedra_vectors(*grid);
   mesh.X.resize(3, set->GetNumberOfPoints());
   for (vtkIdType a = 0; a < set->GetNumberOfPoints(); ++a) set->GetPoint(a, mesh.X.col(a).data());
   return mesh;

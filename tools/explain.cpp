@@ -20,7 +20,7 @@ Json explain_body(const sim::Model& model, const sim::BodyModel& body) {
     const auto free = std::count_if(tissue.nodes.begin(), tissue.nodes.end(),
                                     [](const sim::NodeRef& node) { return node.bone < 0; });
     json["modelled_as"] = "tissue";
-    json["tetrahedra"] = tissue.elasticity.num_elements();
+    json["tetrahedra"] = tissue.elements.num_elements();
     json["nodes"] = tissue.nodes.size();
     json["unknowns"] = 3 * free;
   } else {
@@ -47,7 +47,7 @@ double memory_estimate(const sim::Model& model) {
   for (const sim::Tissue& tissue : model.tissues) {
     const auto nodes = static_cast<double>(tissue.X.cols());
     const double blocks = 15 * nodes;
-    bytes += 72 * blocks * 3 + 300.0 * tissue.elasticity.num_elements();
+    bytes += 72 * blocks * 3 + 300.0 * tissue.elements.num_elements();
     bytes += 72 * blocks * 0.3 * std::cbrt(nodes);
   }
   for (const sim::BodyModel& body : model.bodies)

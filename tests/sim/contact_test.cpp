@@ -59,7 +59,7 @@ TEST(Contact, AUniformlyPressedBlockHasTheUniformPressureOfSpringsInSeries) {
   EXPECT_NEAR(row[5], p, 1e-6 * p);
   EXPECT_NEAR(row[6], 1e3 * p / kStiffness, 1e-6 * 1e3 * p / kStiffness);  // [mm]
   EXPECT_NEAR(row[9], p * area, 1e-6 * p * area);                          // reaction on the plate
-  const Eigen::MatrixXd stress = run.model.tissues[0].elasticity.cauchy_stress([&] {
+  const Eigen::MatrixXd stress = run.model.tissues[0].elements.cauchy_stress([&] {
     Positions x;
     positions_of(run.now(), run.model.tissues[0].nodes, x);
     return x;

@@ -37,7 +37,7 @@ double end_displacement(const Simulation& run, double length) {
   const Tissue& tissue = run.model.tissues[0];
   const double limit = tissue.X.row(2).minCoeff() + 1e-6 * length;
   double sum = 0, area = 0;
-  for (const auto& tet : tissue.elasticity.tets().colwise()) {
+  for (const auto& tet : tissue.elements.tets().colwise()) {
     std::vector<int> face;
     for (const int node : tet)
       if (tissue.X(2, node) < limit) face.push_back(node);

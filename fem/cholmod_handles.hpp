@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cholmod.h>
+#include <omp.h>
+
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+// Declared here: cblas.h may be that of another BLAS, which has no such function.
+extern "C" void openblas_set_num_threads(int num_threads);
+
+/// CHOLMOD's objects with owners; for the two sources that use it, and no other header.
+namespace articular::fem {
+
+class CholmodCommon {
+ public:
+  CholmodCommon() {
+    cholmod_start(&common_);
+    common_.print = 0;
+    common_.quick_return_if_not_posdef = 1;
+  }
+  ~CholmodCommon() { cholmod_finish(&common_); }
+  CholmodCommon(const CholmodCommon&) = delete;
+  CholmodCommon& operator=(const CholmodCommon&) = delete;
+
+  cholmod_common* get() { return &common_; }
+  cholmod_common* operator->() { return &common_; }
+
+  /// Turns CHOLMOD's status into an exception, except the outcomes that a caller must expect.
+  void check() const {
+    if (common_.status >= CHOLMOD_OK) return;  // warnings: not positive definite
+    if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (common_.status == CHOLMOD_TOO_LARGE) {
+      throw std::length_error("the Cholesky factor has more than 2^31 - 1 entries");
+    }
+    throw std::logic_error("CHOLMOD status " + std::to_string(common_.status));
+  }
+
+ private:
+  cholmod_common common_{};
+};
+
+struct CholmodFree {
+  cholmod_common* common;
+  void operator()(cholmod_sparse* p) const { cholmod_free_sparse(&p, common); }
+  void operator()(cholmod_factor* p) const { cholmod_free_factor(&p, common); }
+  void operator()(cholmod_dense* p) const { cholmod_free_dense(&p, common); }
+};
+template <class T>
+using CholmodHandle = std::unique_ptr<T, CholmodFree>;
+
+/// CHOLMOD asks OpenMP for four threads for its copying loops whatever it is told; on a machine
+/// with fewer free cores their spinning doubles the time of a factorization. While this lives, a
+/// parallel region of the calling thread has one thread.
+class OneThread {
+ public:
+  OneThread() { omp_set_max_active_levels(0); }
+  ~OneThread() { omp_set_max_active_levels(levels_); }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+ private:
+  int levels_ = omp_get_max_active_levels();
+};
+
+/// OpenBLAS splits its sums by the number of threads: with one the answer has the same bits
+/// everywhere. The setting is that of the process; nothing else uses BLAS.
+inline void use_one_blas_thread() { openblas_set_num_threads(1); }
+
+}  // namespace articular::fem

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "fem/block_matrix.hpp"
+#include "fem/edge_domains.hpp"
+#include "fem/mooney_rivlin.hpp"
+#include "fem/nodal_pressure.hpp"
+#include "fem/pressure_gradient.hpp"
+#include "fem/projected_tangent.hpp"
+#include "fem/types.hpp"
+
+namespace articular::fem {
+
+/// Materials that satisfy Split; others join by a name in this list.
+using SplitMaterials = std::variant<MooneyRivlin<VolumeChange>, MooneyRivlin<LogVolumeChange>>;
+
+/// The two numbers of the formulation. Larger ones are stiffer and smoother (plain_share) or softer
+/// (tau); these have the most margin in tests/benchmarks/locking_study.cpp.
+struct Smoothing {
+  double plain_share = 0.05;  // s [-], in [0, 1]: part of the distortion taken by tetrahedra alone
+  double tau = 1.5;           // τ [-], > 0: weight of the pressure's stabilisation
+};
+
+/// Elastic energy, internal force and stiffness of linear tetrahedra that do not lock: distortion
+/// smoothed over edges, and a nodal pressure (see edge_domains.hpp, nodal_pressure.hpp),
+///
+///   W(x) = (1 − s) Σ_k V_k Ψ_d(F_k) + s Σ_e V_e Ψ_d(F_e) + ½ bᵀA⁻¹b,   b_c = Σ_e V_e/4 Θ(F_e),
+///
+/// k edges, e elements, c pressures. Its derivatives, with the nodal pressure p = A⁻¹ b [Pa], p_e
+/// the mean of the corners and G = ∂b/∂xᵀ:
+///
+///   f = f_d + G p,   ∂f/∂x = K + G A⁻¹ Gᵀ,   K = K_d + Σ_e V_e p_e ∂²Θ/∂x²
+///
+/// K has the pattern of the edges' stencils. The full second part couples all nodes and is only
+/// applied by its factors (pressure_term.hpp).
+///
+/// Near ν = 0.5 the bulk modulus makes p(x) a steep function, and Newton's method in x alone takes
+/// ever shorter steps. The functions with a p take the pressure as an unknown of its own: see
+/// predicted_pressure().
+///
+/// Holds work memory: one object serves one thread at a time.
+class SmoothedElasticity {
+ public:
+  /// @throws std::invalid_argument as Elasticity does, and where `smoothing` is out of range
+  SmoothedElasticity(const Positions& X, const Tetrahedra& tets, const SplitMaterials& material,
+                     const Smoothing& smoothing = {});
+  /// @param material_of_element  index into `materials`, one an element
+  SmoothedElasticity(const Positions& X, const Tetrahedra& tets,
+                     std::vector<SplitMaterials> materials, std::vector<int> material_of_element,
+                     const Smoothing& smoothing = {});
+
+  int num_nodes() const { return num_nodes_; }
+  int num_elements() const { return static_cast<int>(volume_.size()); }
+  int num_pressures() const { return pressure_.size(); }
+  const Tetrahedra& tets() const { return tets_; }
+  const std::vector<double>& rest_volume() const { return volume_; }  // [m³], one an element
+  const EdgeDomains& domains() const { return domains_; }
+  const NodalPressure& nodal_pressure() const { return pressure_; }
+
+  /// W [J]
+  double energy(const Positions& x) const;
+  /// f += ∂W/∂x [N]: the force needed to hold the shape.
+  void add_internal_force(const Positions& x, Positions& f) const;
+  /// p = A⁻¹ b(x) [Pa], positive in tension
+  void pressure(const Positions& x, Eigen::VectorXd& p) const;
+
+  /// The same with p as an unknown: L(x, p) = W_d(x) + pᵀb(x) − ½ pᵀA p, which is W at p = A⁻¹
+  /// b(x). Up to the constant ½ pᵀA p that no step in x changes.
+  double energy(const Positions& x, const Eigen::VectorXd& p) const;
+  /// f += ∂L/∂x = f_d + G p
+  void add_internal_force(const Positions& x, const Eigen::VectorXd& p, Positions& f) const;
+  /// p = A⁻¹ (b(x) + Gᵀ dx): the pressure after the step dx to first order. Newton's method in (x,
+  /// p) solves (K(x, p) + G A⁻¹ Gᵀ) dx = f_ext − f_int(x) and goes to x + dx with this p.
+  void predicted_pressure(const Positions& x, const PressureGradient& G, const Positions& dx,
+                          Eigen::VectorXd& p) const;
+
+  /// A matrix with the pattern of K: one block row a node.
+  BlockMatrix make_matrix() const;
+  /// K += scale * (∂²W_d/∂x² + Σ_e V_e p_e ∂²Θ/∂x²) [N/m], for a K of make_matrix().
+  /// @param p  from pressure() or predicted_pressure()
+  void add_stiffness(const Positions& x, const Eigen::VectorXd& p, Tangent tangent, double scale,
+                     BlockMatrix& K) const;
+  /// The pattern of the elements alone, and the stiffness with s = 1: a third of the blocks, for
+  /// preconditioners.
+  BlockMatrix make_plain_matrix() const;
+  void add_plain_stiffness(const Positions& x, const Eigen::VectorXd& p, Tangent tangent,
+                           double scale, BlockMatrix& K) const;
+  /// The pattern of G, and G(x) itself.
+  PressureGradient make_pressure_gradient() const;
+  void set_pressure_gradient(const Positions& x, PressureGradient& G) const;
+
+  /// Per element, for output: means of the stress of the six edges' distortion, and the nodal
+  /// pressures' mean. cauchy_stress: 6 x M (xx yy zz xy yz xz) [Pa].
+  Eigen::MatrixXd cauchy_stress(const Positions& x) const;
+  Eigen::VectorXd von_mises(const Positions& x) const;              // [Pa]
+  Eigen::VectorXd volume_ratio(const Positions& x) const;           // J
+  Eigen::VectorXd strain_energy_density(const Positions& x) const;  // [J/m³]; sums to energy(x)
+
+ private:
+  template <class Function>
+  void for_each_domain(const Positions& x, Function function) const;
+  template <class Function>
+  void for_each_element(const Positions& x, Function function) const;
+  Mat3 gradient_of_domain(const Positions& x, int k) const;
+  double mean_pressure(int e, const Eigen::VectorXd& p) const;
+  void dilatation(const Positions& x, Eigen::VectorXd& b) const;
+  void add_domain_stiffness(int k, const Mat9& C, double scale, BlockMatrix& K) const;
+  void add_element_stiffness(const Positions& x, const Eigen::VectorXd& p, Tangent tangent,
+                             double share, double scale, std::span<const int> slots,
+                             BlockMatrix& K) const;
+
+  int num_nodes_ = 0;
+  Tetrahedra tets_;
+  std::vector<SplitMaterials> materials_;
+  std::vector<int> material_of_element_;
+  Smoothing smoothing_;
+  std::vector<Mat3> inverse_edges_;  // (X1-X0, X2-X0, X3-X0)⁻¹ [1/m]
+  std::vector<double> volume_;       // [m³]
+  std::vector<int> elements_;        // ordered by material
+  std::vector<int> element_begin_;   // of each material, into elements_
+  EdgeDomains domains_;
+  NodalPressure pressure_;
+
+  std::vector<int> domain_slots_;  // of the pairs (a, b ≤ a) and (b, a) of each domain
+  std::vector<int> domain_slot_begin_;
+  std::vector<int> slots_, plain_slots_;  // 16 an element, 4b + a, into the two matrices
+  std::vector<int> gradient_slots_;       // 16 an element, 4c + a, into G
+  mutable Eigen::VectorXd p_work_;
+  mutable std::vector<Eigen::Matrix<double, 9, 3>> columns_;  // work of add_domain_stiffness
+};
+
+}  // namespace articular::fem
