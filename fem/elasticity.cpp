@@ -57,20 +57,16 @@ Elasticity::Elasticity(const Positions& X, const Tetrahedra& tets, Material mate
   }
 }
 
-/// Calls function(material, e, F) for the elements in their order; the material is chosen once. One
-/// with fibres is handed over as that of the element.
+/// Calls function(law, e, F) for the elements in their order; the material is chosen once.
 template <class Function>
 void Elasticity::for_each_element(const Positions& x, double activation, Function function) const {
   assert(x.cols() == num_nodes_);
+  assert(activation >= 0 && activation <= 1);
   std::visit(
-      [&]<class M>(const M& material) {
+      [&](const auto& material) {
         for (int e = 0; e < num_elements(); ++e) {
           const Mat3 F = deformation_gradient(gather(x, tets_, e), inverse_edges_[e]);
-          if constexpr (Fibred<M>) {
-            function(material.along(fibres_.col(e), activation), e, F);
-          } else {
-            function(material, e, F);
-          }
+          function(element_law(material, fibres_, e, activation), e, F);
         }
       },
       material_);

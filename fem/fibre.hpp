@@ -22,6 +22,17 @@ concept Fibred = requires(const M& m, const Vec3& a0, double activation) {
   { m.along(a0, activation) } -> Split;
 };
 
+/// The law of element e: the material, or what it is along the fibres of e.
+template <class M>
+decltype(auto) element_law(const M& material, [[maybe_unused]] const FibreDirections& fibres,
+                           [[maybe_unused]] Eigen::Index e, [[maybe_unused]] double activation) {
+  if constexpr (Fibred<M>) {
+    return material.along(fibres.col(e), activation);
+  } else {
+    return (material);
+  }
+}
+
 /// Ψ_d = Ψ_ground + W(λ̄): a ground substance with fibres along a0 that feel the stretch without
 /// the change of volume [Weiss 1996]. Defined for J > 0.
 template <Hyperelastic Ground, FibreLaw Law>

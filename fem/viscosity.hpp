@@ -60,19 +60,22 @@ class KelvinVoigt {
   double eta_, lambda_;  // [Pa s]; λ = ζ − 2η/3
 };
 
-/// Rayleigh's damping D = α M + β K, made objective: K is that of the rest state, and moves with
-/// the element as the dashpot above, so that rigid rotations are damped by α alone and the matrix
-/// stays positive semidefinite where the tangent K does not. At rest it is β K, and a mode of the
-/// circular frequency ω decays with the damping ratio α/(2ω) + βω/2. α also slows a free flight.
-struct Rayleigh {
-  double alpha;  // [1/s], not negative: force α m v on a node
-  double beta;   // [s], not negative
-};
+// Rayleigh's damping D = α M + β K, made objective: K is that of the rest state and moves with the
+// element as a dashpot, so that a rotation is damped by α alone and the matrix is positive
+// semidefinite where the tangent K is not. About rest it is β K, and a mode of the circular
+// frequency ω decays with the damping ratio α/(2ω) + βω/2. α also slows a free flight.
 
-/// The dashpot of β K for a material with these moduli [Pa] at rest: η = β μ, ζ = β κ.
+/// The dashpot of β K, β [s], for a material with these moduli [Pa] at rest: η = β μ, ζ = β κ.
+/// @throws std::invalid_argument for a negative β
 inline KelvinVoigt stiffness_damping(double beta, double shear_modulus, double bulk_modulus) {
   checked_not_negative(beta, "stiffness damping", "s");
   return {beta * shear_modulus, beta * bulk_modulus};
+}
+
+/// f += α m v [N], α [1/s]. @param lumped_mass  one entry a node [kg]
+inline void add_mass_damping(double alpha, const Eigen::VectorXd& lumped_mass, const Positions& v,
+                             Positions& f) {
+  f += alpha * v * lumped_mass.asDiagonal();
 }
 
 }  // namespace articular::fem

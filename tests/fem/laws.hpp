@@ -39,7 +39,7 @@ void PrintTo(const LawExample& example, std::ostream* out);  // found by the tes
 /// Fibred ones have their fibres along kFibre.
 std::vector<LawExample> all_laws();
 
-/// Two muscles and a ligament for the tests of fibres.
-ToeLinearFibre cruciate_fibre();  // with an active stress of 5 MPa
+/// Fibres of the anterior cruciate ligament, with an active stress of 5 MPa for the tests.
+ToeLinearFibre cruciate_fibre();
 
 }  // namespace articular::fem

@@ -90,6 +90,44 @@ TEST(Rayleigh, StiffnessDampingIsBetaTimesTheStiffnessAtRest) {
   EXPECT_THROW((void)stiffness_damping(-1, 1, 1), std::invalid_argument);
 }
 
+TEST(Rayleigh, MassDampingIsAlphaTimesTheMomentum) {
+  Positions v(3, 2), f = Positions::Ones(3, 2);
+  v << 1, 0, 2, 0, 0, -3;
+  add_mass_damping(2, Eigen::Vector2d(0.1, 0.5), v, f);
+  Positions expected(3, 2);
+  expected << 1.2, 1, 1.4, 1, 1, -2;
+  EXPECT_LT((f - expected).norm(), kIdentity);
+}
+
+// A confined column with a mass at its end, F = diag(1 + q, 1, 1): m q̈ + α m q̇ + P_xx + P_v,xx = 0
+// with the stiffness k = κ + 4μ/3. Swings so small that they are linear decay as exp(−ζ ω t),
+// ζ = α/(2ω) + βω/2: over one period of ω_d = ω √(1 − ζ²) to exp(−2π ζ/√(1 − ζ²)).
+TEST(Rayleigh, SwingsDecayWithTheDampingRatio) {
+  const MooneyRivlin<> law(3e3, 1e3, 1e5);
+  const double alpha = 40, beta = 1e-4, m = 0.5;
+  const KelvinVoigt dashpot = stiffness_damping(beta, law.shear_modulus(), law.bulk_modulus());
+  const double omega = std::sqrt((1e5 + 4.0 / 3 * 8e3) / m);
+  const double zeta = alpha / (2 * omega) + beta * omega / 2, root = std::sqrt(1 - zeta * zeta);
+  const auto acceleration = [&](double q, double v) {
+    Mat3 F = Mat3::Identity(), rate = Mat3::Zero();
+    F(0, 0) += q;
+    rate(0, 0) = v;
+    return -(law.first_piola(F)(0, 0) + dashpot.first_piola(F, rate)(0, 0)) / m - alpha * v;
+  };
+  constexpr int kSteps = 1000;
+  const double start = 1e-6, period = 2 * std::numbers::pi / (omega * root), dt = period / kSteps;
+  double q = start, v = -zeta * omega * start;  // the slope of exp(−ζωt) cos(ω_d t) at 0
+  for (int n = 0; n < kSteps; ++n) {            // Runge–Kutta
+    const double k1 = acceleration(q, v), v2 = v + dt / 2 * k1;
+    const double k2 = acceleration(q + dt / 2 * v, v2), v3 = v + dt / 2 * k2;
+    const double k3 = acceleration(q + dt / 2 * v2, v3), v4 = v + dt * k3;
+    const double k4 = acceleration(q + dt * v3, v4);
+    q += dt / 6 * (v + 2 * v2 + 2 * v3 + v4);
+    v += dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  EXPECT_NEAR(q / start, std::exp(-2 * std::numbers::pi * zeta / root), 1e-5);
+}
+
 TEST(KelvinVoigt, RefusesNegativeViscosities) {
   EXPECT_THROW(KelvinVoigt(-1, 0), std::invalid_argument);
   EXPECT_THROW(KelvinVoigt(1, -1e-3), std::invalid_argument);
@@ -228,6 +266,29 @@ TEST(PronySeries, RelaxedTangentIsTheDerivativeOfTheRelaxedStress) {
   const Mat9 C = relaxed_tangent(law.tangent(F), fraction, memory);
   EXPECT_LT(derivative_error(stress, F.reshaped(), C, 1), kDerivative);
   EXPECT_LT((C - C.transpose()).norm(), kIdentity * C.norm());
+}
+
+// One strain history in two bodies, one of which turns while it is strained.
+TEST(PronySeries, RelaxedStressTurnsWithARotation) {
+  const PronySeries series(kTerms);
+  const IsochoricMooneyRivlin law(3e3, 1e3);
+  Random random;
+  std::vector<Mat3> h(3, Mat3::Zero()), h_turned = h;
+  Mat3 S0 = Mat3::Zero(), S0_turned = S0;
+  for (int n = 0; n < 5; ++n) {
+    const Mat3 F = random_gradient(random), Q = random.rotation(), QF = Q * F;
+    const double dt = 0.5, fraction = series.instantaneous_fraction(dt);
+    const Mat3 P0 = law.first_piola(F), P0_turned = law.first_piola(QF);
+    const Mat3 P = relaxed_first_piola(P0, F, fraction, series.memory(h, S0, dt));
+    const Mat3 P_turned =
+        relaxed_first_piola(P0_turned, QF, fraction, series.memory(h_turned, S0_turned, dt));
+    EXPECT_LT((P_turned - Q * P).norm(), 1e-11 * P.norm());
+    const Mat3 S0_next = F.inverse() * P0, S0_turned_next = QF.inverse() * P0_turned;
+    series.advance(S0, S0_next, dt, h);
+    series.advance(S0_turned, S0_turned_next, dt, h_turned);
+    S0 = S0_next;
+    S0_turned = S0_turned_next;
+  }
 }
 
 std::string message_of(const std::vector<PronyTerm>& terms) {
