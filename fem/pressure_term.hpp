@@ -24,7 +24,7 @@ class PressureOperator {
  public:
   void set(std::span<const PressureTerm> terms) { terms_.assign(terms.begin(), terms.end()); }
   void add_product(const Eigen::VectorXd& x, Eigen::VectorXd& y);
-  /// Of the diagonal block i, with the diagonal of A in place of A.
+  /// Of the diagonal block i, from the diagonal of A.
   Mat3 diagonal_estimate(int i) const;
 
  private:

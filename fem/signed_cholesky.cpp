@@ -16,6 +16,9 @@ namespace {
 // Blocks up to this size are factored by plain loops, larger ones by halves with BLAS.
 constexpr int kSmallBlock = 24;
 
+// Supernodes up to this many columns are solved by plain loops: a call of BLAS would cost more.
+constexpr int kFewColumns = 6;
+
 /// The dense block A = L S Lᵀ in place (lower half, column-major, n columns of stride ld).
 bool factorize_dense(int n, double* A, int ld, const double* sign, double* work) {
   if (n <= kSmallBlock) {
@@ -95,6 +98,8 @@ struct SignedCholesky::Factor {
   void allocate_work();
   void subtract_descendant(int d, int s);
   bool factorize_supernode(int s);
+  void solve_forward(int s, Eigen::VectorXd& y) const;
+  void solve_backward(int s, Eigen::VectorXd& y) const;
 };
 
 SignedCholesky::SignedCholesky() { use_one_blas_thread(); }
@@ -263,35 +268,57 @@ bool SignedCholesky::factorize(const SymmetricMatrix& A) {
   return true;
 }
 
+/// y ← L⁻¹ y in the columns of s, and what follows from it below.
+void SignedCholesky::Factor::solve_forward(int s, Eigen::VectorXd& y) const {
+  const int n = num_columns(s), ld = num_rows(s);
+  const double* block = value.data() + value_begin[s];
+  double* own = y.data() + first_column[s];
+  const int* rows = row.data() + row_begin[s];
+  if (n <= kFewColumns) {
+    for (int j = 0; j < n; ++j, block += ld) {
+      const double y_j = own[j] /= block[j];
+      for (int i = j + 1; i < ld; ++i) y[rows[i]] -= block[i] * y_j;
+    }
+    return;
+  }
+  cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, block, ld, own, 1);
+  if (ld == n) return;
+  cblas_dgemv(CblasColMajor, CblasNoTrans, ld - n, n, 1, block + n, ld, own, 1, 0, below.data(), 1);
+  for (int i = n; i < ld; ++i) y[rows[i]] -= below[i - n];
+}
+
+/// y ← L⁻ᵀ y in the columns of s, from what is known below.
+void SignedCholesky::Factor::solve_backward(int s, Eigen::VectorXd& y) const {
+  const int n = num_columns(s), ld = num_rows(s);
+  const double* block = value.data() + value_begin[s];
+  double* own = y.data() + first_column[s];
+  const int* rows = row.data() + row_begin[s];
+  if (n <= kFewColumns) {
+    for (int j = n - 1; j >= 0; --j) {
+      const double* column = block + std::ptrdiff_t{j} * ld;
+      double sum = own[j];
+      for (int i = j + 1; i < ld; ++i) sum -= column[i] * y[rows[i]];
+      own[j] = sum / column[j];
+    }
+    return;
+  }
+  if (ld > n) {
+    for (int i = n; i < ld; ++i) below[i - n] = y[rows[i]];
+    cblas_dgemv(CblasColMajor, CblasTrans, ld - n, n, -1, block + n, ld, below.data(), 1, 1, own,
+                1);
+  }
+  cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, block, ld, own, 1);
+}
+
 void SignedCholesky::solve(Eigen::VectorXd& x) const {
   assert(factor_ && x.size() == static_cast<Eigen::Index>(factor_->order.size()));
   const Factor& L = *factor_;
   const OneThread one_thread;
   Eigen::VectorXd& y = L.ordered;
-  double* below = L.below.data();
   for (Eigen::Index i = 0; i < y.size(); ++i) y[i] = x[L.order[i]];
-  for (int s = 0; s < L.num_supernodes(); ++s) {
-    const int n = L.num_columns(s), ld = L.num_rows(s);
-    const double* block = L.value.data() + L.value_begin[s];
-    double* own = y.data() + L.first_column[s];
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, block, ld, own, 1);
-    if (ld == n) continue;
-    cblas_dgemv(CblasColMajor, CblasNoTrans, ld - n, n, 1, block + n, ld, own, 1, 0, below, 1);
-    const int* rows = L.row.data() + L.row_begin[s] + n;
-    for (int i = 0; i < ld - n; ++i) y[rows[i]] -= below[i];
-  }
+  for (int s = 0; s < L.num_supernodes(); ++s) L.solve_forward(s, y);
   for (Eigen::Index i = 0; i < y.size(); ++i) y[i] *= L.sign[i];
-  for (int s = L.num_supernodes() - 1; s >= 0; --s) {
-    const int n = L.num_columns(s), ld = L.num_rows(s);
-    const double* block = L.value.data() + L.value_begin[s];
-    double* own = y.data() + L.first_column[s];
-    const int* rows = L.row.data() + L.row_begin[s] + n;
-    for (int i = 0; i < ld - n; ++i) below[i] = y[rows[i]];
-    if (ld > n) {
-      cblas_dgemv(CblasColMajor, CblasTrans, ld - n, n, -1, block + n, ld, below, 1, 1, own, 1);
-    }
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, block, ld, own, 1);
-  }
+  for (int s = L.num_supernodes() - 1; s >= 0; --s) L.solve_backward(s, y);
   for (Eigen::Index i = 0; i < y.size(); ++i) x[L.order[i]] = y[i];
 }
 

@@ -277,38 +277,41 @@ void SmoothedElasticity::add_domain_stiffness(int k, const Mat9& C, double scale
   }
 }
 
-/// The part of the elements: `share` of the distortion, and the pressure's geometric stiffness.
-void SmoothedElasticity::add_element_stiffness(const Positions& x, const Eigen::VectorXd& p,
-                                               Tangent tangent, double share, double scale,
+/// K_ab += scale V_e ∂N_a/∂X · C · ∂N_b/∂X
+void SmoothedElasticity::add_element_stiffness(int e, const Mat9& C, double scale,
                                                std::span<const int> slots, BlockMatrix& K) const {
-  for_each_element(x, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
-    Mat9 C = mean_pressure(e, p) * theta.hessian(F);
-    if (share > 0) C += share * distortion.tangent(F);
-    if (tangent == Tangent::Projected) C = projected(C);
-    const Mat12 K_e = stiffness(C, shape_gradients(inverse_edges_[e]), scale * volume_[e]);
-    const int* slot = &slots[16 * static_cast<std::size_t>(e)];
-    for (int b = 0; b < 4; ++b) {
-      for (int a = 0; a < 4; ++a) K.block(*slot++) += K_e.block<3, 3>(3 * a, 3 * b);
-    }
-  });
+  const Mat12 K_e = stiffness(C, shape_gradients(inverse_edges_[e]), scale * volume_[e]);
+  const int* slot = &slots[16 * static_cast<std::size_t>(e)];
+  for (int b = 0; b < 4; ++b) {
+    for (int a = 0; a < 4; ++a) K.block(*slot++) += K_e.block<3, 3>(3 * a, 3 * b);
+  }
 }
 
 void SmoothedElasticity::add_stiffness(const Positions& x, const Eigen::VectorXd& p,
                                        Tangent tangent, double scale, BlockMatrix& K) const {
   assert(K.num_blocks() == num_nodes_ && p.size() == num_pressures());
-  const double smoothed = (1 - smoothing_.plain_share) * scale;
+  const double share = smoothing_.plain_share;
   for_each_domain(x, [&](const auto& distortion, int k, const Mat3& F) {
     const Mat9 C =
         tangent == Tangent::Projected ? projected_tangent(distortion, F) : distortion.tangent(F);
-    add_domain_stiffness(k, C, smoothed, K);
+    add_domain_stiffness(k, C, (1 - share) * scale, K);
   });
-  add_element_stiffness(x, p, tangent, smoothing_.plain_share, scale, slots_, K);
+  for_each_element(x, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
+    Mat9 C = mean_pressure(e, p) * theta.hessian(F);
+    if (share > 0) C += share * distortion.tangent(F);
+    if (tangent == Tangent::Projected) C = projected(C);
+    add_element_stiffness(e, C, scale, slots_, K);
+  });
 }
 
-void SmoothedElasticity::add_plain_stiffness(const Positions& x, const Eigen::VectorXd& p,
-                                             Tangent tangent, double scale, BlockMatrix& K) const {
-  assert(K.num_blocks() == num_nodes_ && p.size() == num_pressures());
-  add_element_stiffness(x, p, tangent, 1, scale, plain_slots_, K);
+void SmoothedElasticity::add_plain_stiffness(const Positions& x, Tangent tangent, double scale,
+                                             BlockMatrix& K) const {
+  assert(K.num_blocks() == num_nodes_);
+  for_each_element(x, [&](auto, const auto& distortion, int e, const Mat3& F) {
+    const Mat9 C =
+        tangent == Tangent::Projected ? projected_tangent(distortion, F) : distortion.tangent(F);
+    add_element_stiffness(e, C, scale, plain_slots_, K);
+  });
 }
 
 void SmoothedElasticity::set_pressure_gradient(const Positions& x, PressureGradient& G) const {

@@ -84,11 +84,11 @@ class SmoothedElasticity {
   /// @param p  from pressure() or predicted_pressure()
   void add_stiffness(const Positions& x, const Eigen::VectorXd& p, Tangent tangent, double scale,
                      BlockMatrix& K) const;
-  /// The pattern of the elements alone, and the stiffness with s = 1: a third of the blocks, for
-  /// preconditioners.
+  /// For preconditioners: the pattern of the elements alone, a third of the blocks, and the
+  /// stiffness of the distortion in it (s = 1, without the pressure's geometric part, which can be
+  /// negative).
   BlockMatrix make_plain_matrix() const;
-  void add_plain_stiffness(const Positions& x, const Eigen::VectorXd& p, Tangent tangent,
-                           double scale, BlockMatrix& K) const;
+  void add_plain_stiffness(const Positions& x, Tangent tangent, double scale, BlockMatrix& K) const;
   /// The pattern of G, and G(x) itself.
   PressureGradient make_pressure_gradient() const;
   void set_pressure_gradient(const Positions& x, PressureGradient& G) const;
@@ -109,8 +109,7 @@ class SmoothedElasticity {
   double mean_pressure(int e, const Eigen::VectorXd& p) const;
   void dilatation(const Positions& x, Eigen::VectorXd& b) const;
   void add_domain_stiffness(int k, const Mat9& C, double scale, BlockMatrix& K) const;
-  void add_element_stiffness(const Positions& x, const Eigen::VectorXd& p, Tangent tangent,
-                             double share, double scale, std::span<const int> slots,
+  void add_element_stiffness(int e, const Mat9& C, double scale, std::span<const int> slots,
                              BlockMatrix& K) const;
 
   int num_nodes_ = 0;
