@@ -1,5 +1,7 @@
 #include "fem/edge_domains.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -78,6 +80,21 @@ EdgeDomains make_edge_domains(const Tetrahedra& tets, std::span<const Mat3> inve
     domains.material_begin[m + 1] += domains.material_begin[m];
   }
   return domains;
+}
+
+FibreDirections mean_fibres(const EdgeDomains& domains, std::span<const double> volume,
+                            const FibreDirections& fibres) {
+  std::vector<Mat3> sum(static_cast<std::size_t>(domains.size()), Mat3::Zero());
+  for (std::size_t e = 0; e < volume.size(); ++e) {
+    const Vec3 a = fibres.col(static_cast<Eigen::Index>(e));
+    for (std::size_t i = 0; i < 6; ++i)
+      sum[domains.of_element[6 * e + i]] += volume[e] * a * a.transpose();
+  }
+  FibreDirections mean(3, domains.size());
+  for (int k = 0; k < domains.size(); ++k) {
+    mean.col(k) = Eigen::SelfAdjointEigenSolver<Mat3>(sum[k]).eigenvectors().col(2);
+  }
+  return mean;
 }
 
 }  // namespace articular::fem

@@ -1,28 +1,13 @@
 #pragma once
 
-#include <variant>
 #include <vector>
 
-#include "fem/blemker_muscle.hpp"
+#include "fem/any_material.hpp"
 #include "fem/block_matrix.hpp"
-#include "fem/corotated.hpp"
-#include "fem/linear.hpp"
-#include "fem/mooney_rivlin.hpp"
-#include "fem/neo_hookean.hpp"
 #include "fem/projected_tangent.hpp"
-#include "fem/transversely_isotropic.hpp"
 #include "fem/types.hpp"
-#include "fem/veronda_westmann.hpp"
-#include "fem/yeoh.hpp"
 
 namespace articular::fem {
-
-using Material =
-    std::variant<Linear, Corotated, NeoHookean, MooneyRivlin<VolumeChange>,
-                 MooneyRivlin<LogVolumeChange>, Yeoh<VolumeChange>, Yeoh<LogVolumeChange>,
-                 VerondaWestmann<VolumeChange>, VerondaWestmann<LogVolumeChange>,
-                 TransverselyIsotropic<VolumeChange>, TransverselyIsotropic<LogVolumeChange>,
-                 BlemkerMuscle<VolumeChange>, BlemkerMuscle<LogVolumeChange>>;
 
 /// Elastic energy, internal force and stiffness of one mesh of linear tetrahedra with one material.
 /// Materials with fibres pull along them with the given activation, in [0, 1]; others ignore it.

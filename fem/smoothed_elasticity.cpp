@@ -15,7 +15,7 @@ namespace articular::fem {
 namespace {
 
 void check(const Smoothing& smoothing, const Tetrahedra& tets,
-           const std::vector<SplitMaterials>& materials, const std::vector<int>& of_element) {
+           const std::vector<Material>& materials, const std::vector<int>& of_element) {
   std::ostringstream message;
   if (!(smoothing.plain_share >= 0 && smoothing.plain_share <= 1)) {
     message << "plain_share is " << smoothing.plain_share << ", must lie in [0, 1]";
@@ -57,20 +57,24 @@ std::vector<int> offsets_by_four(std::size_t num_elements) {
 }  // namespace
 
 SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tets,
-                                       const SplitMaterials& material, const Smoothing& smoothing)
+                                       const Material& material, const Smoothing& smoothing,
+                                       FibreDirections fibres)
     : SmoothedElasticity(X, tets, std::vector{material},
-                         std::vector<int>(static_cast<std::size_t>(tets.cols()), 0), smoothing) {}
+                         std::vector<int>(static_cast<std::size_t>(tets.cols()), 0), smoothing,
+                         std::move(fibres)) {}
 
 SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tets,
-                                       std::vector<SplitMaterials> materials,
+                                       std::vector<Material> materials,
                                        std::vector<int> material_of_element,
-                                       const Smoothing& smoothing)
+                                       const Smoothing& smoothing, FibreDirections fibres)
     : num_nodes_(static_cast<int>(X.cols())),
       tets_(tets),
       materials_(std::move(materials)),
       material_of_element_(std::move(material_of_element)),
-      smoothing_(smoothing) {
+      smoothing_(smoothing),
+      fibres_(std::move(fibres)) {
   check(smoothing_, tets_, materials_, material_of_element_);
+  for (const Material& material : materials_) check_fibres(material, fibres_, tets_);
   for (Eigen::Index e = 0; e < tets.cols(); ++e) {
     volume_.push_back(checked_volume(X, tets, e));
     inverse_edges_.push_back(edge_matrix(gather(X, tets, e)).inverse());
@@ -84,7 +88,7 @@ SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tet
     element_begin_.push_back(static_cast<int>(elements_.size()));
   }
   std::vector<PressureModuli> moduli;
-  for (const SplitMaterials& material : materials_) {
+  for (const Material& material : materials_) {
     moduli.push_back(std::visit(
         [](const auto& m) {
           return PressureModuli{.kappa = m.bulk_modulus(), .mu = m.shear_modulus()};
@@ -92,6 +96,7 @@ SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tet
         material));
   }
   domains_ = make_edge_domains(tets_, inverse_edges_, volume_, material_of_element_, num_materials);
+  if (fibres_.cols() > 0) domain_fibres_ = mean_fibres(domains_, volume_, fibres_);
   pressure_ =
       NodalPressure(num_nodes_, tets_, volume_, material_of_element_, moduli, smoothing_.tau);
 
@@ -118,14 +123,15 @@ SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tet
 
 /// Calls function(distortion, k, F_k) for the domains in their order; a material is chosen once.
 template <class Function>
-void SmoothedElasticity::for_each_domain(const Positions& x, Function function) const {
+void SmoothedElasticity::for_each_domain(const Positions& x, double activation,
+                                         Function function) const {
   assert(x.cols() == num_nodes_);
   for (std::size_t m = 0; m < materials_.size(); ++m) {
     std::visit(
         [&](const auto& material) {
-          const auto& distortion = material.distortion();
           for (int k = domains_.material_begin[m]; k < domains_.material_begin[m + 1]; ++k) {
-            function(distortion, k, gradient_of_domain(x, k));
+            function(element_law(material, domain_fibres_, k, activation).distortion(), k,
+                     gradient_of_domain(x, k));
           }
         },
         materials_[m]);
@@ -134,15 +140,16 @@ void SmoothedElasticity::for_each_domain(const Positions& x, Function function) 
 
 /// Calls function(Θ, distortion, e, F_e) for the elements of one material after the other.
 template <class Function>
-void SmoothedElasticity::for_each_element(const Positions& x, Function function) const {
+void SmoothedElasticity::for_each_element(const Positions& x, double activation,
+                                          Function function) const {
   assert(x.cols() == num_nodes_);
   for (std::size_t m = 0; m < materials_.size(); ++m) {
     std::visit(
         [&]<class M>(const M& material) {
-          const auto& distortion = material.distortion();
           for (int i = element_begin_[m]; i < element_begin_[m + 1]; ++i) {
             const int e = elements_[i];
-            function(typename M::Dilatation{}, distortion, e,
+            function(typename M::Dilatation{},
+                     element_law(material, fibres_, e, activation).distortion(), e,
                      deformation_gradient(gather(x, tets_, e), inverse_edges_[e]));
           }
         },
@@ -169,7 +176,7 @@ double SmoothedElasticity::mean_pressure(int e, const Eigen::VectorXd& p) const 
 
 void SmoothedElasticity::dilatation(const Positions& x, Eigen::VectorXd& b) const {
   b.setZero(num_pressures());
-  for_each_element(x, [&](auto theta, const auto&, int e, const Mat3& F) {
+  for_each_element(x, 0, [&](auto theta, const auto&, int e, const Mat3& F) {
     const double quarter = volume_[e] / 4 * theta.value(F);
     for (const int c : pressure_.of_corner().col(e)) b[c] += quarter;
   });
@@ -188,45 +195,47 @@ void SmoothedElasticity::predicted_pressure(const Positions& x, const PressureGr
   pressure_.solve(p);
 }
 
-double SmoothedElasticity::energy(const Positions& x, const Eigen::VectorXd& p) const {
+double SmoothedElasticity::energy(const Positions& x, const Eigen::VectorXd& p,
+                                  double activation) const {
   const double share = smoothing_.plain_share;
   double W = 0;
-  for_each_domain(x, [&](const auto& distortion, int k, const Mat3& F) {
+  for_each_domain(x, activation, [&](const auto& distortion, int k, const Mat3& F) {
     W += (1 - share) * domains_.volume[k] * distortion.energy_density(F);
   });
-  for_each_element(x, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
+  for_each_element(x, activation, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
     if (share > 0) W += share * volume_[e] * distortion.energy_density(F);
     W += volume_[e] * mean_pressure(e, p) * theta.value(F);
   });
   return W;
 }
 
-double SmoothedElasticity::energy(const Positions& x) const {
+double SmoothedElasticity::energy(const Positions& x, double activation) const {
   pressure(x, p_work_);
   // ½ bᵀp instead of bᵀp: the latter is what energy(x, p) holds.
   double half = 0;
-  for_each_element(x, [&](auto theta, const auto&, int e, const Mat3& F) {
+  for_each_element(x, 0, [&](auto theta, const auto&, int e, const Mat3& F) {
     half += 0.5 * volume_[e] * mean_pressure(e, p_work_) * theta.value(F);
   });
-  return energy(x, p_work_) - half;
+  return energy(x, p_work_, activation) - half;
 }
 
-void SmoothedElasticity::add_internal_force(const Positions& x, Positions& f) const {
+void SmoothedElasticity::add_internal_force(const Positions& x, Positions& f,
+                                            double activation) const {
   pressure(x, p_work_);
-  add_internal_force(x, p_work_, f);
+  add_internal_force(x, p_work_, f, activation);
 }
 
 void SmoothedElasticity::add_internal_force(const Positions& x, const Eigen::VectorXd& p,
-                                            Positions& f) const {
+                                            Positions& f, double activation) const {
   assert(f.cols() == num_nodes_ && p.size() == num_pressures());
   const double share = smoothing_.plain_share;
-  for_each_domain(x, [&](const auto& distortion, int k, const Mat3& F) {
+  for_each_domain(x, activation, [&](const auto& distortion, int k, const Mat3& F) {
     const Mat3 P = (1 - share) * domains_.volume[k] * distortion.first_piola(F);
     for (int i = domains_.node_begin[k]; i < domains_.node_begin[k + 1]; ++i) {
       f.col(domains_.node[i]) += P * domains_.gradient[i];
     }
   });
-  for_each_element(x, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
+  for_each_element(x, activation, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
     Mat3 P = mean_pressure(e, p) * theta.gradient(F);
     if (share > 0) P += share * distortion.first_piola(F);
     const Mat34 f_e = nodal_force(P, shape_gradients(inverse_edges_[e]), volume_[e]);
@@ -288,15 +297,16 @@ void SmoothedElasticity::add_element_stiffness(int e, const Mat9& C, double scal
 }
 
 void SmoothedElasticity::add_stiffness(const Positions& x, const Eigen::VectorXd& p,
-                                       Tangent tangent, double scale, BlockMatrix& K) const {
+                                       Tangent tangent, double scale, BlockMatrix& K,
+                                       double activation) const {
   assert(K.num_blocks() == num_nodes_ && p.size() == num_pressures());
   const double share = smoothing_.plain_share;
-  for_each_domain(x, [&](const auto& distortion, int k, const Mat3& F) {
+  for_each_domain(x, activation, [&](const auto& distortion, int k, const Mat3& F) {
     const Mat9 C =
         tangent == Tangent::Projected ? projected_tangent(distortion, F) : distortion.tangent(F);
     add_domain_stiffness(k, C, (1 - share) * scale, K);
   });
-  for_each_element(x, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
+  for_each_element(x, activation, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
     Mat9 C = mean_pressure(e, p) * theta.hessian(F);
     if (share > 0) C += share * distortion.tangent(F);
     if (tangent == Tangent::Projected) C = projected(C);
@@ -305,9 +315,9 @@ void SmoothedElasticity::add_stiffness(const Positions& x, const Eigen::VectorXd
 }
 
 void SmoothedElasticity::add_plain_stiffness(const Positions& x, Tangent tangent, double scale,
-                                             BlockMatrix& K) const {
+                                             BlockMatrix& K, double activation) const {
   assert(K.num_blocks() == num_nodes_);
-  for_each_element(x, [&](auto, const auto& distortion, int e, const Mat3& F) {
+  for_each_element(x, activation, [&](auto, const auto& distortion, int e, const Mat3& F) {
     const Mat9 C =
         tangent == Tangent::Projected ? projected_tangent(distortion, F) : distortion.tangent(F);
     add_element_stiffness(e, C, scale, plain_slots_, K);
@@ -317,7 +327,7 @@ void SmoothedElasticity::add_plain_stiffness(const Positions& x, Tangent tangent
 void SmoothedElasticity::set_pressure_gradient(const Positions& x, PressureGradient& G) const {
   assert(G.num_nodes() == num_nodes_ && G.num_pressures() == num_pressures());
   G.set_zero();
-  for_each_element(x, [&](auto theta, const auto&, int e, const Mat3& F) {
+  for_each_element(x, 0, [&](auto theta, const auto&, int e, const Mat3& F) {
     const Mat34 G_e =
         nodal_force(theta.gradient(F), shape_gradients(inverse_edges_[e]), volume_[e] / 4);
     const int* slot = &gradient_slots_[16 * static_cast<std::size_t>(e)];
@@ -327,17 +337,17 @@ void SmoothedElasticity::set_pressure_gradient(const Positions& x, PressureGradi
   });
 }
 
-Eigen::MatrixXd SmoothedElasticity::cauchy_stress(const Positions& x) const {
+Eigen::MatrixXd SmoothedElasticity::cauchy_stress(const Positions& x, double activation) const {
   const double share = smoothing_.plain_share;
   Eigen::MatrixXd of_domain(6, domains_.size()), stress(6, num_elements());
   const auto components = [](const Mat3& s) {
     return Eigen::Vector<double, 6>(s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2));
   };
-  for_each_domain(x, [&](const auto& distortion, int k, const Mat3& F) {
+  for_each_domain(x, activation, [&](const auto& distortion, int k, const Mat3& F) {
     of_domain.col(k) = components(cauchy(distortion, F));
   });
   pressure(x, p_work_);
-  for_each_element(x, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
+  for_each_element(x, activation, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
     const Mat3 plain = share * cauchy(distortion, F) + mean_pressure(e, p_work_) *
                                                            theta.gradient(F) * F.transpose() /
                                                            F.determinant();
@@ -348,8 +358,8 @@ Eigen::MatrixXd SmoothedElasticity::cauchy_stress(const Positions& x) const {
   return stress;
 }
 
-Eigen::VectorXd SmoothedElasticity::von_mises(const Positions& x) const {
-  const Eigen::MatrixXd stress = cauchy_stress(x);
+Eigen::VectorXd SmoothedElasticity::von_mises(const Positions& x, double activation) const {
+  const Eigen::MatrixXd stress = cauchy_stress(x, activation);
   Eigen::VectorXd result(num_elements());
   for (int e = 0; e < num_elements(); ++e) {
     const Vec3 normal = stress.col(e).head<3>(), shear = stress.col(e).tail<3>();
@@ -361,19 +371,20 @@ Eigen::VectorXd SmoothedElasticity::von_mises(const Positions& x) const {
 
 Eigen::VectorXd SmoothedElasticity::volume_ratio(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x,
-                   [&](auto, const auto&, int e, const Mat3& F) { result[e] = F.determinant(); });
+  for_each_element(
+      x, 0, [&](auto, const auto&, int e, const Mat3& F) { result[e] = F.determinant(); });
   return result;
 }
 
-Eigen::VectorXd SmoothedElasticity::strain_energy_density(const Positions& x) const {
+Eigen::VectorXd SmoothedElasticity::strain_energy_density(const Positions& x,
+                                                          double activation) const {
   const double share = smoothing_.plain_share;
   Eigen::VectorXd of_domain(domains_.size()), result(num_elements());
-  for_each_domain(x, [&](const auto& distortion, int k, const Mat3& F) {
+  for_each_domain(x, activation, [&](const auto& distortion, int k, const Mat3& F) {
     of_domain[k] = distortion.energy_density(F);
   });
   pressure(x, p_work_);
-  for_each_element(x, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
+  for_each_element(x, activation, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
     result[e] =
         share * distortion.energy_density(F) + 0.5 * mean_pressure(e, p_work_) * theta.value(F);
     const int* k = &domains_.of_element[6 * static_cast<std::size_t>(e)];

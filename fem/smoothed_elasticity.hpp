@@ -5,18 +5,15 @@
 #include <variant>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/block_matrix.hpp"
 #include "fem/edge_domains.hpp"
-#include "fem/mooney_rivlin.hpp"
 #include "fem/nodal_pressure.hpp"
 #include "fem/pressure_gradient.hpp"
 #include "fem/projected_tangent.hpp"
 #include "fem/types.hpp"
 
 namespace articular::fem {
-
-/// Materials that satisfy Split; others join by a name in this list.
-using SplitMaterials = std::variant<MooneyRivlin<VolumeChange>, MooneyRivlin<LogVolumeChange>>;
 
 /// The two numbers of the formulation. Larger ones are stiffer and smoother (plain_share) or softer
 /// (tau); these have the most margin in tests/benchmarks/locking_study.cpp.
@@ -46,12 +43,15 @@ struct Smoothing {
 class SmoothedElasticity {
  public:
   /// @throws std::invalid_argument as Elasticity does, and where `smoothing` is out of range
-  SmoothedElasticity(const Positions& X, const Tetrahedra& tets, const SplitMaterials& material,
-                     const Smoothing& smoothing = {});
+  SmoothedElasticity(const Positions& X, const Tetrahedra& tets, const Material& material,
+                     const Smoothing& smoothing = {}, FibreDirections fibres = {});
   /// @param material_of_element  index into `materials`, one an element
-  SmoothedElasticity(const Positions& X, const Tetrahedra& tets,
-                     std::vector<SplitMaterials> materials, std::vector<int> material_of_element,
-                     const Smoothing& smoothing = {});
+  /// @param fibres               one unit vector an element where a material has fibres. A domain
+  ///                             has the mean of its elements' directions: the eigenvector of the
+  ///                             mean of a ⊗ a
+  SmoothedElasticity(const Positions& X, const Tetrahedra& tets, std::vector<Material> materials,
+                     std::vector<int> material_of_element, const Smoothing& smoothing = {},
+                     FibreDirections fibres = {});
 
   int num_nodes() const { return num_nodes_; }
   int num_elements() const { return static_cast<int>(volume_.size()); }
@@ -62,17 +62,18 @@ class SmoothedElasticity {
   const NodalPressure& nodal_pressure() const { return pressure_; }
 
   /// W [J]
-  double energy(const Positions& x) const;
+  double energy(const Positions& x, double activation = 0) const;
   /// f += ∂W/∂x [N]: the force needed to hold the shape.
-  void add_internal_force(const Positions& x, Positions& f) const;
+  void add_internal_force(const Positions& x, Positions& f, double activation = 0) const;
   /// p = A⁻¹ b(x) [Pa], positive in tension
   void pressure(const Positions& x, Eigen::VectorXd& p) const;
 
   /// The same with p as an unknown: L(x, p) = W_d(x) + pᵀb(x) − ½ pᵀA p, which is W at p = A⁻¹
   /// b(x). Up to the constant ½ pᵀA p that no step in x changes.
-  double energy(const Positions& x, const Eigen::VectorXd& p) const;
+  double energy(const Positions& x, const Eigen::VectorXd& p, double activation = 0) const;
   /// f += ∂L/∂x = f_d + G p
-  void add_internal_force(const Positions& x, const Eigen::VectorXd& p, Positions& f) const;
+  void add_internal_force(const Positions& x, const Eigen::VectorXd& p, Positions& f,
+                          double activation = 0) const;
   /// p = A⁻¹ (b(x) + Gᵀ dx): the pressure after the step dx to first order. Newton's method in (x,
   /// p) solves (K(x, p) + G A⁻¹ Gᵀ) dx = f_ext − f_int(x) and goes to x + dx with this p.
   void predicted_pressure(const Positions& x, const PressureGradient& G, const Positions& dx,
@@ -83,28 +84,30 @@ class SmoothedElasticity {
   /// K += scale * (∂²W_d/∂x² + Σ_e V_e p_e ∂²Θ/∂x²) [N/m], for a K of make_matrix().
   /// @param p  from pressure() or predicted_pressure()
   void add_stiffness(const Positions& x, const Eigen::VectorXd& p, Tangent tangent, double scale,
-                     BlockMatrix& K) const;
+                     BlockMatrix& K, double activation = 0) const;
   /// For preconditioners: the pattern of the elements alone, a third of the blocks, and the
   /// stiffness of the distortion in it (s = 1, without the pressure's geometric part, which can be
   /// negative).
   BlockMatrix make_plain_matrix() const;
-  void add_plain_stiffness(const Positions& x, Tangent tangent, double scale, BlockMatrix& K) const;
+  void add_plain_stiffness(const Positions& x, Tangent tangent, double scale, BlockMatrix& K,
+                           double activation = 0) const;
   /// The pattern of G, and G(x) itself.
   PressureGradient make_pressure_gradient() const;
   void set_pressure_gradient(const Positions& x, PressureGradient& G) const;
 
   /// Per element, for output: means of the stress of the six edges' distortion, and the nodal
   /// pressures' mean. cauchy_stress: 6 x M (xx yy zz xy yz xz) [Pa].
-  Eigen::MatrixXd cauchy_stress(const Positions& x) const;
-  Eigen::VectorXd von_mises(const Positions& x) const;              // [Pa]
-  Eigen::VectorXd volume_ratio(const Positions& x) const;           // J
-  Eigen::VectorXd strain_energy_density(const Positions& x) const;  // [J/m³]; sums to energy(x)
+  Eigen::MatrixXd cauchy_stress(const Positions& x, double activation = 0) const;
+  Eigen::VectorXd von_mises(const Positions& x, double activation = 0) const;  // [Pa]
+  Eigen::VectorXd volume_ratio(const Positions& x) const;                      // J
+  /// [J/m³]; sums to energy(x, activation)
+  Eigen::VectorXd strain_energy_density(const Positions& x, double activation = 0) const;
 
  private:
   template <class Function>
-  void for_each_domain(const Positions& x, Function function) const;
+  void for_each_domain(const Positions& x, double activation, Function function) const;
   template <class Function>
-  void for_each_element(const Positions& x, Function function) const;
+  void for_each_element(const Positions& x, double activation, Function function) const;
   Mat3 gradient_of_domain(const Positions& x, int k) const;
   double mean_pressure(int e, const Eigen::VectorXd& p) const;
   void dilatation(const Positions& x, Eigen::VectorXd& b) const;
@@ -114,13 +117,14 @@ class SmoothedElasticity {
 
   int num_nodes_ = 0;
   Tetrahedra tets_;
-  std::vector<SplitMaterials> materials_;
+  std::vector<Material> materials_;
   std::vector<int> material_of_element_;
   Smoothing smoothing_;
-  std::vector<Mat3> inverse_edges_;  // (X1-X0, X2-X0, X3-X0)⁻¹ [1/m]
-  std::vector<double> volume_;       // [m³]
-  std::vector<int> elements_;        // ordered by material
-  std::vector<int> element_begin_;   // of each material, into elements_
+  FibreDirections fibres_, domain_fibres_;  // one a tetrahedron, one a domain; or none
+  std::vector<Mat3> inverse_edges_;         // (X1-X0, X2-X0, X3-X0)⁻¹ [1/m]
+  std::vector<double> volume_;              // [m³]
+  std::vector<int> elements_;               // ordered by material
+  std::vector<int> element_begin_;          // of each material, into elements_
   EdgeDomains domains_;
   NodalPressure pressure_;
 

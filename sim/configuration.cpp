@@ -69,6 +69,13 @@ void positions_of(const Configuration& configuration, const std::vector<NodeRef>
     x.col(static_cast<Eigen::Index>(i)) = configuration.position(nodes[i]);
 }
 
+void velocities_of(const Configuration& configuration, const std::vector<NodeRef>& nodes,
+                   Positions& v) {
+  v.resize(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    v.col(static_cast<Eigen::Index>(i)) = configuration.velocity(nodes[i]);
+}
+
 void add_force(const Configuration& configuration, const WeightedPoint& point, const Vec3& force,
                Eigen::VectorXd& f) {
   for (std::size_t k = 0; k < point.nodes.size(); ++k)

@@ -39,6 +39,9 @@ Configuration predicted(const Model& model, const Configuration& now, double h);
 void positions_of(const Configuration& configuration, const std::vector<NodeRef>& nodes,
                   Positions& x);
 
+void velocities_of(const Configuration& configuration, const std::vector<NodeRef>& nodes,
+                   Positions& v);
+
 /// Adds a force at a node to block forces: 3 entries a block, a bone's moment about its reference
 /// point.
 inline void add_force(const Configuration& configuration, const NodeRef& node, const Vec3& force,

@@ -15,6 +15,8 @@ Dynamics::Dynamics(const Model& model) : model_(model) {
     tissues_.push_back({Positions(3, tissue.X.cols()),
                         Positions(3, tissue.X.cols()),
                         tissue.elements.make_matrix(),
+                        {},
+                        {},
                         {}});
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
       if (tissue.nodes[i].bone < 0)
@@ -26,11 +28,8 @@ Dynamics::Dynamics(const Model& model) : model_(model) {
     // Edge of the cube that six mean tetrahedra fill.
     trusted_motion_ =
         std::min(trusted_motion_, std::cbrt(6 * volume / static_cast<double>(tets.cols())));
-    for (Eigen::Index e = 0; e < tets.cols(); ++e) {
-      for (int k = 0; k < 4; ++k)
-        append_blocks(model, tissue.nodes[static_cast<std::size_t>(tets(k, e))], base_.blocks);
-      base_.close();
-    }
+    append_stencils(tissue);
+    if (tissue.elements.smoothed() != nullptr) make_pressure_gradient(t);
   }
   for (int r = 0; r < model.layout.num_rigid; ++r) {
     const int block = model.bones[static_cast<std::size_t>(r)].block;
@@ -41,6 +40,71 @@ Dynamics::Dynamics(const Model& model) : model_(model) {
     if (body.collider) trusted_motion_ = std::min(trusted_motion_, body.collider->reach);
   for (const Line& line : model.lines) append_stencil(model, line, base_);
   build_pattern();
+}
+
+/// The couplings of a tissue's elements, or of its smoothing domains.
+void Dynamics::append_stencils(const Tissue& tissue) {
+  const auto append = [&](int node) {
+    append_blocks(model_, tissue.nodes[static_cast<std::size_t>(node)], base_.blocks);
+  };
+  if (const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed()) {
+    const fem::EdgeDomains& domains = smoothed->domains();
+    for (int k = 0; k < domains.size(); ++k) {
+      for (int i = domains.node_begin[static_cast<std::size_t>(k)];
+           i < domains.node_begin[static_cast<std::size_t>(k) + 1]; ++i)
+        append(domains.node[static_cast<std::size_t>(i)]);
+      base_.close();
+    }
+    return;
+  }
+  for (const auto& element : tissue.elements.tets().colwise()) {
+    for (const int node : element) append(node);
+    base_.close();
+  }
+}
+
+/// The pattern of a tissue's pressure gradient by blocks of unknowns.
+void Dynamics::make_pressure_gradient(std::size_t t) {
+  const Tissue& tissue = model_.tissues[t];
+  const fem::SmoothedElasticity& smoothed = *tissue.elements.smoothed();
+  const Tetrahedra& corners = smoothed.nodal_pressure().of_corner();
+  Stencils blocks;
+  std::vector<int> offsets{0};
+  for (Eigen::Index e = 0; e < corners.cols(); ++e) {
+    for (const int node : tissue.elements.tets().col(e))
+      append_blocks(model_, tissue.nodes[static_cast<std::size_t>(node)], blocks.blocks);
+    blocks.close();
+    offsets.push_back(static_cast<int>(4 * (e + 1)));
+  }
+  TissueWork& work = tissues_[t];
+  work.node_G = smoothed.make_pressure_gradient();
+  work.G = fem::PressureGradient(
+      model_.layout.num_unknown_blocks(), smoothed.num_pressures(), blocks.blocks, blocks.offsets,
+      {corners.data(), static_cast<std::size_t>(corners.size())}, offsets);
+}
+
+/// A node that is tied to a bone pushes the bone, and turns it by its lever.
+void Dynamics::set_pressure_gradient(std::size_t t) {
+  const Tissue& tissue = model_.tissues[t];
+  TissueWork& work = tissues_[t];
+  tissue.elements.smoothed()->set_pressure_gradient(work.x, work.node_G);
+  work.G.set_zero();
+  for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+    const NodeRef& node = tissue.nodes[i];
+    if (node.bone >= model_.layout.num_rigid) continue;
+    for (int s = work.node_G.row_begin()[i]; s < work.node_G.row_begin()[i + 1]; ++s) {
+      const int c = work.node_G.column()[static_cast<std::size_t>(s)];
+      const Vec3& g = work.node_G.block(s);
+      work.G.block(work.G.slot(node.block, c)) += g;
+      if (node.bone >= 0)
+        work.G.block(work.G.slot(node.block + 1, c)) += configuration_.lever(node).cross(g);
+    }
+  }
+}
+
+double Dynamics::activation_of(std::size_t tissue) const {
+  const int muscle = model_.tissues[tissue].muscle;
+  return muscle < 0 ? 0 : configuration_.activation[muscle];
 }
 
 void Dynamics::forget() {
@@ -97,7 +161,11 @@ void Dynamics::evaluate(const double* y, double t) {
       TissueWork& work = tissues_[k];
       positions_of(configuration_, tissue.nodes, work.x);
       work.f.setZero();
-      tissue.elements.add_internal_force(work.x, work.f);
+      tissue.elements.add_internal_force(work.x, activation_of(k), work.f);
+      if (tissue.dashpots) {
+        velocities_of(configuration_, tissue.nodes, v_);
+        tissue.dashpots->add_force(work.x, v_, work.f);
+      }
       for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
         const auto column = static_cast<Eigen::Index>(i);
         Vec3 force = -work.f.col(column);
@@ -107,6 +175,9 @@ void Dynamics::evaluate(const double* y, double t) {
           enters(weight.norm());
           force += weight;
         }
+        if (tissue.mass_damping > 0 && tissue.nodes[i].bone < 0)
+          force -= tissue.mass_damping * tissue.lumped_mass[column] *
+                   configuration_.velocity(tissue.nodes[i]);
         add_force(configuration_, tissue.nodes[i], force, f_);
       }
     }
@@ -213,11 +284,16 @@ void Dynamics::multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const
   }
 }
 
-void Dynamics::add_tissue_stiffness(std::size_t t, double scale, fem::Tangent tangent) {
+void Dynamics::add_tissue_stiffness(std::size_t t, const SystemScale& scale, fem::Tangent tangent) {
   const Tissue& tissue = model_.tissues[t];
   TissueWork& work = tissues_[t];
   work.K.set_zero();
-  tissue.elements.add_stiffness(work.x, tangent, scale, work.K);
+  tissue.elements.add_stiffness(work.x, activation_of(t), tangent, scale.stiffness, work.K);
+  if (tissue.dashpots) tissue.dashpots->add_damping(work.x, scale.damping, work.K);
+  if (const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed()) {
+    set_pressure_gradient(t);
+    pressure_terms_.push_back({&work.G, &smoothed->nodal_pressure(), scale.stiffness});
+  }
   for (int i = 0; i < work.K.num_blocks(); ++i)
     for (int s = work.K.row_begin()[static_cast<std::size_t>(i)];
          s < work.K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
@@ -238,7 +314,10 @@ const fem::BlockMatrix& Dynamics::matrix(const SystemScale& scale, fem::Tangent 
   for (std::size_t t = 0; t < tissues_.size(); ++t)
     add_tissue_stiffness(t, scale.stiffness, tangent);
   for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
-    A_.block(A_.slot(block, block)).diagonal().array() += scale.mass * mass_of(block);
+    const auto tissue =
+        static_cast<std::size_t>(mass_nodes_[static_cast<std::size_t>(block)].first);
+    const double share = scale.mass + scale.damping * model_.tissues[tissue].mass_damping;
+    A_.block(A_.slot(block, block)).diagonal().array() += share * mass_of(block);
   }
   for (int r = 0; r < model_.layout.num_rigid; ++r) {
     const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
@@ -269,8 +348,53 @@ double Dynamics::kinetic_energy() const {
 double Dynamics::elastic_energy() const {
   double energy = 0;
   for (std::size_t t = 0; t < tissues_.size(); ++t)
-    energy += model_.tissues[t].elements.energy(tissues_[t].x);
+    energy += model_.tissues[t].elements.energy(tissues_[t].x, activation_of(t));
   return energy;
+}
+
+double Dynamics::energy_per_activation(std::size_t tissue) const {
+  const TissueElements& elements = model_.tissues[tissue].elements;
+  return elements.energy(tissues_[tissue].x, 1) - elements.energy(tissues_[tissue].x, 0);
+}
+
+double Dynamics::damping_power() const {
+  double power = 0;
+  for (std::size_t t = 0; t < tissues_.size(); ++t) {
+    const Tissue& tissue = model_.tissues[t];
+    if (tissue.dashpots) {
+      velocities_of(configuration_, tissue.nodes, v_);
+      power += tissue.dashpots->power(tissues_[t].x, v_);
+    }
+    if (tissue.mass_damping == 0) continue;
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+      if (tissue.nodes[i].bone < 0)
+        power += tissue.mass_damping * tissue.lumped_mass[static_cast<Eigen::Index>(i)] *
+                 configuration_.velocity(tissue.nodes[i]).squaredNorm();
+  }
+  return power;
+}
+
+void Dynamics::add_damping_product(const Eigen::VectorXd& u, double scale,
+                                   Eigen::VectorXd& f) const {
+  for (std::size_t t = 0; t < tissues_.size(); ++t) {
+    const Tissue& tissue = model_.tissues[t];
+    if (!tissue.dashpots && tissue.mass_damping == 0) continue;
+    const auto count = static_cast<Eigen::Index>(tissue.nodes.size());
+    v_.resize(3, count);
+    damping_.setZero(3, count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const NodeRef& node = tissue.nodes[static_cast<std::size_t>(i)];
+      v_.col(i) = u.segment<3>(3 * node.block);
+      if (node.bone >= 0)
+        v_.col(i) += u.segment<3>(3 * node.block + 3).cross(configuration_.lever(node));
+      else
+        damping_.col(i) = tissue.mass_damping * tissue.lumped_mass[i] * v_.col(i);
+    }
+    if (tissue.dashpots) tissue.dashpots->add_force(tissues_[t].x, v_, damping_);
+    for (Eigen::Index i = 0; i < count; ++i)
+      add_force(configuration_, tissue.nodes[static_cast<std::size_t>(i)], scale * damping_.col(i),
+                f);
+  }
 }
 
 double Dynamics::gravity_energy() const {

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "fem/linear_solver.hpp"
 #include "sim/contact_force.hpp"
 #include "sim/line_force.hpp"
 
@@ -38,6 +39,13 @@ class Dynamics {
   /// Mass, damping and stiffness at the last evaluate(), over the unknown blocks.
   const fem::BlockMatrix& matrix(const SystemScale& scale, fem::Tangent tangent);
 
+  /// What smoothed tissues add to that matrix: pressures that couple all of their nodes. Refers to
+  /// this object.
+  fem::PressurePart pressure_part() const { return {pressure_terms_, nullptr}; }
+
+  /// f += scale D u for block velocities u, of the dampers in tissue.
+  void add_damping_product(const Eigen::VectorXd& u, double scale, Eigen::VectorXd& f) const;
+
   /// The largest force on one node, bone or line that entered the last evaluate() [N]: what a
   /// residual is small against.
   double largest_force() const { return largest_force_; }
@@ -59,6 +67,10 @@ class Dynamics {
 
   double kinetic_energy() const;  // at the last evaluate() [J]
   double elastic_energy() const;  // of the tissues [J]
+  /// What the tissues' dampers lose there [W].
+  double damping_power() const;
+  /// ∂W/∂a of a tissue's elastic energy there by its activation [J].
+  double energy_per_activation(std::size_t tissue) const;
   double gravity_energy() const;  // [J], of all masses but fixed and driven bones' own
   DynamicsTimes& times() { return times_; }
 
@@ -66,10 +78,15 @@ class Dynamics {
   struct TissueWork {
     Positions x, f;
     fem::BlockMatrix K;
-    std::vector<int> slot;  // of each block of K in the matrix; -1: a bone is involved
+    std::vector<int> slot;            // of each block of K in the matrix; -1: a bone is involved
+    fem::PressureGradient node_G, G;  // smoothed elements: by nodes, and by blocks of unknowns
   };
+  void append_stencils(const Tissue& tissue);
   void build_pattern();
-  void add_tissue_stiffness(std::size_t t, double scale, fem::Tangent tangent);
+  void add_tissue_stiffness(std::size_t t, const SystemScale& scale, fem::Tangent tangent);
+  void make_pressure_gradient(std::size_t t);
+  void set_pressure_gradient(std::size_t t);
+  double activation_of(std::size_t tissue) const;
   Mat3 world_inertia(int bone) const;
   /// All tissue nodes but those whose mass a rigid bone has taken over.
   bool carries_own_weight(const NodeRef& node) const;
@@ -78,6 +95,8 @@ class Dynamics {
   const std::vector<CandidateList>* candidates_ = nullptr;
   Configuration configuration_;
   Eigen::VectorXd f_;
+  mutable Positions v_, damping_;  // at the nodes of a tissue
+  std::vector<fem::PressureTerm> pressure_terms_;
   double largest_force_ = 0;
   std::vector<LineState> lines_;
   std::vector<ContactSummary> contacts_;

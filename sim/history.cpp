@@ -46,7 +46,7 @@ std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model)
       std::vector<std::string> names;
       for (const char* what :
            {"kinetic", "elastic", "gravity", "contact", "lines", "muscle_work", "load_work",
-            "motion_work", "ligament_loss", "settling_loss", "numerical_loss"})
+            "motion_work", "ligament_loss", "tissue_loss", "settling_loss", "numerical_loss"})
         names.push_back(scalar(what, "J"));
       return names;
     }
@@ -120,7 +120,7 @@ void History::append(const ProbeModel& probe, const State& state, const Stepper&
       const EnergyLedger& l = state.energy;
       values_.insert(values_.end(), {e.kinetic, e.elastic, e.gravity, e.contact, e.lines,
                                      l.muscle_work, l.load_work, l.motion_work, l.ligament_loss,
-                                     l.settling_loss, numerical_loss(state, e)});
+                                     l.tissue_loss, l.settling_loss, numerical_loss(state, e)});
       return;
     }
     case Probe::Kind::Attachment: {

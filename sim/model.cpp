@@ -10,8 +10,8 @@
 #include "sim/body_geometry.hpp"
 #include "sim/collider.hpp"
 #include "sim/muscle_law.hpp"
-#include "sim/tissue.hpp"
 #include "sim/region.hpp"
+#include "sim/tissue.hpp"
 
 namespace articular::sim {
 namespace {
@@ -336,11 +336,12 @@ class Builder {
     const BodyModel& body = model_.bodies[static_cast<std::size_t>(body_index(muscle.tissue))];
     Tissue& tissue = model_.tissues[static_cast<std::size_t>(body.tissue)];
     if (tissue.muscle >= 0)
-      throw InputError(muscle.where, fmt::format("the fibres of `{}` have two muscles, `{}` and "
-                                                 "`{}`",
-                                                 body.name,
-                                                 model_.muscles[static_cast<std::size_t>(tissue.muscle)].given.name,
-                                                 muscle.name));
+      throw InputError(
+          muscle.where,
+          fmt::format("the fibres of `{}` have two muscles, `{}` and "
+                      "`{}`",
+                      body.name, model_.muscles[static_cast<std::size_t>(tissue.muscle)].given.name,
+                      muscle.name));
     tissue.muscle = static_cast<int>(model_.muscles.size());
     model_.muscles.push_back({.given = muscle});
   }

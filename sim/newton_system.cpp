@@ -42,8 +42,20 @@ double lengthening(const Line& line, const Configuration& now, const Eigen::Vect
 }  // namespace
 
 std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model) {
+  const bool smoothed =
+      std::any_of(model.tissues.begin(), model.tissues.end(),
+                  [](const Tissue& tissue) { return tissue.elements.smoothed() != nullptr; });
+  if (model.scenario.integrator.solver == Integrator::Solver::Cholesky && smoothed)
+    return fem::make_saddle_point_solver(kLinearTolerance, kMostLinearIterations);
   if (model.scenario.integrator.solver == Integrator::Solver::Cholesky) return fem::make_cholesky();
   return fem::make_conjugate_gradients(kLinearTolerance, kMostLinearIterations);
+}
+
+bool prepare_linear(fem::LinearSolver& solver, const fem::BlockMatrix& A,
+                    const fem::PressurePart& pressure) {
+  const fem::FactorStatus status =
+      pressure.terms.empty() ? solver.prepare(A) : solver.prepare_with_pressure(A, pressure);
+  return status == fem::FactorStatus::Ready;
 }
 
 NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
@@ -66,7 +78,7 @@ bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, SolverCounts& cou
   const Stopwatch watch(solve_seconds_);
   ++counts.factorizations;
   if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
-  const bool ready = solver_->prepare(A) == fem::FactorStatus::Ready;
+  const bool ready = prepare_linear(*solver_, A, dynamics_.pressure_part());
   gamma_ = ready ? gamma : 0;
   pattern_ = A.pattern_id();
   tangent_ = tangent;
@@ -131,8 +143,10 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     const int i = layout.activations() + m;
     const double tau = dynamics_.activation_time(y, dynamics_.configuration().t, m);
     x[i] = b[i] / (1 + gamma / tau);
-    const auto line = static_cast<std::size_t>(model_.muscles[static_cast<std::size_t>(m)].line);
-    if (x[i] != 0)
+    // What fibres in tissue pull more is left to the next iteration.
+    const int index = model_.muscles[static_cast<std::size_t>(m)].line;
+    const auto line = static_cast<std::size_t>(index);
+    if (x[i] != 0 && index >= 0)
       add_line_force(model_.lines[line], dynamics_.configuration(),
                      dynamics_.lines()[line].tension_per_activation * x[i], pull_);
   }
@@ -142,6 +156,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     if (const double viscosity = dynamics_.lines()[l].viscosity; viscosity != 0)
       add_line_force(model_.lines[l], now,
                      -viscosity / gamma * lengthening(model_.lines[l], now, shift_), pull_);
+  dynamics_.add_damping_product(shift_, 1 / gamma, pull_);
   mass_rhs_ += gamma * pull_.head(num_velocities);
 
   last_residual_ = residual_;

@@ -67,9 +67,9 @@ struct VShapeGeometry {
 
 /// The directions of a tissue's fibres at the start: exactly one of these.
 struct Fibres {
-  std::optional<Vec3> direction;                      // the same everywhere, unit vector
-  std::optional<std::string> array;                   // a cell array of the mesh, three components
-  std::optional<std::pair<Region, Region>> between;   // along the gradient of the harmonic field
+  std::optional<Vec3> direction;                     // the same everywhere, unit vector
+  std::optional<std::string> array;                  // a cell array of the mesh, three components
+  std::optional<std::pair<Region, Region>> between;  // along the gradient of the harmonic field
   Location where;
 };
 
@@ -168,7 +168,7 @@ struct Muscle {
   std::string name;
   std::string tissue;        // whose fibres it activates; empty: a line, for which the rest is
   std::vector<Anchor> path;  // from origin to insertion, via points between; at least 2
-  double max_force = 0;                  // [N], isometric, at full activation
+  double max_force = 0;      // [N], isometric, at full activation
   std::optional<double> optimal_length;  // [m]; default: length of the path at the start
   double max_length_ratio =
       1.3;  // length at which the passive force reaches its maximum / optimal length

@@ -18,22 +18,17 @@ enum class Law {
   TransverselyIsotropic,
   Muscle
 };
-constexpr Choices<Law> kLaws = {{"linear", Law::Linear},
-                                {"corotated", Law::Corotated},
-                                {"neo-hookean", Law::NeoHookean},
-                                {"isochoric-neo-hookean", Law::IsochoricNeoHookean},
-                                {"mooney-rivlin", Law::MooneyRivlin},
-                                {"yeoh", Law::Yeoh},
-                                {"veronda-westmann", Law::VerondaWestmann},
-                                {"transversely-isotropic", Law::TransverselyIsotropic},
-                                {"muscle", Law::Muscle}};
-
-constexpr std::initializer_list<std::string_view> kKeys = {
-    "law",          "young_modulus",  "poisson_ratio", "bulk_modulus",    "volumetric",
-    "c10",          "c01",            "c20",           "c1",              "c2",
-    "c3",           "c4",             "c5",            "toe_end",         "active_stress",
-    "max_stress",   "p1",             "p2",            "optimal_stretch", "shear_along",
-    "shear_across", "fibres",         "element",       "mass_damping",    "stiffness_damping"};
+Law read_law_name(const Node& node) {
+  return read_choice<Law>(node, {{"linear", Law::Linear},
+                                 {"corotated", Law::Corotated},
+                                 {"neo-hookean", Law::NeoHookean},
+                                 {"isochoric-neo-hookean", Law::IsochoricNeoHookean},
+                                 {"mooney-rivlin", Law::MooneyRivlin},
+                                 {"yeoh", Law::Yeoh},
+                                 {"veronda-westmann", Law::VerondaWestmann},
+                                 {"transversely-isotropic", Law::TransverselyIsotropic},
+                                 {"muscle", Law::Muscle}});
+}
 
 /// Those that a law has, beside what every tissue may have.
 std::vector<std::string_view> keys_of(Law law) {
@@ -51,8 +46,8 @@ std::vector<std::string_view> keys_of(Law law) {
     case Law::VerondaWestmann:
       return {"c1", "c2", "bulk_modulus", "volumetric"};
     case Law::TransverselyIsotropic:
-      return {"c10", "c01", "c3",           "c4",         "c5",    "toe_end",
-              "active_stress", "bulk_modulus", "volumetric", "fibres"};
+      return {"c10",     "c01",           "c3",           "c4",         "c5",
+              "toe_end", "active_stress", "bulk_modulus", "volumetric", "fibres"};
     case Law::Muscle:
       return {"max_stress",   "p1",  "p2",           "toe_end",    "optimal_stretch", "shear_along",
               "shear_across", "c10", "bulk_modulus", "volumetric", "fibres"};
@@ -60,10 +55,11 @@ std::vector<std::string_view> keys_of(Law law) {
   return {};
 }
 
-void refuse_other_keys(const TableReader& table, Law law) {
+void refuse_other_keys(const TableReader& table, Law law,
+                       std::initializer_list<std::string_view> keys) {
   std::vector<std::string_view> known = keys_of(law);
   known.insert(known.end(), {"law", "element", "mass_damping", "stiffness_damping"});
-  for (const std::string_view key : kKeys)
+  for (const std::string_view key : keys)
     if (std::find(known.begin(), known.end(), key) == known.end())
       table.refuse({key}, fmt::format("the law is {}", found(table.at("law"))));
 }
@@ -171,9 +167,15 @@ Fibres read_fibres(const Node& node) {
 }  // namespace
 
 Material read_material(const Node& node) {
-  const TableReader table(node, "material", kKeys);
-  const Law law = read_choice<Law>(table.at("law"), kLaws);
-  refuse_other_keys(table, law);
+  const std::initializer_list<std::string_view> keys = {
+      "law",          "young_modulus", "poisson_ratio", "bulk_modulus",    "volumetric",
+      "c10",          "c01",           "c20",           "c1",              "c2",
+      "c3",           "c4",            "c5",            "toe_end",         "active_stress",
+      "max_stress",   "p1",            "p2",            "optimal_stretch", "shear_along",
+      "shear_across", "fibres",        "element",       "mass_damping",    "stiffness_damping"};
+  const TableReader table(node, "material", keys);
+  const Law law = read_law_name(table.at("law"));
+  refuse_other_keys(table, law, keys);
   Material material;
   material.where = node.where;
   try {

@@ -11,6 +11,7 @@ struct EnergyLedger {
   double load_work = 0;      // by forces of the scenario (gravity is a stored energy)
   double motion_work = 0;    // by what drives prescribed motions
   double ligament_loss = 0;  // in ligaments' dampers
+  double tissue_loss = 0;    // in tissues' dampers
   double settling_loss = 0;  // against pseudo-time damping of a static analysis
   double start = 0;          // stored and kinetic energy at t = 0
 };

@@ -17,8 +17,8 @@ constexpr double kMarginPerStray = 4;
 
 double numerical_loss(const State& state, const StoredEnergy& now) {
   const EnergyLedger& l = state.energy;
-  return l.start + l.muscle_work + l.load_work + l.motion_work - l.ligament_loss - l.settling_loss -
-         now.total();
+  return l.start + l.muscle_work + l.load_work + l.motion_work - l.ligament_loss - l.tissue_loss -
+         l.settling_loss - now.total();
 }
 
 Stepper::Stepper(const Model& model) : model_(model) {
@@ -97,6 +97,11 @@ void Stepper::remember_start(const State& state) {
   forces_before_ = dynamics_->forces();
   start_ = dynamics_->configuration();
   t_before_ = state.t;
+  damping_before_ = dynamics_->damping_power();
+  fibre_energy_before_.assign(model_.tissues.size(), 0);
+  for (std::size_t t = 0; t < model_.tissues.size(); ++t)
+    if (model_.tissues[t].muscle >= 0)
+      fibre_energy_before_[t] = dynamics_->energy_per_activation(t);
   loads_before_.clear();
   for (const ForceModel& force : model_.forces)
     loads_before_.push_back(start_.position(force.point));
@@ -193,6 +198,15 @@ void Stepper::account(State& after) {
     ledger.muscle_work -= 0.5 * (a.active + b.active) * stretch;
     ledger.ligament_loss += 0.5 * (a.damping + b.damping) * stretch;
   }
+  for (std::size_t t = 0; t < model_.tissues.size(); ++t) {
+    const int muscle = model_.tissues[t].muscle;
+    if (muscle < 0) continue;
+    const double rise = now.activation[muscle] - start_.activation[muscle];
+    ledger.muscle_work +=
+        0.5 * (fibre_energy_before_[t] + dynamics_->energy_per_activation(t)) * rise;
+  }
+  ledger.tissue_loss +=
+      0.5 * (damping_before_ + dynamics_->damping_power()) * (after.t - t_before_);
   for (std::size_t i = 0; i < model_.forces.size(); ++i) {
     const ForceModel& force = model_.forces[i];
     const double factor =

@@ -79,6 +79,8 @@ class Stepper {
   std::vector<Vec3> loads_before_;
   Eigen::VectorXd forces_before_;
   double t_before_ = 0;
+  double damping_before_ = 0;                // [W]
+  std::vector<double> fibre_energy_before_;  // [J] per activation, of each tissue
 };
 
 }  // namespace articular::sim

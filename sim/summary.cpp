@@ -51,6 +51,7 @@ Json energy(const State& state, const StoredEnergy& now) {
           {"load_work", l.load_work},
           {"motion_work", l.motion_work},
           {"ligament_loss", l.ligament_loss},
+          {"tissue_loss", l.tissue_loss},
           {"settling_loss", l.settling_loss},
           {"numerical_loss", numerical_loss(state, now)},
           {"end",

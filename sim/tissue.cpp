@@ -25,7 +25,7 @@ std::vector<int> nodes_in(const Region& region, const Model& model,
   return nodes;
 }
 
-fem::FibreDirections fibres_of_array(const Body& body, const MeshData& mesh) {
+FibreDirections fibres_of_array(const Body& body, const MeshData& mesh) {
   const std::string& name = *body.material->fibres->array;
   for (const auto& [array, directions] : mesh.cell_vectors)
     if (array == name)
@@ -33,13 +33,13 @@ fem::FibreDirections fibres_of_array(const Body& body, const MeshData& mesh) {
   std::string names;
   for (const auto& [array, directions] : mesh.cell_vectors)
     names += (names.empty() ? "" : ", ") + array;
-  throw std::invalid_argument(fmt::format(
-      "its mesh has no cell array `{}` with three components{}", name,
-      names.empty() ? " (none at all: expected a .vtu or .vtk file with one)"
-                    : fmt::format("; it has {}", names)));
+  throw std::invalid_argument(
+      fmt::format("its mesh has no cell array `{}` with three components{}", name,
+                  names.empty() ? " (none at all: expected a .vtu or .vtk file with one)"
+                                : fmt::format("; it has {}", names)));
 }
 
-fem::FibreDirections make_fibres(const Model& model, const std::vector<BodyGeometry>& geometry,
+FibreDirections make_fibres(const Model& model, const std::vector<BodyGeometry>& geometry,
                                  const Surface& surface, std::size_t b) {
   const Body& body = model.scenario.bodies[b];
   const MeshData& mesh = geometry[b].mesh;
@@ -55,7 +55,7 @@ fem::FibreDirections make_fibres(const Model& model, const std::vector<BodyGeome
 }
 
 TissueElements make_elements(const Material& material, const MeshData& mesh,
-                             const fem::FibreDirections& fibres) {
+                             const FibreDirections& fibres) {
   if (material.element == Material::Element::Smoothed)
     return TissueElements(fem::SmoothedElasticity(mesh.X, mesh.tets, material.law, {}, fibres));
   return TissueElements(fem::Elasticity(mesh.X, mesh.tets, material.law, fibres));
@@ -63,8 +63,8 @@ TissueElements make_elements(const Material& material, const MeshData& mesh,
 
 /// Bulk and shear modulus at small strain.
 std::pair<double, double> moduli(const fem::Material& law) {
-  return std::visit(
-      [](const auto& m) { return std::pair(m.bulk_modulus(), m.shear_modulus()); }, law);
+  return std::visit([](const auto& m) { return std::pair(m.bulk_modulus(), m.shear_modulus()); },
+                    law);
 }
 
 }  // namespace
@@ -82,13 +82,12 @@ Tissue make_tissue(const Model& model, const std::vector<BodyGeometry>& geometry
   const Body& body = model.scenario.bodies[b];
   const Material& material = *body.material;
   const MeshData& mesh = geometry[b].mesh;
-  fem::FibreDirections fibres;
+  FibreDirections fibres;
   try {
     if (material.fibres) fibres = make_fibres(model, geometry, surface, b);
   } catch (const std::invalid_argument& error) {
-    throw InputError(material.fibres->where,
-                     fmt::format("fibres of tissue `{}`{}: {}", body.name, mesh_name(body),
-                                 error.what()));
+    throw InputError(material.fibres->where, fmt::format("fibres of tissue `{}`{}: {}", body.name,
+                                                         mesh_name(body), error.what()));
   }
   try {
     Tissue tissue{.body = index,

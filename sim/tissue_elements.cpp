@@ -25,7 +25,12 @@ fem::BlockMatrix TissueElements::make_matrix() const {
 
 void TissueElements::add_stiffness(const Positions& x, double activation, fem::Tangent tangent,
                                    double scale, fem::BlockMatrix& K) const {
-  std::visit([&](const auto& e) { e.add_stiffness(x, tangent, scale, K, activation); }, elements_);
+  if (const fem::SmoothedElasticity* e = smoothed()) {
+    e->pressure(x, pressure_);
+    e->add_stiffness(x, pressure_, tangent, scale, K, activation);
+    return;
+  }
+  std::get<fem::Elasticity>(elements_).add_stiffness(x, tangent, scale, K, activation);
 }
 
 Eigen::MatrixXd TissueElements::cauchy_stress(const Positions& x, double activation) const {

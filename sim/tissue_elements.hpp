@@ -38,6 +38,7 @@ class TissueElements {
 
  private:
   std::variant<fem::Elasticity, fem::SmoothedElasticity> elements_;
+  mutable Eigen::VectorXd pressure_;  // work
 };
 
 }  // namespace articular::sim

@@ -85,7 +85,8 @@ class CellCollector {
 };
 
 /// Cell arrays with three components, of the tetrahedra alone.
-std::vector<std::pair<std::string, Eigen::Matrix3Xd>> tetrahedra_vectors(vtkUnstructuredGrid& grid) {
+std::vector<std::pair<std::string, Eigen::Matrix3Xd>> tetrahedra_vectors(
+    vtkUnstructuredGrid& grid) {
   std::vector<vtkIdType> tets;
   for (vtkIdType e = 0; e < grid.GetNumberOfCells(); ++e)
     if (grid.GetCellType(e) == VTK_TETRA) tets.push_back(e);

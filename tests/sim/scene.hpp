@@ -22,6 +22,12 @@ inline Scenario scene(double step, Integrator::Scheme scheme = Integrator::Schem
   return scenario;
 }
 
+inline Material material_of(const fem::Material& law) {
+  Material material;
+  material.law = law;
+  return material;
+}
+
 inline Body box_body(const std::string& name, Body::Kind kind, const Vec3& size,
                      const Vec3& center = Vec3::Zero(),
                      const Eigen::Vector3i& cells = Eigen::Vector3i::Ones()) {
@@ -31,7 +37,7 @@ inline Body box_body(const std::string& name, Body::Kind kind, const Vec3& size,
   body.box = BoxGeometry{size, cells, center};
   if (kind != Body::Kind::Fixed) body.density = 1000;
   if (kind == Body::Kind::Tissue)
-    body.material = Material{Material::Law::NeoHookean, 20e3, 0.3, {}};
+    body.material = material_of(fem::NeoHookean(20e3, 0.3));
   return body;
 }
 
