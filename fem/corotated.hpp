@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 
+#include "fem/batch_law.hpp"
 #include "fem/material.hpp"
 #include "fem/rotation_svd.hpp"
 
@@ -45,6 +46,8 @@ class Corotated {
     return tangent(F, [](double eigenvalue) { return std::max(eigenvalue, 0.0); });
   }
 
+  BatchLaw batch_law() const { return {BatchLaw::Kind::Corotated, lame_.mu, lame_.lambda}; }
+
  private:
   // Where σi + σj = 0 (an element turned inside out just so far) R jumps, and the tangent has no
   // bound. A smaller sum [-] counts as this one, which leaves a stiffness that still can be
@@ -75,6 +78,6 @@ class Corotated {
 
   Lame lame_;
 };
-static_assert(Hyperelastic<Corotated>);
+static_assert(Hyperelastic<Corotated> && Batched<Corotated>);
 
 }  // namespace articular::fem

@@ -3,9 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -24,9 +25,9 @@ constexpr double kFlat = 1e-12;  // [-]
 // up to round-off: rigid rotations put zeros there.
 constexpr double kRoundOff = 1e-13;  // [-]
 
-Mat34 gather(const Positions& x, const Tetrahedra& tets, Eigen::Index e) {
+Mat34 gather(const Positions& x, const Eigen::Vector4i& nodes) {
   Mat34 x_e;
-  for (int a = 0; a < 4; ++a) x_e.col(a) = x.col(tets(a, e));
+  for (int a = 0; a < 4; ++a) x_e.col(a) = x.col(nodes[a]);
   return x_e;
 }
 
@@ -46,7 +47,7 @@ double checked_volume(const Positions& X, const Tetrahedra& tets, Eigen::Index e
       throw std::invalid_argument(message.str());
     }
   }
-  const Mat34 X_e = gather(X, tets, e);
+  const Mat34 X_e = gather(X, tets.col(e));
   const double volume = edge_matrix(X_e).determinant() / 6;
   double longest2 = 0;
   for (int a = 0; a < 4; ++a) {
@@ -61,6 +62,29 @@ double checked_volume(const Positions& X, const Tetrahedra& tets, Eigen::Index e
           << ": its volume is " << volume << " m^3, must be above " << smallest
           << " m^3 (1e-12 of its longest edge cubed)";
   throw std::invalid_argument(message.str());
+}
+
+std::vector<double> checked_volumes(const Positions& X, const Tetrahedra& tets) {
+  std::vector<double> volumes;
+  volumes.reserve(static_cast<std::size_t>(tets.cols()));
+  for (Eigen::Index e = 0; e < tets.cols(); ++e) volumes.push_back(checked_volume(X, tets, e));
+  return volumes;
+}
+
+/// Each node has its own block row.
+std::vector<int> every_node(int num_nodes) {
+  std::vector<int> blocks(static_cast<std::size_t>(num_nodes));
+  std::iota(blocks.begin(), blocks.end(), 0);
+  return blocks;
+}
+
+std::optional<BatchLaw> batch_law(const Material& material) {
+  return std::visit(
+      []<class M>(const M& m) -> std::optional<BatchLaw> {
+        if constexpr (Batched<M>) return m.batch_law();
+        return std::nullopt;
+      },
+      material);
 }
 
 /// The nearest positive semidefinite matrix (in the Frobenius norm): eigenvalues below 0 become 0.
@@ -94,50 +118,66 @@ Mat3 cauchy(const M& material, const Mat3& F) {
 
 }  // namespace
 
-Elasticity::Elasticity(const Positions& X, const Tetrahedra& tets, Material material)
-    : num_nodes_(static_cast<int>(X.cols())), tets_(tets), material_(std::move(material)) {
-  volume_.reserve(static_cast<std::size_t>(tets.cols()));
-  inverse_edges_.reserve(static_cast<std::size_t>(tets.cols()));
-  for (Eigen::Index e = 0; e < tets.cols(); ++e) {
-    volume_.push_back(checked_volume(X, tets, e));
-    inverse_edges_.push_back(edge_matrix(gather(X, tets, e)).inverse());
-  }
-  const BlockMatrix K = make_matrix();
-  slots_.reserve(16 * volume_.size());
-  for (Eigen::Index e = 0; e < tets.cols(); ++e) {
-    for (int b = 0; b < 4; ++b) {
-      for (int a = 0; a < 4; ++a) slots_.push_back(K.slot(tets(a, e), tets(b, e)));
-    }
-  }
-}
+Elasticity::Elasticity(const Positions& X, const Tetrahedra& tets, Material material,
+                       InstructionSet set)
+    : num_nodes_(static_cast<int>(X.cols())),
+      tets_(tets),
+      material_(std::move(material)),
+      instruction_set_(set),
+      volume_(checked_volumes(X, tets)),
+      elements_(X, tets_, volume_),
+      slots_(elements_, make_matrix(), every_node(num_nodes_)) {}
 
-/// Calls function(material, e, F) for the elements in their order; the material is chosen once.
+/// Calls function(material, place, F) for the elements in the order of their batches; the material
+/// is chosen once.
 template <class Function>
 void Elasticity::for_each_element(const Positions& x, Function function) const {
   assert(x.cols() == num_nodes_);
   std::visit(
       [&](const auto& material) {
-        for (int e = 0; e < num_elements(); ++e) {
-          function(material, e, deformation_gradient(gather(x, tets_, e), inverse_edges_[e]));
+        for (int place = 0; place < num_elements(); ++place) {
+          const Mat34 x_e = gather(x, elements_.nodes(place));
+          function(material, place, deformation_gradient(x_e, elements_.inverse_edges(place)));
         }
       },
       material_);
 }
 
+BatchJob Elasticity::job(const BatchLaw& law, const Positions& x) const {
+  assert(x.cols() == num_nodes_);
+  BatchJob job{};
+  job.batches = elements_.batches().data();
+  job.num_elements = num_elements();
+  job.mu = law.mu;
+  job.lambda = law.lambda;
+  job.x = x.data();
+  return job;
+}
+
 double Elasticity::energy(const Positions& x) const {
+  if (const std::optional<BatchLaw> law = batch_law(material_)) {
+    return element_kernels(instruction_set_, law->kind).energy(job(*law, x));
+  }
   double W = 0;
-  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
-    W += volume_[e] * material.energy_density(F);
+  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
+    W += elements_.volume(place) * material.energy_density(F);
   });
   return W;
 }
 
 void Elasticity::add_internal_force(const Positions& x, Positions& f) const {
   assert(f.cols() == num_nodes_);
-  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+  if (const std::optional<BatchLaw> law = batch_law(material_)) {
+    BatchJob work = job(*law, x);
+    work.f = f.data();
+    return element_kernels(instruction_set_, law->kind).force(work);
+  }
+  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
     const Mat34 f_e =
-        nodal_force(material.first_piola(F), shape_gradients(inverse_edges_[e]), volume_[e]);
-    for (int a = 0; a < 4; ++a) f.col(tets_(a, e)) += f_e.col(a);
+        nodal_force(material.first_piola(F), shape_gradients(elements_.inverse_edges(place)),
+                    elements_.volume(place));
+    const Eigen::Vector4i nodes = elements_.nodes(place);
+    for (int a = 0; a < 4; ++a) f.col(nodes[a]) += f_e.col(a);
   });
 }
 
@@ -147,55 +187,88 @@ BlockMatrix Elasticity::make_matrix() const {
   return {num_nodes_, {tets_.data(), 4 * volume_.size()}, offsets};
 }
 
+StiffnessSlots Elasticity::slots_in(const BlockMatrix& A,
+                                    std::span<const int> block_of_node) const {
+  assert(static_cast<int>(block_of_node.size()) == num_nodes_);
+  return {elements_, A, block_of_node};
+}
+
 void Elasticity::add_stiffness(const Positions& x, Tangent tangent, double scale,
                                BlockMatrix& K) const {
-  assert(K.num_blocks() == num_nodes_);
-  const auto scatter = [&](int e, const Mat9& C) {
-    const Mat12 K_e = stiffness(C, shape_gradients(inverse_edges_[e]), scale * volume_[e]);
-    const int* slot = &slots_[16 * static_cast<std::size_t>(e)];
-    for (int b = 0; b < 4; ++b) {
-      for (int a = 0; a < 4; ++a) K.block(*slot++) += K_e.block<3, 3>(3 * a, 3 * b);
-    }
-  };
-  if (tangent == Tangent::Projected) {
-    for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
-      scatter(e, projected_tangent(material, F));
-    });
+  add(x, tangent, scale, slots_, nullptr, K);
+}
+
+void Elasticity::add_stiffness(const Positions& x, Tangent tangent, double scale,
+                               const StiffnessSlots& slots, BlockMatrix& A) const {
+  add(x, tangent, scale, slots, nullptr, A);
+}
+
+void Elasticity::add_force_and_stiffness(const Positions& x, Tangent tangent, double scale,
+                                         const StiffnessSlots& slots, Positions& f,
+                                         BlockMatrix& A) const {
+  assert(f.cols() == num_nodes_);
+  if (!batch_law(material_)) add_internal_force(x, f);
+  add(x, tangent, scale, slots, f.data(), A);
+}
+
+/// The stiffness; of a batched material also the force, where f is not null.
+void Elasticity::add(const Positions& x, Tangent tangent, double scale, const StiffnessSlots& slots,
+                     double* f, BlockMatrix& A) const {
+  assert(A.pattern_id() == slots.pattern_id());
+  const bool projected = tangent == Tangent::Projected;
+  if (const std::optional<BatchLaw> law = batch_law(material_)) {
+    BatchJob work = job(*law, x);
+    work.slots = slots.batches().data();
+    work.f = f;
+    work.scale = scale;
+    work.K = A.values();
+    const LawKernels& kernels = element_kernels(instruction_set_, law->kind);
+    const auto stiffness = projected ? kernels.projected_stiffness : kernels.stiffness;
+    const auto both =
+        projected ? kernels.force_and_projected_stiffness : kernels.force_and_stiffness;
+    (f == nullptr ? stiffness : both)(work);
   } else {
-    for_each_element(
-        x, [&](const auto& material, int e, const Mat3& F) { scatter(e, material.tangent(F)); });
+    for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
+      const Mat9 C = projected ? projected_tangent(material, F) : material.tangent(F);
+      const Mat12 K_e = stiffness(C, shape_gradients(elements_.inverse_edges(place)),
+                                  scale * elements_.volume(place));
+      slots.add(place, K_e, A);
+    });
   }
+  slots.mirror(A);
 }
 
 Eigen::MatrixXd Elasticity::cauchy_stress(const Positions& x) const {
   Eigen::MatrixXd stress(6, num_elements());
-  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
     const Mat3 s = cauchy(material, F);
-    stress.col(e) << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2);
+    stress.col(elements_.element(place)) << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2);
   });
   return stress;
 }
 
 Eigen::VectorXd Elasticity::von_mises(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
+  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
     const Mat3 sigma = cauchy(material, F);
     const Mat3 deviator = sigma - sigma.trace() / 3 * Mat3::Identity();
-    result[e] = std::sqrt(1.5) * deviator.norm();
+    result[elements_.element(place)] = std::sqrt(1.5) * deviator.norm();
   });
   return result;
 }
 
 Eigen::VectorXd Elasticity::volume_ratio(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, [&](const auto&, int e, const Mat3& F) { result[e] = F.determinant(); });
+  for_each_element(x, [&](const auto&, int place, const Mat3& F) {
+    result[elements_.element(place)] = F.determinant();
+  });
   return result;
 }
 
 Eigen::VectorXd Elasticity::strain_energy_density(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, [&](const auto& material, int e, const Mat3& F) {
-    result[e] = material.energy_density(F);
+  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
+    result[elements_.element(place)] = material.energy_density(F);
   });
   return result;
 }

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <span>
 #include <variant>
 #include <vector>
 
 #include "fem/block_matrix.hpp"
 #include "fem/corotated.hpp"
+#include "fem/element_batches.hpp"
+#include "fem/element_kernels.hpp"
 #include "fem/linear.hpp"
 #include "fem/neo_hookean.hpp"
+#include "fem/stiffness_slots.hpp"
 #include "fem/types.hpp"
 
 namespace articular::fem {
@@ -18,11 +22,15 @@ using Material = std::variant<Linear, Corotated, NeoHookean>;
 enum class Tangent { Consistent, Projected };
 
 /// Elastic energy, internal force and stiffness of one mesh of linear tetrahedra with one material.
+/// Materials that are Batched run in vectors of elements, others element by element. Sums have a
+/// fixed order: the same bits in every run.
 class Elasticity {
  public:
+  /// @param set  the vectors to use, one that the machine has
   /// @throws std::invalid_argument naming the element where its rest volume is not positive
   ///         (inverted or flat), or an index that is out of range
-  Elasticity(const Positions& X, const Tetrahedra& tets, Material material);
+  Elasticity(const Positions& X, const Tetrahedra& tets, Material material,
+             InstructionSet set = best_instruction_set());
 
   int num_nodes() const { return num_nodes_; }
   int num_elements() const { return static_cast<int>(volume_.size()); }
@@ -33,10 +41,20 @@ class Elasticity {
   double energy(const Positions& x) const;
   /// f += ∂W/∂x [N]: the force needed to hold the shape.
   void add_internal_force(const Positions& x, Positions& f) const;
+
   /// A matrix with the pattern of this mesh: one block row a node.
   BlockMatrix make_matrix() const;
-  /// K += scale * ∂²W/∂x² [N/m], for a K of make_matrix().
+  /// K += scale * ∂²W/∂x² [N/m], for a symmetric K of make_matrix().
   void add_stiffness(const Positions& x, Tangent tangent, double scale, BlockMatrix& K) const;
+
+  /// For a matrix that holds more, or less, than this mesh: see StiffnessSlots.
+  StiffnessSlots slots_in(const BlockMatrix& A, std::span<const int> block_of_node) const;
+  /// A += scale * ∂²W/∂x² [N/m], for a symmetric A with the pattern that the slots were made for.
+  void add_stiffness(const Positions& x, Tangent tangent, double scale, const StiffnessSlots& slots,
+                     BlockMatrix& A) const;
+  /// Both at once, for less than the two calls: f += ∂W/∂x, A += scale * ∂²W/∂x².
+  void add_force_and_stiffness(const Positions& x, Tangent tangent, double scale,
+                               const StiffnessSlots& slots, Positions& f, BlockMatrix& A) const;
 
   /// Per element, for output. cauchy_stress: 6 x M (xx yy zz xy yz xz) [Pa].
   Eigen::MatrixXd cauchy_stress(const Positions& x) const;
@@ -47,13 +65,17 @@ class Elasticity {
  private:
   template <class Function>
   void for_each_element(const Positions& x, Function function) const;
+  BatchJob job(const BatchLaw& law, const Positions& x) const;
+  void add(const Positions& x, Tangent tangent, double scale, const StiffnessSlots& slots,
+           double* f, BlockMatrix& A) const;
 
   int num_nodes_ = 0;
   Tetrahedra tets_;
   Material material_;
-  std::vector<Mat3> inverse_edges_;  // (X1-X0, X2-X0, X3-X0)⁻¹ [1/m]
-  std::vector<double> volume_;       // [m³]
-  std::vector<int> slots_;           // 16 an element, 4b + a, into the matrix of make_matrix()
+  InstructionSet instruction_set_;
+  std::vector<double> volume_;  // [m³]
+  ElementBatches elements_;
+  StiffnessSlots slots_;  // into the matrix of make_matrix()
 };
 
 /// One entry a node: a quarter of the mass of each of its elements [kg].

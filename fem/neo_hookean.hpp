@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "fem/batch_law.hpp"
 #include "fem/cofactor.hpp"
 #include "fem/material.hpp"
 
@@ -43,6 +44,8 @@ class NeoHookean {
            lambda_ * (F.determinant() - alpha_) * cofactor_derivative(F);
   }
 
+  BatchLaw batch_law() const { return {BatchLaw::Kind::NeoHookean, mu_, lambda_}; }
+
  private:
   explicit NeoHookean(const Lame& lame)
       : mu_(lame.mu), lambda_(lame.lambda + lame.mu), alpha_(1 + mu_ / lambda_) {}
@@ -50,6 +53,6 @@ class NeoHookean {
   double mu_, lambda_;  // [Pa]
   double alpha_;        // [-]
 };
-static_assert(Hyperelastic<NeoHookean>);
+static_assert(Hyperelastic<NeoHookean> && Batched<NeoHookean>);
 
 }  // namespace articular::fem
