@@ -25,6 +25,11 @@ constexpr double kFlat = 1e-12;  // [-]
 // up to round-off: rigid rotations put zeros there.
 constexpr double kRoundOff = 1e-13;  // [-]
 
+/// An element and the chunk that it is in, see ElementBatches.
+struct Place {
+  int chunk, element;
+};
+
 Mat34 gather(const Positions& x, const Eigen::Vector4i& nodes) {
   Mat34 x_e;
   for (int a = 0; a < 4; ++a) x_e.col(a) = x.col(nodes[a]);
@@ -135,19 +140,23 @@ void Elasticity::for_each_element(const Positions& x, Function function) const {
   assert(x.cols() == num_nodes_);
   std::visit(
       [&](const auto& material) {
-        for (int place = 0; place < num_elements(); ++place) {
-          const Mat34 x_e = gather(x, elements_.nodes(place));
-          function(material, place, deformation_gradient(x_e, elements_.inverse_edges(place)));
+        for (int k = 0; k < elements_.num_chunks(); ++k) {
+          for (int place = elements_.chunk(k).begin; place < elements_.chunk(k).end; ++place) {
+            const Mat34 x_e = gather(x, elements_.nodes(place));
+            function(material, {k, place},
+                     deformation_gradient(x_e, elements_.inverse_edges(place)));
+          }
         }
       },
       material_);
 }
 
-BatchJob Elasticity::job(const BatchLaw& law, const Positions& x) const {
+ChunkJob Elasticity::job(const BatchLaw& law, const Positions& x, int chunk) const {
   assert(x.cols() == num_nodes_);
-  BatchJob job{};
-  job.batches = elements_.batches().data();
-  job.num_elements = num_elements();
+  const Chunk& range = elements_.chunk(chunk);
+  ChunkJob job{};
+  job.batches = &elements_.batches()[static_cast<std::size_t>(range.begin / kBatchSize)];
+  job.num_elements = range.end - range.begin;
   job.mu = law.mu;
   job.lambda = law.lambda;
   job.x = x.data();
@@ -155,12 +164,14 @@ BatchJob Elasticity::job(const BatchLaw& law, const Positions& x) const {
 }
 
 double Elasticity::energy(const Positions& x) const {
-  if (const std::optional<BatchLaw> law = batch_law(material_)) {
-    return element_kernels(instruction_set_, law->kind).energy(job(*law, x));
-  }
   double W = 0;
-  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
-    W += elements_.volume(place) * material.energy_density(F);
+  if (const std::optional<BatchLaw> law = batch_law(material_)) {
+    const LawKernels& kernels = element_kernels(instruction_set_, law->kind);
+    for (int k = 0; k < elements_.num_chunks(); ++k) W += kernels.energy(job(*law, x, k));
+    return W;
+  }
+  for_each_element(x, [&](const auto& material, Place place, const Mat3& F) {
+    W += elements_.volume(place.element) * material.energy_density(F);
   });
   return W;
 }
@@ -168,15 +179,18 @@ double Elasticity::energy(const Positions& x) const {
 void Elasticity::add_internal_force(const Positions& x, Positions& f) const {
   assert(f.cols() == num_nodes_);
   if (const std::optional<BatchLaw> law = batch_law(material_)) {
-    BatchJob work = job(*law, x);
-    work.f = f.data();
-    return element_kernels(instruction_set_, law->kind).force(work);
+    const LawKernels& kernels = element_kernels(instruction_set_, law->kind);
+    for (int k = 0; k < elements_.num_chunks(); ++k) {
+      ChunkJob work = job(*law, x, k);
+      work.f = f.data();
+      kernels.force(work);
+    }
+    return;
   }
-  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
-    const Mat34 f_e =
-        nodal_force(material.first_piola(F), shape_gradients(elements_.inverse_edges(place)),
-                    elements_.volume(place));
-    const Eigen::Vector4i nodes = elements_.nodes(place);
+  for_each_element(x, [&](const auto& material, Place place, const Mat3& F) {
+    const Mat34 dN_dX = shape_gradients(elements_.inverse_edges(place.element));
+    const Mat34 f_e = nodal_force(material.first_piola(F), dN_dX, elements_.volume(place.element));
+    const Eigen::Vector4i nodes = elements_.nodes(place.element);
     for (int a = 0; a < 4; ++a) f.col(nodes[a]) += f_e.col(a);
   });
 }
@@ -217,58 +231,60 @@ void Elasticity::add(const Positions& x, Tangent tangent, double scale, const St
   assert(A.pattern_id() == slots.pattern_id());
   const bool projected = tangent == Tangent::Projected;
   if (const std::optional<BatchLaw> law = batch_law(material_)) {
-    BatchJob work = job(*law, x);
-    work.slots = slots.batches().data();
-    work.f = f;
-    work.scale = scale;
-    work.K = A.values();
     const LawKernels& kernels = element_kernels(instruction_set_, law->kind);
     const auto stiffness = projected ? kernels.projected_stiffness : kernels.stiffness;
     const auto both =
         projected ? kernels.force_and_projected_stiffness : kernels.force_and_stiffness;
-    (f == nullptr ? stiffness : both)(work);
+    for (int k = 0; k < elements_.num_chunks(); ++k) {
+      ChunkJob work = job(*law, x, k);
+      slots.describe(k, work);
+      work.f = f;
+      work.scale = scale;
+      work.K = A.values();
+      (f == nullptr ? stiffness : both)(work);
+    }
   } else {
-    for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
+    for_each_element(x, [&](const auto& material, Place place, const Mat3& F) {
       const Mat9 C = projected ? projected_tangent(material, F) : material.tangent(F);
-      const Mat12 K_e = stiffness(C, shape_gradients(elements_.inverse_edges(place)),
-                                  scale * elements_.volume(place));
-      slots.add(place, K_e, A);
+      const Mat12 K_e = stiffness(C, shape_gradients(elements_.inverse_edges(place.element)),
+                                  scale * elements_.volume(place.element));
+      slots.add(place.chunk, place.element, K_e, A);
     });
   }
-  slots.mirror(A);
 }
 
 Eigen::MatrixXd Elasticity::cauchy_stress(const Positions& x) const {
   Eigen::MatrixXd stress(6, num_elements());
-  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
+  for_each_element(x, [&](const auto& material, Place place, const Mat3& F) {
     const Mat3 s = cauchy(material, F);
-    stress.col(elements_.element(place)) << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2);
+    stress.col(elements_.element(place.element)) << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2),
+        s(0, 2);
   });
   return stress;
 }
 
 Eigen::VectorXd Elasticity::von_mises(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
+  for_each_element(x, [&](const auto& material, Place place, const Mat3& F) {
     const Mat3 sigma = cauchy(material, F);
     const Mat3 deviator = sigma - sigma.trace() / 3 * Mat3::Identity();
-    result[elements_.element(place)] = std::sqrt(1.5) * deviator.norm();
+    result[elements_.element(place.element)] = std::sqrt(1.5) * deviator.norm();
   });
   return result;
 }
 
 Eigen::VectorXd Elasticity::volume_ratio(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, [&](const auto&, int place, const Mat3& F) {
-    result[elements_.element(place)] = F.determinant();
+  for_each_element(x, [&](const auto&, Place place, const Mat3& F) {
+    result[elements_.element(place.element)] = F.determinant();
   });
   return result;
 }
 
 Eigen::VectorXd Elasticity::strain_energy_density(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
-    result[elements_.element(place)] = material.energy_density(F);
+  for_each_element(x, [&](const auto& material, Place place, const Mat3& F) {
+    result[elements_.element(place.element)] = material.energy_density(F);
   });
   return result;
 }

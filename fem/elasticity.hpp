@@ -65,7 +65,7 @@ class Elasticity {
  private:
   template <class Function>
   void for_each_element(const Positions& x, Function function) const;
-  BatchJob job(const BatchLaw& law, const Positions& x) const;
+  ChunkJob job(const BatchLaw& law, const Positions& x, int chunk) const;
   void add(const Positions& x, Tangent tangent, double scale, const StiffnessSlots& slots,
            double* f, BlockMatrix& A) const;
 

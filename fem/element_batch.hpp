@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 
 namespace articular::fem {
 
@@ -8,32 +8,43 @@ namespace articular::fem {
 /// batch in several goes.
 inline constexpr int kBatchSize = 8;
 
+/// Elements in a chunk, at most. Stiffnesses of a chunk are summed in a buffer of its own before
+/// they go to the matrix: of 1000 neighbours, each block of the matrix has four on average, and the
+/// buffer (200 kB) stays in the second-level cache.
+inline constexpr int kChunkSize = 1024;
+
 /// Eight tetrahedra side by side, so that one instruction works on all of them.
 struct alignas(64) ElementBatch {
   double inverse_edges[9][kBatchSize];  // (X1-X0, X2-X0, X3-X0)⁻¹, column-major [1/m]
   double volume[kBatchSize];            // [m³]
-  int node[4][kBatchSize];
+  int node[4][kBatchSize];              // ascending
 };
 
-/// Where the stiffness of a batch goes: places of the ten blocks (a, b), a ≥ b, in the values of a
-/// matrix, in the order 00 10 20 30 11 21 31 22 32 33.
-struct BatchSlots {
-  static constexpr int kNone = -1;  // a node is not among the unknowns
-  // Below: block (a, b) lies above the diagonal, so its transpose goes to slot kTransposed − entry.
-  static constexpr int kTransposed = -2;
-  int slot[10][kBatchSize];
+/// The ten pairs of nodes (a, b), a ≥ b, of each element as indices into those of its chunk, in the
+/// order 00 10 20 30 11 21 31 22 32 33.
+struct BatchPairs {
+  std::uint16_t pair[10][kBatchSize];
+};
+static_assert(10 * kChunkSize <= 65536);
+
+/// Places of the blocks (i, j) and (j, i) of a pair in a matrix; equal for a node with itself.
+struct PairSlots {
+  int lower, upper;
 };
 
-/// What a kernel works on. Elements of the last batch from num_elements on do not exist.
-struct BatchJob {
+/// What a kernel works on: one chunk. Lanes of its last batch from num_elements on do not exist.
+struct ChunkJob {
   const ElementBatch* batches;
-  const BatchSlots* slots;  // of the same batches; stiffness only
   int num_elements;
   double mu, lambda;  // of the law [Pa]
   const double* x;    // 3 a node [m]
   double* f;          // 3 a node: += ∂W/∂x [N]; force only
-  double scale;       // of the stiffness [-]
-  double* K;          // 9 a block, column-major: += scale ∂²W/∂x² [N/m]; stiffness only
+  // Stiffness only:
+  const BatchPairs* pairs;
+  const PairSlots* slots;  // of the first num_coupled pairs; the first num_diagonal are diagonal
+  int num_diagonal, num_coupled, num_pairs;
+  double scale;  // [-]
+  double* K;     // 9 a block, column-major: += scale ∂²W/∂x² [N/m]
 };
 
 }  // namespace articular::fem

@@ -14,17 +14,27 @@ std::size_t batch_of(int place) { return static_cast<std::size_t>(place / kBatch
 }  // namespace
 
 ElementBatches::ElementBatches(const Positions& X, const Tetrahedra& tets,
-                               std::span<const double> volume)
-    : element_(static_cast<std::size_t>(tets.cols())) {
-  std::iota(element_.begin(), element_.end(), 0);
+                               std::span<const double> volume) {
+  std::vector<int> order(static_cast<std::size_t>(tets.cols()));
+  std::iota(order.begin(), order.end(), 0);
   const auto lowest = [&tets](int e) { return tets.col(e).minCoeff(); };
-  std::stable_sort(element_.begin(), element_.end(),
+  std::stable_sort(order.begin(), order.end(),
                    [&](int e, int other) { return lowest(e) < lowest(other); });
+  append(order, X, tets, volume);
+}
 
-  const int num_batches = (num_elements() + kBatchSize - 1) / kBatchSize;
-  batches_.resize(static_cast<std::size_t>(num_batches));
-  for (int place = 0; place < num_batches * kBatchSize; ++place) {
-    const int e = element(std::min(place, num_elements() - 1));
+/// Appends elements in chunks of their own.
+void ElementBatches::append(std::span<const int> elements, const Positions& X,
+                            const Tetrahedra& tets, std::span<const double> volume) {
+  const int first = static_cast<int>(element_.size()), count = static_cast<int>(elements.size());
+  for (int begin = 0; begin < count; begin += kChunkSize) {
+    chunks_.push_back({first + begin, first + std::min(begin + kChunkSize, count)});
+  }
+  element_.insert(element_.end(), elements.begin(), elements.end());
+  while (element_.size() % kBatchSize != 0) element_.push_back(-1);
+  batches_.resize(element_.size() / kBatchSize);
+  for (int place = first; place < static_cast<int>(element_.size()); ++place) {
+    const int e = elements[static_cast<std::size_t>(std::min(place - first, count - 1))];
     ElementBatch& batch = batches_[batch_of(place)];
     const int lane = place % kBatchSize;
     Eigen::Vector4i nodes = tets.col(e);
@@ -36,7 +46,7 @@ ElementBatches::ElementBatches(const Positions& X, const Tetrahedra& tets,
     }
     const Mat3 inverse = edge_matrix(X_e).inverse();
     for (int k = 0; k < 9; ++k) batch.inverse_edges[k][lane] = inverse.data()[k];
-    batch.volume[lane] = place < num_elements() ? volume[static_cast<std::size_t>(e)] : 0;
+    batch.volume[lane] = element(place) >= 0 ? volume[static_cast<std::size_t>(e)] : 0;
   }
 }
 

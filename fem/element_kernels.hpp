@@ -12,12 +12,12 @@ InstructionSet best_instruction_set();
 
 /// The kernels of one law. Sums run in the order of the elements.
 struct LawKernels {
-  double (*energy)(const BatchJob&);  // W [J]
-  void (*force)(const BatchJob&);
-  void (*stiffness)(const BatchJob&);
-  void (*projected_stiffness)(const BatchJob&);
-  void (*force_and_stiffness)(const BatchJob&);
-  void (*force_and_projected_stiffness)(const BatchJob&);
+  double (*energy)(const ChunkJob&);  // W [J]
+  void (*force)(const ChunkJob&);
+  void (*stiffness)(const ChunkJob&);
+  void (*projected_stiffness)(const ChunkJob&);
+  void (*force_and_stiffness)(const ChunkJob&);
+  void (*force_and_projected_stiffness)(const ChunkJob&);
 };
 
 struct ElementKernels {

@@ -57,8 +57,15 @@ inline void add_force(const Matrix& P, const Elements& e, const Vector (&g)[3], 
   }
 }
 
-/// Adds one block of each element to its place.
-inline void add_block(const Matrix& K_ab, const int* slot, int count, double* K) {
+/// Blocks of the pairs of a chunk: eight entries, aligned, and the last one apart.
+struct PairBlocks {
+  alignas(64) double entries[10 * kChunkSize][8];
+  double last[10 * kChunkSize];
+};
+
+/// Adds one block of each element to that of its pair.
+inline void add_block(const Matrix& K_ab, const std::uint16_t* pair, int count,
+                      PairBlocks& blocks) {
   constexpr int kGroups = 8 / kWidth;
   Lanes part[kGroups][kWidth];  // of each element: entries 0 to 7, kWidth at once
   for (int k = 0; k < 8; ++k) part[k / kWidth][k % kWidth] = K_ab[k / 3][k % 3];
@@ -67,27 +74,17 @@ inline void add_block(const Matrix& K_ab, const int* slot, int count, double* K)
   store(K_ab[2][2], last);
   for (int lane = 0; lane < kWidth; ++lane) {
     if (lane >= count) break;
-    if (slot[lane] >= 0) [[likely]] {
-      double* const block = K + std::ptrdiff_t{9} * slot[lane];
-      for (int group = 0; group < kGroups; ++group) {
-        double* const place = block + group * kWidth;
-        store(load(place) + part[group][lane], place);
-      }
-      block[8] += last[lane];
-    } else if (slot[lane] <= BatchSlots::kTransposed) {
-      double* const block = K + std::ptrdiff_t{9} * (BatchSlots::kTransposed - slot[lane]);
-      double entry[8];
-      for (int group = 0; group < kGroups; ++group) {
-        store(part[group][lane], entry + group * kWidth);
-      }
-      for (int k = 0; k < 8; ++k) block[3 * (k % 3) + k / 3] += entry[k];
-      block[8] += last[lane];
+    double* const entries = blocks.entries[pair[lane]];
+    for (int group = 0; group < kGroups; ++group) {
+      double* const place = entries + group * kWidth;
+      store(load(place) + part[group][lane], place);
     }
+    blocks.last[pair[lane]] += last[lane];
   }
 }
 
-inline void add_blocks(const Matrix (&inner)[6], const BatchSlots& slots, int first, int count,
-                       double* K) {
+inline void add_blocks(const Matrix (&inner)[6], const BatchPairs& pairs, int first, int count,
+                       PairBlocks& sums) {
   // Translations are free: the blocks of node 0 are minus the sums over the other nodes.
   const Matrix &K11 = inner[0], &K21 = inner[1], &K31 = inner[2], &K22 = inner[3], &K32 = inner[4],
                &K33 = inner[5];
@@ -95,14 +92,47 @@ inline void add_blocks(const Matrix (&inner)[6], const BatchSlots& slots, int fi
                K20 = -(K21 + K22 + transposed(K32)), K30 = -(K31 + K32 + K33);
   const Matrix K00 = -(K10 + K20 + K30);
   const Matrix* const blocks[10] = {&K00, &K10, &K20, &K30, &K11, &K21, &K31, &K22, &K32, &K33};
-  for (int k = 0; k < 10; ++k) add_block(*blocks[k], slots.slot[k] + first, count, K);
+  for (int k = 0; k < 10; ++k) add_block(*blocks[k], pairs.pair[k] + first, count, sums);
+}
+
+/// Entries 0 to 7 of a block += those of a pair, or of its transpose.
+inline void add_entries(const double* entries, double* block) {
+  for (int k = 0; k < 8; k += kWidth) store(load(block + k) + load(entries + k), block + k);
+}
+inline void add_transposed_entries(const double* entries, double* block) {
+#if defined(__AVX512F__)
+  const Lanes a = load(entries);
+  store(load(block) + __builtin_shufflevector(a, a, 0, 3, 6, 1, 4, 7, 2, 5), block);
+#else
+  for (int k = 0; k < 8; ++k) block[k] += entries[3 * (k % 3) + k / 3];
+#endif
+}
+
+/// The sums of a chunk go to the matrix, to both halves.
+inline void add_to_matrix(const PairBlocks& sums, const ChunkJob& job) {
+  for (int p = 0; p < job.num_coupled; ++p) {
+    double* const lower = job.K + std::ptrdiff_t{9} * job.slots[p].lower;
+    add_entries(sums.entries[p], lower);
+    lower[8] += sums.last[p];
+    if (p < job.num_diagonal) continue;
+    double* const upper = job.K + std::ptrdiff_t{9} * job.slots[p].upper;
+    add_transposed_entries(sums.entries[p], upper);
+    upper[8] += sums.last[p];
+  }
 }
 
 enum class Stiffness { None, Consistent, Projected };
 
 template <class Law, bool kForce, Stiffness kStiffness>
-void assemble(const BatchJob& job) {
+void assemble(const ChunkJob& job) {
   const Law law{job.mu, job.lambda};
+  PairBlocks sums;
+  if constexpr (kStiffness != Stiffness::None) {
+    for (int p = 0; p < job.num_pairs; ++p) {
+      for (int k = 0; k < 8; k += kWidth) store(Lanes{}, sums.entries[p] + k);
+      sums.last[p] = 0;
+    }
+  }
   for (int begin = 0; begin < job.num_elements; begin += kWidth) {
     const int batch = begin / kBatchSize, first = begin % kBatchSize;
     const int left = job.num_elements - begin, count = left < kWidth ? left : kWidth;
@@ -119,13 +149,14 @@ void assemble(const BatchJob& job) {
       } else {
         law.projected_stiffness(state, g, job.scale * e.volume, K);
       }
-      add_blocks(K, job.slots[batch], first, count, job.K);
+      add_blocks(K, job.pairs[batch], first, count, sums);
     }
   }
+  if constexpr (kStiffness != Stiffness::None) add_to_matrix(sums, job);
 }
 
 template <class Law>
-double energy(const BatchJob& job) {
+double energy(const ChunkJob& job) {
   const Law law{job.mu, job.lambda};
   double W = 0;
   for (int begin = 0; begin < job.num_elements; begin += kWidth) {

@@ -9,8 +9,8 @@
 
 namespace articular::fem {
 
-/// Where the stiffness of a mesh goes in a matrix, looked up once: element stiffnesses are added to
-/// the lower half, in the order of the elements, and then the lower half is mirrored.
+/// Where the stiffness of a mesh goes in a matrix, looked up once. Each chunk of elements sums its
+/// own blocks first, one for each pair of nodes that an element couples.
 class StiffnessSlots {
  public:
   /// @param block_of_node  block row of each node, -1: the node is not among the unknowns, its rows
@@ -20,19 +20,24 @@ class StiffnessSlots {
   StiffnessSlots(const ElementBatches& elements, const BlockMatrix& A,
                  std::span<const int> block_of_node);
 
-  std::span<const BatchSlots> batches() const { return batches_; }
   std::uint64_t pattern_id() const { return pattern_id_; }
-  /// Adds one element's stiffness, rows and columns 3a + i for its node a, to the lower half of A.
-  void add(int place, const Mat12& K_e, BlockMatrix& A) const;
-  /// Copies the blocks of the lower half, transposed, to the upper one: those of this mesh.
-  void mirror(BlockMatrix& A) const;
+  /// Fills in what a kernel has to know about the pairs of a chunk.
+  void describe(int chunk, ChunkJob& job) const;
+  /// Adds one element's stiffness, rows and columns 3a + i for its node a, to A.
+  void add(int chunk, int place, const Mat12& K_e, BlockMatrix& A) const;
 
  private:
-  struct Pair {
-    int lower, upper;
+  struct ChunkPairs {
+    int first_batch;
+    std::size_t first_slots;
+    int num_diagonal, num_coupled, num_pairs;
   };
-  std::vector<BatchSlots> batches_;
-  std::vector<Pair> pairs_;
+  void append_chunk(const ElementBatches& elements, int chunk, const BlockMatrix& A,
+                    std::span<const int> block_of_node);
+
+  std::vector<ChunkPairs> chunks_;
+  std::vector<BatchPairs> pairs_;
+  std::vector<PairSlots> slots_;
   std::uint64_t pattern_id_ = 0;
 };
 
