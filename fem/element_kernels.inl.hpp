@@ -110,7 +110,17 @@ inline void add_transposed_entries(const double* entries, double* block) {
 
 /// The sums of a chunk go to the matrix, to both halves.
 inline void add_to_matrix(const PairBlocks& sums, const ChunkJob& job) {
+  constexpr int kAhead = 12;  // pairs, of two or three lines each
+  const auto fetch = [&job](int slot) {
+    const double* const block = job.K + std::ptrdiff_t{9} * slot;
+    __builtin_prefetch(block, 1);
+    __builtin_prefetch(block + 8, 1);
+  };
   for (int p = 0; p < job.num_coupled; ++p) {
+    if (p + kAhead < job.num_coupled) {
+      fetch(job.slots[p + kAhead].lower);
+      fetch(job.slots[p + kAhead].upper);
+    }
     double* const lower = job.K + std::ptrdiff_t{9} * job.slots[p].lower;
     add_entries(sums.entries[p], lower);
     lower[8] += sums.last[p];
@@ -119,6 +129,13 @@ inline void add_to_matrix(const PairBlocks& sums, const ChunkJob& job) {
     add_transposed_entries(sums.entries[p], upper);
     upper[8] += sums.last[p];
   }
+}
+
+/// Batches are read once: the processor's own guess is late at each page. Beyond the end nothing
+/// happens.
+inline void fetch(const ElementBatch* batch) {
+  const char* const bytes = reinterpret_cast<const char*>(batch);
+  for (unsigned k = 0; k < sizeof(ElementBatch); k += 64) __builtin_prefetch(bytes + k);
 }
 
 enum class Stiffness { None, Consistent, Projected };
@@ -136,6 +153,7 @@ void assemble(const ChunkJob& job) {
   for (int begin = 0; begin < job.num_elements; begin += kWidth) {
     const int batch = begin / kBatchSize, first = begin % kBatchSize;
     const int left = job.num_elements - begin, count = left < kWidth ? left : kWidth;
+    if (first == 0) fetch(job.batches + batch + 2);
     const Elements e = load_elements(job.batches[batch], first, job.x);
     const Matrix F = e.edges * e.inverse_edges;
     const typename Law::State state = law.at(F);

@@ -47,6 +47,33 @@ struct Polar {
   }
 }
 
+inline Symmetric symmetric_part(const Matrix& A) {
+  return {{A[0][0], A[1][1], A[2][2], 0.5 * (A[0][1] + A[1][0]), 0.5 * (A[0][2] + A[2][0]),
+           0.5 * (A[1][2] + A[2][1])}};
+}
+
+/// (tr(T) 1 − T)⁻¹
+inline Symmetric inverse_of_sums(const Symmetric& T) {
+  return inverse({{T.v[1] + T.v[2], T.v[2] + T.v[0], T.v[0] + T.v[1], -T.v[3], -T.v[4], -T.v[5]}});
+}
+
+/// One step towards RᵀR = 1 and one towards a symmetric F Rᵀ, both quadratic.
+/// @return how far the steps went, not a number where R is none
+inline Lanes correct(const Matrix& F, Matrix& R) {
+  // R ← R − R (RᵀR − 1)/2
+  const Lanes d00 = 0.5 * dot(R[0], R[0]) - 0.5, d11 = 0.5 * dot(R[1], R[1]) - 0.5,
+              d22 = 0.5 * dot(R[2], R[2]) - 0.5, d10 = 0.5 * dot(R[1], R[0]),
+              d20 = 0.5 * dot(R[2], R[0]), d21 = 0.5 * dot(R[2], R[1]);
+  R = R - R * Matrix{{{d00, d10, d20}, {d10, d11, d21}, {d20, d21, d22}}};
+  // R ← (1 + [ω]×) R with ω = G axl(T − Tᵀ)
+  const Matrix T = F * transposed(R);
+  const Vector omega = inverse_of_sums(symmetric_part(T)) *
+                       Vector{T[1][2] - T[2][1], T[2][0] - T[0][2], T[0][1] - T[1][0]};
+  R = R + Matrix{{cross(omega, R[0]), cross(omega, R[1]), cross(omega, R[2])}};
+  return sqrt(d00 * d00 + d11 * d11 + d22 * d22 + d10 * d10 + d20 * d20 + d21 * d21 +
+              dot(omega, omega));
+}
+
 /// The polar rotation without iterating on matrices. With S = RᵀF, s = tr S, C = FᵀF = S²,
 /// p = (s² − tr C)/2 and d = det F, Cayley-Hamilton turns F = R S into
 ///
@@ -56,18 +83,19 @@ struct Polar {
 ///
 ///   s⁴ − 2 |F|² s² − 8 d s + |F|⁴ − 4 |cof F|² = 0.
 ///
-/// Newton's method falls to it monotonically from √3 |F| ≥ s. One step towards orthogonality and
-/// one towards a symmetric F Rᵀ, both quadratic, then leave round-off. Lanes that do not converge,
-/// or whose denominator is small (σ1 + σ2 ≪ σ0), go to the singular value decomposition.
+/// Newton's method falls to it monotonically from √3 |F| ≥ s. Where the denominator is small
+/// (σ1 + σ2 < σ0/3 or so), R is corrected; where it is very small, or something does not converge,
+/// the singular value decomposition has the lane.
 ///
 /// [Horn 1987] Horn. Closed-form Solution of Absolute Orientation Using Unit Quaternions.
 ///             J. Opt. Soc. Am. A 4(4).
 inline Polar polar(const Matrix& F) {
-  constexpr int kMaxSteps = 12;                  // of Newton's method; two to five do
-  constexpr double kLastStep = 1e-5;             // relative to s: the next one would be its square
-  constexpr double kSmallestDenominator = 2e-3;  // relative to s³, 8/27 at rest
-  constexpr double kSmallestTrace = 0.02;        // smaller ones come near kSmallestSum
-  constexpr double kLargestCorrection = 1e-7;    // its square is round-off
+  constexpr int kMaxSteps = 12;       // of Newton's method; three to five do
+  constexpr double kLastStep = 1e-8;  // relative to s: the next one would be round-off
+  // Denominators relative to s³, 8/27 at rest. R loses a digit for each factor of three or so.
+  constexpr double kGoodDenominator = 0.15, kSmallestDenominator = 2e-3;
+  constexpr double kSmallestTrace = 0.02;      // smaller ones come near kSmallestSum
+  constexpr double kLargestCorrection = 1e-7;  // its square is round-off
 
   const Matrix cof = cofactor(F);
   const Lanes d = dot(F[0], cof[0]), norm2 = squared_norm(F);
@@ -78,48 +106,28 @@ inline Polar polar(const Matrix& F) {
     const Lanes s2 = s * s;
     const Lanes change = (((s2 + c2) * s + c1) * s + c0) / ((4 * s2 + 2 * c2) * s + c1);
     s -= change;
-    // At the root the quotient of round-offs may be anything small, or not a number at s = 0.
-    open = ~(magnitude(change) <= kLastStep * s);
+    open = ~(magnitude(change) <= kLastStep * s);  // not a number included
     if (bits(open) == 0) break;
   }
-  const Lanes denominator = 0.5 * s * (s * s - norm2) - d;
-  const Lanes of_F = 0.5 * (s * s + norm2) / denominator, of_cof = s / denominator;
-  const Matrix FC = F * Matrix{{transposed(F) * F[0], transposed(F) * F[1], transposed(F) * F[2]}};
-  Matrix R = of_F * F + of_cof * cof - (1 / denominator) * FC;
+  const Lanes denominator = 0.5 * s * (s * s - norm2) - d, s3 = s * s * s;
+  const Lanes inverse_denominator = 1 / denominator;
+  const Lanes of_F = 0.5 * (s * s + norm2) * inverse_denominator, of_cof = s * inverse_denominator;
+  const Matrix Ft = transposed(F);
+  const Matrix FC = F * (inverse_denominator * Matrix{{Ft * F[0], Ft * F[1], Ft * F[2]}});
+  Matrix R = of_F * F + of_cof * cof - FC;
 
-  // R ← R − R (RᵀR − 1)/2
-  const Lanes d00 = 0.5 * dot(R[0], R[0]) - 0.5, d11 = 0.5 * dot(R[1], R[1]) - 0.5,
-              d22 = 0.5 * dot(R[2], R[2]) - 0.5, d10 = 0.5 * dot(R[1], R[0]),
-              d20 = 0.5 * dot(R[2], R[0]), d21 = 0.5 * dot(R[2], R[1]);
-  R = R - R * Matrix{{{d00, d10, d20}, {d10, d11, d21}, {d20, d21, d22}}};
-
-  // R ← (1 + [ω]×) R with ω = G axl(T − Tᵀ)
-  const auto stretch = [&F, &R] { return F * transposed(R); };
-  const auto symmetric = [](const Matrix& A) {
-    return Symmetric{{A[0][0], A[1][1], A[2][2], 0.5 * (A[0][1] + A[1][0]),
-                      0.5 * (A[0][2] + A[2][0]), 0.5 * (A[1][2] + A[2][1])}};
-  };
-  const auto sums_inverse = [](const Symmetric& T) {
-    return inverse(
-        Symmetric{{T.v[1] + T.v[2], T.v[2] + T.v[0], T.v[0] + T.v[1], -T.v[3], -T.v[4], -T.v[5]}});
-  };
-  Matrix T = stretch();
-  const Vector omega =
-      sums_inverse(symmetric(T)) * Vector{T[1][2] - T[2][1], T[2][0] - T[0][2], T[0][1] - T[1][0]};
-  R = R + Matrix{{cross(omega, R[0]), cross(omega, R[1]), cross(omega, R[2])}};
-  T = stretch();
-
+  unsigned hard = bits(open | ~(s >= kSmallestTrace));
+  if (bits(~(denominator >= kGoodDenominator * s3)) != 0) [[unlikely]] {
+    hard |=
+        bits(~(correct(F, R) <= kLargestCorrection) | ~(denominator >= kSmallestDenominator * s3));
+  }
+  const Matrix T = F * transposed(R);
   Polar result;
   result.R = R;
-  result.T = symmetric(T);
+  result.T = symmetric_part(T);
   result.trace = T[0][0] + T[1][1] + T[2][2];
-  result.G = sums_inverse(result.T);
-  const Lanes correction = max(max(max(magnitude(d00), magnitude(d11)), magnitude(d22)),
-                               max(max(magnitude(d10), magnitude(d20)), magnitude(d21)));
-  const Mask fine = (correction <= kLargestCorrection) &
-                    (dot(omega, omega) <= kLargestCorrection * kLargestCorrection) &
-                    (s >= kSmallestTrace) & (denominator >= kSmallestDenominator * s * s * s);
-  if (const unsigned hard = bits(open | ~fine); hard != 0) [[unlikely]] {
+  result.G = inverse_of_sums(result.T);
+  if (hard != 0) [[unlikely]] {
     Polar repaired = result;
     repair(F, hard, repaired);
     result = repaired;
