@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -11,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/parallel_parts.hpp"
 #include "fem/tetrahedron.hpp"
 
 namespace articular::fem {
@@ -24,11 +26,6 @@ constexpr double kFlat = 1e-12;  // [-]
 // A tangent whose lowest eigenvalue lies above minus this part of its norm is positive semidefinite
 // up to round-off: rigid rotations put zeros there.
 constexpr double kRoundOff = 1e-13;  // [-]
-
-/// An element and the chunk that it is in, see ElementBatches.
-struct Place {
-  int chunk, element;
-};
 
 Mat34 gather(const Positions& x, const Eigen::Vector4i& nodes) {
   Mat34 x_e;
@@ -124,39 +121,43 @@ Mat3 cauchy(const M& material, const Mat3& F) {
 }  // namespace
 
 Elasticity::Elasticity(const Positions& X, const Tetrahedra& tets, Material material,
-                       InstructionSet set)
+                       AssemblyOptions options)
     : num_nodes_(static_cast<int>(X.cols())),
       tets_(tets),
       material_(std::move(material)),
-      instruction_set_(set),
+      options_(options),
       volume_(checked_volumes(X, tets)),
       elements_(X, tets_, volume_),
       slots_(elements_, make_matrix(), every_node(num_nodes_)) {}
 
-/// Calls function(material, place, F) for the elements in the order of their batches; the material
-/// is chosen once.
+/// Calls function(material, place, F) for the elements of a chunk in their order; the material is
+/// chosen once.
 template <class Function>
-void Elasticity::for_each_element(const Positions& x, Function function) const {
-  assert(x.cols() == num_nodes_);
+void Elasticity::for_each_element(int chunk, const Positions& x, Function function) const {
+  const Chunk& places = elements_.chunk(chunk);
   std::visit(
       [&](const auto& material) {
-        for (int k = 0; k < elements_.num_chunks(); ++k) {
-          for (int place = elements_.chunk(k).begin; place < elements_.chunk(k).end; ++place) {
-            const Mat34 x_e = gather(x, elements_.nodes(place));
-            function(material, {k, place},
-                     deformation_gradient(x_e, elements_.inverse_edges(place)));
-          }
+        for (int place = places.begin; place < places.end; ++place) {
+          const Mat34 x_e = gather(x, elements_.nodes(place));
+          function(material, place, deformation_gradient(x_e, elements_.inverse_edges(place)));
         }
       },
       material_);
 }
 
-ChunkJob Elasticity::job(const BatchLaw& law, const Positions& x, int chunk) const {
+/// The same for all elements. What the function writes belongs to the element, or to its nodes.
+template <class Function>
+void Elasticity::for_each_element(const Positions& x, Function function) const {
   assert(x.cols() == num_nodes_);
-  const Chunk& range = elements_.chunk(chunk);
+  for_each_chunk(elements_, options_.threads,
+                 [&](int, int chunk) { for_each_element(chunk, x, function); });
+}
+
+ChunkJob Elasticity::job(const BatchLaw& law, const Positions& x, int chunk) const {
+  const Chunk& places = elements_.chunk(chunk);
   ChunkJob job{};
-  job.batches = &elements_.batches()[static_cast<std::size_t>(range.begin / kBatchSize)];
-  job.num_elements = range.end - range.begin;
+  job.batches = &elements_.batches()[static_cast<std::size_t>(places.begin / kBatchSize)];
+  job.num_elements = places.end - places.begin;
   job.mu = law.mu;
   job.lambda = law.lambda;
   job.x = x.data();
@@ -164,33 +165,39 @@ ChunkJob Elasticity::job(const BatchLaw& law, const Positions& x, int chunk) con
 }
 
 double Elasticity::energy(const Positions& x) const {
-  double W = 0;
-  if (const std::optional<BatchLaw> law = batch_law(material_)) {
-    const LawKernels& kernels = element_kernels(instruction_set_, law->kind);
-    for (int k = 0; k < elements_.num_chunks(); ++k) W += kernels.energy(job(*law, x, k));
-    return W;
-  }
-  for_each_element(x, [&](const auto& material, Place place, const Mat3& F) {
-    W += elements_.volume(place.element) * material.energy_density(F);
+  assert(x.cols() == num_nodes_);
+  const std::optional<BatchLaw> law = batch_law(material_);
+  std::array<double, ElementBatches::kInnerParts + 1> W{};  // of each part
+  for_each_chunk(elements_, options_.threads, [&](int part, int chunk) {
+    double& W_part = W[static_cast<std::size_t>(part)];
+    if (law) {
+      const LawKernels& kernels = element_kernels(options_.instruction_set, law->kind);
+      W_part += kernels.energy(job(*law, x, chunk));
+    } else {
+      for_each_element(chunk, x, [&](const auto& material, int place, const Mat3& F) {
+        W_part += elements_.volume(place) * material.energy_density(F);
+      });
+    }
   });
-  return W;
+  return std::accumulate(W.begin(), W.end(), 0.0);
 }
 
 void Elasticity::add_internal_force(const Positions& x, Positions& f) const {
+  assert(x.cols() == num_nodes_);
   assert(f.cols() == num_nodes_);
+  for_each_chunk(elements_, options_.threads, [&](int, int chunk) { add_force(chunk, x, f); });
+}
+
+void Elasticity::add_force(int chunk, const Positions& x, Positions& f) const {
   if (const std::optional<BatchLaw> law = batch_law(material_)) {
-    const LawKernels& kernels = element_kernels(instruction_set_, law->kind);
-    for (int k = 0; k < elements_.num_chunks(); ++k) {
-      ChunkJob work = job(*law, x, k);
-      work.f = f.data();
-      kernels.force(work);
-    }
-    return;
+    ChunkJob work = job(*law, x, chunk);
+    work.f = f.data();
+    return element_kernels(options_.instruction_set, law->kind).force(work);
   }
-  for_each_element(x, [&](const auto& material, Place place, const Mat3& F) {
-    const Mat34 dN_dX = shape_gradients(elements_.inverse_edges(place.element));
-    const Mat34 f_e = nodal_force(material.first_piola(F), dN_dX, elements_.volume(place.element));
-    const Eigen::Vector4i nodes = elements_.nodes(place.element);
+  for_each_element(chunk, x, [&](const auto& material, int place, const Mat3& F) {
+    const Mat34 dN_dX = shape_gradients(elements_.inverse_edges(place));
+    const Mat34 f_e = nodal_force(material.first_piola(F), dN_dX, elements_.volume(place));
+    const Eigen::Vector4i nodes = elements_.nodes(place);
     for (int a = 0; a < 4; ++a) f.col(nodes[a]) += f_e.col(a);
   });
 }
@@ -221,70 +228,72 @@ void Elasticity::add_force_and_stiffness(const Positions& x, Tangent tangent, do
                                          const StiffnessSlots& slots, Positions& f,
                                          BlockMatrix& A) const {
   assert(f.cols() == num_nodes_);
-  if (!batch_law(material_)) add_internal_force(x, f);
-  add(x, tangent, scale, slots, f.data(), A);
+  add(x, tangent, scale, slots, &f, A);
 }
 
-/// The stiffness; of a batched material also the force, where f is not null.
+/// The stiffness, and the force where f is not null.
 void Elasticity::add(const Positions& x, Tangent tangent, double scale, const StiffnessSlots& slots,
-                     double* f, BlockMatrix& A) const {
+                     Positions* f, BlockMatrix& A) const {
+  assert(x.cols() == num_nodes_);
   assert(A.pattern_id() == slots.pattern_id());
   const bool projected = tangent == Tangent::Projected;
   if (const std::optional<BatchLaw> law = batch_law(material_)) {
-    const LawKernels& kernels = element_kernels(instruction_set_, law->kind);
+    const LawKernels& kernels = element_kernels(options_.instruction_set, law->kind);
     const auto stiffness = projected ? kernels.projected_stiffness : kernels.stiffness;
     const auto both =
         projected ? kernels.force_and_projected_stiffness : kernels.force_and_stiffness;
-    for (int k = 0; k < elements_.num_chunks(); ++k) {
-      ChunkJob work = job(*law, x, k);
-      slots.describe(k, work);
-      work.f = f;
+    for_each_chunk(elements_, options_.threads, [&](int, int chunk) {
+      ChunkJob work = job(*law, x, chunk);
+      slots.describe(chunk, work);
+      work.f = f == nullptr ? nullptr : f->data();
       work.scale = scale;
       work.K = A.values();
       (f == nullptr ? stiffness : both)(work);
-    }
-  } else {
-    for_each_element(x, [&](const auto& material, Place place, const Mat3& F) {
-      const Mat9 C = projected ? projected_tangent(material, F) : material.tangent(F);
-      const Mat12 K_e = stiffness(C, shape_gradients(elements_.inverse_edges(place.element)),
-                                  scale * elements_.volume(place.element));
-      slots.add(place.chunk, place.element, K_e, A);
     });
+    return;
   }
+  for_each_chunk(elements_, options_.threads, [&](int, int chunk) {
+    if (f != nullptr) add_force(chunk, x, *f);
+    for_each_element(chunk, x, [&](const auto& material, int place, const Mat3& F) {
+      const Mat9 C = projected ? projected_tangent(material, F) : material.tangent(F);
+      const Mat12 K_e = stiffness(C, shape_gradients(elements_.inverse_edges(place)),
+                                  scale * elements_.volume(place));
+      slots.add(chunk, place, K_e, A);
+    });
+  });
 }
 
 Eigen::MatrixXd Elasticity::cauchy_stress(const Positions& x) const {
   Eigen::MatrixXd stress(6, num_elements());
-  for_each_element(x, [&](const auto& material, Place place, const Mat3& F) {
+  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
     const Mat3 s = cauchy(material, F);
-    stress.col(elements_.element(place.element)) << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2),
-        s(0, 2);
+    stress.col(elements_.element(place)) << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2);
   });
   return stress;
 }
 
 Eigen::VectorXd Elasticity::von_mises(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, [&](const auto& material, Place place, const Mat3& F) {
+  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
     const Mat3 sigma = cauchy(material, F);
     const Mat3 deviator = sigma - sigma.trace() / 3 * Mat3::Identity();
-    result[elements_.element(place.element)] = std::sqrt(1.5) * deviator.norm();
+    result[elements_.element(place)] = std::sqrt(1.5) * deviator.norm();
   });
   return result;
 }
 
 Eigen::VectorXd Elasticity::volume_ratio(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, [&](const auto&, Place place, const Mat3& F) {
-    result[elements_.element(place.element)] = F.determinant();
+  for_each_element(x, [&](const auto&, int place, const Mat3& F) {
+    result[elements_.element(place)] = F.determinant();
   });
   return result;
 }
 
 Eigen::VectorXd Elasticity::strain_energy_density(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, [&](const auto& material, Place place, const Mat3& F) {
-    result[elements_.element(place.element)] = material.energy_density(F);
+  for_each_element(x, [&](const auto& material, int place, const Mat3& F) {
+    result[elements_.element(place)] = material.energy_density(F);
   });
   return result;
 }

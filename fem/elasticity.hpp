@@ -21,16 +21,21 @@ using Material = std::variant<Linear, Corotated, NeoHookean>;
 /// semidefinite (for solvers that need it far from equilibrium).
 enum class Tangent { Consistent, Projected };
 
+/// How to compute, not what: the same sums but for round-off.
+struct AssemblyOptions {
+  InstructionSet instruction_set = best_instruction_set();  // one that the machine has
+  int threads = 1;  // up to ElementBatches::kInnerParts; their number changes no bit of a result
+};
+
 /// Elastic energy, internal force and stiffness of one mesh of linear tetrahedra with one material.
 /// Materials that are Batched run in vectors of elements, others element by element. Sums have a
-/// fixed order: the same bits in every run.
+/// fixed order: the same bits in every run, with any number of threads.
 class Elasticity {
  public:
-  /// @param set  the vectors to use, one that the machine has
   /// @throws std::invalid_argument naming the element where its rest volume is not positive
   ///         (inverted or flat), or an index that is out of range
   Elasticity(const Positions& X, const Tetrahedra& tets, Material material,
-             InstructionSet set = best_instruction_set());
+             AssemblyOptions options = {});
 
   int num_nodes() const { return num_nodes_; }
   int num_elements() const { return static_cast<int>(volume_.size()); }
@@ -65,14 +70,17 @@ class Elasticity {
  private:
   template <class Function>
   void for_each_element(const Positions& x, Function function) const;
+  template <class Function>
+  void for_each_element(int chunk, const Positions& x, Function function) const;
   ChunkJob job(const BatchLaw& law, const Positions& x, int chunk) const;
   void add(const Positions& x, Tangent tangent, double scale, const StiffnessSlots& slots,
-           double* f, BlockMatrix& A) const;
+           Positions* f, BlockMatrix& A) const;
+  void add_force(int chunk, const Positions& x, Positions& f) const;
 
   int num_nodes_ = 0;
   Tetrahedra tets_;
   Material material_;
-  InstructionSet instruction_set_;
+  AssemblyOptions options_;
   std::vector<double> volume_;  // [m³]
   ElementBatches elements_;
   StiffnessSlots slots_;  // into the matrix of make_matrix()
