@@ -1,6 +1,8 @@
 // The loops over batches of tetrahedra, compiled once for each instruction set by the
 // element_kernels_*.cpp, which name it: ARTICULAR_INSTRUCTION_SET.
 
+#include <cstddef>
+
 #include "fem/corotated_lanes.inl.hpp"
 #include "fem/neo_hookean_lanes.inl.hpp"
 
