@@ -32,6 +32,8 @@ class BlockMatrix {
   Eigen::Map<const Mat3> block(int slot) const {
     return Eigen::Map<const Mat3>(values_.data() + std::ptrdiff_t{9} * slot);
   }
+  /// 9 a slot, column-major.
+  double* values() { return values_.data(); }
   void set_zero();
   /// y = A x
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;

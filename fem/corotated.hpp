@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 
+#include "fem/batch_law.hpp"
 #include "fem/rotation_svd.hpp"
 #include "fem/split_material.hpp"
 
@@ -52,6 +53,8 @@ class Corotated {
     return tangent(F, [](double eigenvalue) { return std::max(eigenvalue, 0.0); });
   }
 
+  BatchLaw batch_law() const { return {BatchLaw::Kind::Corotated, lame_.mu, lame_.lambda}; }
+
  private:
   explicit Corotated(const Lame& lame) : lame_(lame) {}
 
@@ -74,6 +77,6 @@ class Corotated {
 
   Lame lame_;
 };
-static_assert(Split<Corotated>);
+static_assert(Split<Corotated> && Batched<Corotated>);
 
 }  // namespace articular::fem

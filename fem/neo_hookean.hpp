@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "fem/batch_law.hpp"
 #include "fem/cofactor.hpp"
 #include "fem/split_material.hpp"
 
@@ -50,6 +51,8 @@ class NeoHookean {
            lambda_ * (F.determinant() - alpha_) * cofactor_derivative(F);
   }
 
+  BatchLaw batch_law() const { return {BatchLaw::Kind::NeoHookean, mu_, lambda_}; }
+
  private:
   explicit NeoHookean(const Lame& lame)
       : mu_(lame.mu), lambda_(lame.lambda + lame.mu), alpha_(1 + mu_ / lambda_) {}
@@ -57,6 +60,6 @@ class NeoHookean {
   double mu_, lambda_;  // [Pa]
   double alpha_;        // [-]
 };
-static_assert(Split<NeoHookean>);
+static_assert(Split<NeoHookean> && Batched<NeoHookean>);
 
 }  // namespace articular::fem

@@ -7,11 +7,15 @@
 
 namespace articular::fem {
 
-/// The positions of the nodes of element e, one column a node.
-inline Mat34 gather(const Positions& x, const Tetrahedra& tets, Eigen::Index e) {
+/// The positions of four nodes, one column a node.
+inline Mat34 gather(const Positions& x, const Eigen::Vector4i& nodes) {
   Mat34 x_e;
-  for (int a = 0; a < 4; ++a) x_e.col(a) = x.col(tets(a, e));
+  for (int a = 0; a < 4; ++a) x_e.col(a) = x.col(nodes[a]);
   return x_e;
+}
+/// Those of element e.
+inline Mat34 gather(const Positions& x, const Tetrahedra& tets, Eigen::Index e) {
+  return gather(x, tets.col(e));
 }
 
 /// "tetrahedron 3 (nodes 0 1 2 4)", for messages.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/point_law.hpp"
 #include "fem/rest_shape.hpp"
 #include "fem/tetrahedron.hpp"
 
@@ -89,11 +90,7 @@ SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tet
   }
   std::vector<PressureModuli> moduli;
   for (const Material& material : materials_) {
-    moduli.push_back(std::visit(
-        [](const auto& m) {
-          return PressureModuli{.kappa = m.bulk_modulus(), .mu = m.shear_modulus()};
-        },
-        material));
+    moduli.push_back({.kappa = bulk_modulus(material), .mu = shear_modulus(material)});
   }
   domains_ = make_edge_domains(tets_, inverse_edges_, volume_, material_of_element_, num_materials);
   if (fibres_.cols() > 0) domain_fibres_ = mean_fibres(domains_, volume_, fibres_);
@@ -121,39 +118,29 @@ SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tet
   p_work_.resize(num_pressures());
 }
 
-/// Calls function(distortion, k, F_k) for the domains in their order; a material is chosen once.
+/// Calls function(law, k, F_k) for the domains in their order.
 template <class Function>
 void SmoothedElasticity::for_each_domain(const Positions& x, double activation,
                                          Function function) const {
   assert(x.cols() == num_nodes_);
   for (std::size_t m = 0; m < materials_.size(); ++m) {
-    std::visit(
-        [&](const auto& material) {
-          for (int k = domains_.material_begin[m]; k < domains_.material_begin[m + 1]; ++k) {
-            function(element_law(material, domain_fibres_, k, activation).distortion(), k,
-                     gradient_of_domain(x, k));
-          }
-        },
-        materials_[m]);
+    for (int k = domains_.material_begin[m]; k < domains_.material_begin[m + 1]; ++k) {
+      function(PointLaw(materials_[m], domain_fibres_, k, activation), k, gradient_of_domain(x, k));
+    }
   }
 }
 
-/// Calls function(Θ, distortion, e, F_e) for the elements of one material after the other.
+/// Calls function(law, e, F_e) for the elements of one material after the other.
 template <class Function>
 void SmoothedElasticity::for_each_element(const Positions& x, double activation,
                                           Function function) const {
   assert(x.cols() == num_nodes_);
   for (std::size_t m = 0; m < materials_.size(); ++m) {
-    std::visit(
-        [&]<class M>(const M& material) {
-          for (int i = element_begin_[m]; i < element_begin_[m + 1]; ++i) {
-            const int e = elements_[i];
-            function(typename M::Dilatation{},
-                     element_law(material, fibres_, e, activation).distortion(), e,
-                     deformation_gradient(gather(x, tets_, e), inverse_edges_[e]));
-          }
-        },
-        materials_[m]);
+    for (int i = element_begin_[m]; i < element_begin_[m + 1]; ++i) {
+      const int e = elements_[i];
+      function(PointLaw(materials_[m], fibres_, e, activation), e,
+               deformation_gradient(gather(x, tets_, e), inverse_edges_[e]));
+    }
   }
 }
 
@@ -176,8 +163,8 @@ double SmoothedElasticity::mean_pressure(int e, const Eigen::VectorXd& p) const 
 
 void SmoothedElasticity::dilatation(const Positions& x, Eigen::VectorXd& b) const {
   b.setZero(num_pressures());
-  for_each_element(x, 0, [&](auto theta, const auto&, int e, const Mat3& F) {
-    const double quarter = volume_[e] / 4 * theta.value(F);
+  for_each_element(x, 0, [&](const PointLaw& law, int e, const Mat3& F) {
+    const double quarter = volume_[e] / 4 * law.dilatation(F);
     for (const int c : pressure_.of_corner().col(e)) b[c] += quarter;
   });
 }
@@ -199,12 +186,12 @@ double SmoothedElasticity::energy(const Positions& x, const Eigen::VectorXd& p,
                                   double activation) const {
   const double share = smoothing_.plain_share;
   double W = 0;
-  for_each_domain(x, activation, [&](const auto& distortion, int k, const Mat3& F) {
-    W += (1 - share) * domains_.volume[k] * distortion.energy_density(F);
+  for_each_domain(x, activation, [&](const PointLaw& law, int k, const Mat3& F) {
+    W += (1 - share) * domains_.volume[k] * law.distortion_energy_density(F);
   });
-  for_each_element(x, activation, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
-    if (share > 0) W += share * volume_[e] * distortion.energy_density(F);
-    W += volume_[e] * mean_pressure(e, p) * theta.value(F);
+  for_each_element(x, activation, [&](const PointLaw& law, int e, const Mat3& F) {
+    if (share > 0) W += share * volume_[e] * law.distortion_energy_density(F);
+    W += volume_[e] * mean_pressure(e, p) * law.dilatation(F);
   });
   return W;
 }
@@ -213,8 +200,8 @@ double SmoothedElasticity::energy(const Positions& x, double activation) const {
   pressure(x, p_work_);
   // ½ bᵀp instead of bᵀp: the latter is what energy(x, p) holds.
   double half = 0;
-  for_each_element(x, 0, [&](auto theta, const auto&, int e, const Mat3& F) {
-    half += 0.5 * volume_[e] * mean_pressure(e, p_work_) * theta.value(F);
+  for_each_element(x, 0, [&](const PointLaw& law, int e, const Mat3& F) {
+    half += 0.5 * volume_[e] * mean_pressure(e, p_work_) * law.dilatation(F);
   });
   return energy(x, p_work_, activation) - half;
 }
@@ -229,15 +216,15 @@ void SmoothedElasticity::add_internal_force(const Positions& x, const Eigen::Vec
                                             Positions& f, double activation) const {
   assert(f.cols() == num_nodes_ && p.size() == num_pressures());
   const double share = smoothing_.plain_share;
-  for_each_domain(x, activation, [&](const auto& distortion, int k, const Mat3& F) {
-    const Mat3 P = (1 - share) * domains_.volume[k] * distortion.first_piola(F);
+  for_each_domain(x, activation, [&](const PointLaw& law, int k, const Mat3& F) {
+    const Mat3 P = (1 - share) * domains_.volume[k] * law.distortion_first_piola(F);
     for (int i = domains_.node_begin[k]; i < domains_.node_begin[k + 1]; ++i) {
       f.col(domains_.node[i]) += P * domains_.gradient[i];
     }
   });
-  for_each_element(x, activation, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
-    Mat3 P = mean_pressure(e, p) * theta.gradient(F);
-    if (share > 0) P += share * distortion.first_piola(F);
+  for_each_element(x, activation, [&](const PointLaw& law, int e, const Mat3& F) {
+    Mat3 P = mean_pressure(e, p) * law.dilatation_gradient(F);
+    if (share > 0) P += share * law.distortion_first_piola(F);
     const Mat34 f_e = nodal_force(P, shape_gradients(inverse_edges_[e]), volume_[e]);
     for (int a = 0; a < 4; ++a) f.col(tets_(a, e)) += f_e.col(a);
   });
@@ -301,14 +288,13 @@ void SmoothedElasticity::add_stiffness(const Positions& x, const Eigen::VectorXd
                                        double activation) const {
   assert(K.num_blocks() == num_nodes_ && p.size() == num_pressures());
   const double share = smoothing_.plain_share;
-  for_each_domain(x, activation, [&](const auto& distortion, int k, const Mat3& F) {
-    const Mat9 C =
-        tangent == Tangent::Projected ? projected_tangent(distortion, F) : distortion.tangent(F);
+  for_each_domain(x, activation, [&](const PointLaw& law, int k, const Mat3& F) {
+    const Mat9 C = law.distortion_tangent(F, tangent);
     add_domain_stiffness(k, C, (1 - share) * scale, K);
   });
-  for_each_element(x, activation, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
-    Mat9 C = mean_pressure(e, p) * theta.hessian(F);
-    if (share > 0) C += share * distortion.tangent(F);
+  for_each_element(x, activation, [&](const PointLaw& law, int e, const Mat3& F) {
+    Mat9 C = mean_pressure(e, p) * law.dilatation_hessian(F);
+    if (share > 0) C += share * law.distortion_tangent(F, Tangent::Consistent);
     if (tangent == Tangent::Projected) C = projected(C);
     add_element_stiffness(e, C, scale, slots_, K);
   });
@@ -317,9 +303,8 @@ void SmoothedElasticity::add_stiffness(const Positions& x, const Eigen::VectorXd
 void SmoothedElasticity::add_plain_stiffness(const Positions& x, Tangent tangent, double scale,
                                              BlockMatrix& K, double activation) const {
   assert(K.num_blocks() == num_nodes_);
-  for_each_element(x, activation, [&](auto, const auto& distortion, int e, const Mat3& F) {
-    const Mat9 C =
-        tangent == Tangent::Projected ? projected_tangent(distortion, F) : distortion.tangent(F);
+  for_each_element(x, activation, [&](const PointLaw& law, int e, const Mat3& F) {
+    const Mat9 C = law.distortion_tangent(F, tangent);
     add_element_stiffness(e, C, scale, plain_slots_, K);
   });
 }
@@ -327,9 +312,9 @@ void SmoothedElasticity::add_plain_stiffness(const Positions& x, Tangent tangent
 void SmoothedElasticity::set_pressure_gradient(const Positions& x, PressureGradient& G) const {
   assert(G.num_nodes() == num_nodes_ && G.num_pressures() == num_pressures());
   G.set_zero();
-  for_each_element(x, 0, [&](auto theta, const auto&, int e, const Mat3& F) {
+  for_each_element(x, 0, [&](const PointLaw& law, int e, const Mat3& F) {
     const Mat34 G_e =
-        nodal_force(theta.gradient(F), shape_gradients(inverse_edges_[e]), volume_[e] / 4);
+        nodal_force(law.dilatation_gradient(F), shape_gradients(inverse_edges_[e]), volume_[e] / 4);
     const int* slot = &gradient_slots_[16 * static_cast<std::size_t>(e)];
     for (int c = 0; c < 4; ++c) {
       for (int a = 0; a < 4; ++a) G.block(*slot++) += G_e.col(a);
@@ -343,14 +328,14 @@ Eigen::MatrixXd SmoothedElasticity::cauchy_stress(const Positions& x, double act
   const auto components = [](const Mat3& s) {
     return Eigen::Vector<double, 6>(s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2));
   };
-  for_each_domain(x, activation, [&](const auto& distortion, int k, const Mat3& F) {
-    of_domain.col(k) = components(cauchy(distortion, F));
+  for_each_domain(x, activation, [&](const PointLaw& law, int k, const Mat3& F) {
+    of_domain.col(k) = components(law.distortion_cauchy_stress(F));
   });
   pressure(x, p_work_);
-  for_each_element(x, activation, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
-    const Mat3 plain = share * cauchy(distortion, F) + mean_pressure(e, p_work_) *
-                                                           theta.gradient(F) * F.transpose() /
-                                                           F.determinant();
+  for_each_element(x, activation, [&](const PointLaw& law, int e, const Mat3& F) {
+    const Mat3 plain =
+        share * law.distortion_cauchy_stress(F) +
+        mean_pressure(e, p_work_) * law.dilatation_gradient(F) * F.transpose() / F.determinant();
     stress.col(e) = components(plain);
     const int* k = &domains_.of_element[6 * static_cast<std::size_t>(e)];
     for (int i = 0; i < 6; ++i) stress.col(e) += (1 - share) / 6 * of_domain.col(k[i]);
@@ -371,8 +356,8 @@ Eigen::VectorXd SmoothedElasticity::von_mises(const Positions& x, double activat
 
 Eigen::VectorXd SmoothedElasticity::volume_ratio(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
-  for_each_element(
-      x, 0, [&](auto, const auto&, int e, const Mat3& F) { result[e] = F.determinant(); });
+  for_each_element(x, 0,
+                   [&](const PointLaw&, int e, const Mat3& F) { result[e] = F.determinant(); });
   return result;
 }
 
@@ -380,13 +365,13 @@ Eigen::VectorXd SmoothedElasticity::strain_energy_density(const Positions& x,
                                                           double activation) const {
   const double share = smoothing_.plain_share;
   Eigen::VectorXd of_domain(domains_.size()), result(num_elements());
-  for_each_domain(x, activation, [&](const auto& distortion, int k, const Mat3& F) {
-    of_domain[k] = distortion.energy_density(F);
+  for_each_domain(x, activation, [&](const PointLaw& law, int k, const Mat3& F) {
+    of_domain[k] = law.distortion_energy_density(F);
   });
   pressure(x, p_work_);
-  for_each_element(x, activation, [&](auto theta, const auto& distortion, int e, const Mat3& F) {
-    result[e] =
-        share * distortion.energy_density(F) + 0.5 * mean_pressure(e, p_work_) * theta.value(F);
+  for_each_element(x, activation, [&](const PointLaw& law, int e, const Mat3& F) {
+    result[e] = share * law.distortion_energy_density(F) +
+                0.5 * mean_pressure(e, p_work_) * law.dilatation(F);
     const int* k = &domains_.of_element[6 * static_cast<std::size_t>(e)];
     for (int i = 0; i < 6; ++i) result[e] += (1 - share) / 6 * of_domain[k[i]];
   });
