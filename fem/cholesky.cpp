@@ -80,7 +80,8 @@ class Cholesky final : public LinearSolver {
     openblas_set_num_threads(1);
   }
 
-  FactorStatus prepare(const BlockMatrix& A) override {
+  using LinearSolver::prepare;
+  FactorStatus prepare(const BlockMatrix& A, const Positions&) override {
     if (!factor_ || A.pattern_id() != pattern_id_) analyze(A);
     ready_ = false;
     if (!take_values(A)) return FactorStatus::NotPositiveDefinite;

@@ -24,7 +24,8 @@ class ConjugateGradients final : public LinearSolver {
   ConjugateGradients(double tolerance, int max_iterations)
       : tolerance_(tolerance), max_iterations_(max_iterations) {}
 
-  FactorStatus prepare(const BlockMatrix& A) override {
+  using LinearSolver::prepare;
+  FactorStatus prepare(const BlockMatrix& A, const Positions&) override {
     if (A.num_blocks() != num_blocks() || A.pattern_id() != pattern_id_) take_pattern(A);
     for (std::size_t k = 0; k < slot_.size(); ++k) lower_[k] = A.block(slot_[k]);
     ready_ = false;

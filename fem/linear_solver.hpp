@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "fem/block_matrix.hpp"
+#include "fem/types.hpp"
 
 namespace articular::fem {
 
@@ -12,6 +13,7 @@ struct SolveReport {
   int iterations = 0;            // 0 for a direct solver
   double relative_residual = 0;  // of the last residual known, |b - A x| / |b|
   bool converged = true;
+  int repairs = 0;  // preconditioners that proved unfit during this solve and were replaced
 };
 
 /// Solves A x = b for a symmetric positive definite A of 3x3 blocks (the lower half is read).
@@ -19,7 +21,10 @@ class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
   /// Takes A's values; keeps what depends on its pattern as long as pattern_id() stays.
-  [[nodiscard]] virtual FactorStatus prepare(const BlockMatrix& A) = 0;
+  /// @param x  where the nodes are now [m]: those of the first blocks, further blocks are no nodes.
+  ///           Multigrid lives on it; the others do without. Without nodes, nothing is known of them.
+  [[nodiscard]] virtual FactorStatus prepare(const BlockMatrix& A, const Positions& x) = 0;
+  [[nodiscard]] FactorStatus prepare(const BlockMatrix& A) { return prepare(A, Positions(3, 0)); }
   /// @param x  start value on entry (used by iterative solvers), solution on exit
   [[nodiscard]] virtual SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) = 0;
 };
@@ -30,5 +35,13 @@ std::unique_ptr<LinearSolver> make_cholesky();
 /// Conjugate gradients with the inverses of the diagonal blocks as preconditioner.
 /// @param tolerance  on |r| / |b|
 std::unique_ptr<LinearSolver> make_conjugate_gradients(double tolerance, int max_iterations);
+
+/// Conjugate gradients with smoothed aggregation multigrid as preconditioner (multigrid.hpp): the
+/// number of iterations hardly depends on the size of the mesh. While the pattern stays, so does the
+/// preconditioner, turned with the nodes; it is built anew once the additional iterations that its
+/// age has cost add up to the price of that.
+/// @param tolerance  on |r| / |b|
+/// @param threads    the answer has the same bits with any number
+std::unique_ptr<LinearSolver> make_multigrid(double tolerance, int max_iterations, int threads = 1);
 
 }  // namespace articular::fem
