@@ -46,10 +46,10 @@ inline void row_product(const BlockRows<3>& A, int i, const float* x, float* sum
   Float4 s0{}, s1{}, s2{};  // the fourth entries are of no meaning
   const float* a = A.block(A.row_begin[i]);
   for (int k = A.row_begin[i]; k < A.row_begin[i + 1]; ++k, a += 9) {
-    const float* x_j = x + std::ptrdiff_t{3} * A.column[k];
-    s0 += load4(a) * x_j[0];
-    s1 += load4(a + 3) * x_j[1];
-    s2 += load4(a + 6) * x_j[2];
+    const Float4 x_j = load4(x + std::ptrdiff_t{3} * A.column[k]);  // one load less than by parts
+    s0 += load4(a) * __builtin_shufflevector(x_j, x_j, 0, 0, 0, 0);
+    s1 += load4(a + 3) * __builtin_shufflevector(x_j, x_j, 1, 1, 1, 1);
+    s2 += load4(a + 6) * __builtin_shufflevector(x_j, x_j, 2, 2, 2, 2);
   }
   store4(sum, s0 + s1 + s2);
 }

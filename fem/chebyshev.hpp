@@ -35,7 +35,7 @@ LargestEigenvalue largest_eigenvalue(const BlockRows<N>& A, ThreadPool& pool);
 /// [Saad 2003] Saad. Iterative Methods for Sparse Linear Systems, 2nd ed. SIAM.
 struct ChebyshevSmoother {
   int degree = 3;
-  float low = 0.1F, high = 1;
+  float low = 0.05F, high = 1;
 };
 
 /// The vectors of one level, padded.

@@ -241,6 +241,7 @@ bool galerkin_product(const BlockRows<N>& A, const GalerkinPattern& pattern, Pro
       p = (p * inverse_of(P.column[k])).eval();
     }
   });
+  copy_values_by_columns(P, pool);
   return positive;
 }
 

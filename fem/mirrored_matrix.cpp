@@ -1,9 +1,20 @@
 #include "fem/mirrored_matrix.hpp"
 
 #include <atomic>
-#include <cmath>
+#include <cstring>
 
 namespace articular::fem {
+namespace {
+
+using Double2 [[gnu::vector_size(16)]] = double;
+
+Double2 load2(const double* p) {
+  Double2 v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+
+}  // namespace
 
 void MirroredMatrix::take_pattern(const BlockMatrix& A) {
   pattern_id_ = A.pattern_id();
@@ -51,20 +62,20 @@ bool MirroredMatrix::take_values(const BlockMatrix& A, ThreadPool& pool) {
 double MirroredMatrix::multiply_rows(Eigen::Index begin, Eigen::Index end, const double* x, double* y) const {
   double product = 0;
   for (Eigen::Index i = begin; i < end; ++i) {
-    double y0 = 0, y1 = 0, y2 = 0;
+    Double2 y01{};
+    double y2 = 0;
     const double* a = block(row_begin_[i]);
     for (int k = row_begin_[i]; k < row_begin_[i + 1]; ++k, a += 9) {
       const double* x_j = x + std::ptrdiff_t{3} * column_[k];
-      y0 += a[0] * x_j[0] + a[3] * x_j[1] + a[6] * x_j[2];
-      y1 += a[1] * x_j[0] + a[4] * x_j[1] + a[7] * x_j[2];
+      y01 += load2(a) * x_j[0] + load2(a + 3) * x_j[1] + load2(a + 6) * x_j[2];
       y2 += a[2] * x_j[0] + a[5] * x_j[1] + a[8] * x_j[2];
     }
     const double* x_i = x + 3 * i;
     double* y_i = y + 3 * i;
-    y_i[0] = y0;
-    y_i[1] = y1;
+    y_i[0] = y01[0];
+    y_i[1] = y01[1];
     y_i[2] = y2;
-    product += x_i[0] * y0 + x_i[1] * y1 + x_i[2] * y2;
+    product += x_i[0] * y01[0] + x_i[1] * y01[1] + x_i[2] * y2;
   }
   return product;
 }

@@ -20,8 +20,8 @@ constexpr int kLongRow = 200;
 // Unknowns that a dense factorization may have, and those that it has if coarsening ends early.
 constexpr int kDirect = 300, kMostDirect = 1500;
 constexpr int kMostLevels = 20;
-// The smoother acts on the upper part of the spectrum, [λ/10, λ].
-constexpr float kSmoothedRange = 10;
+// The smoother acts on the upper part of the spectrum, [λ/20, λ].
+constexpr float kSmoothedRange = 20;
 
 void set_interval(float largest, ChebyshevSmoother& smoother) {
   smoother.high = largest;

@@ -100,7 +100,7 @@ Prolongation<N> prolongation_pattern(const BlockRows<N>& A, const Aggregation& a
     };
     add(aggregate[i]);
     for (int k = A.row_begin[i]; !fixed(i) && k < A.row_begin[i + 1]; ++k) {
-      if (!fixed(A.column[k])) add(aggregate[A.column[k]]);
+      add(aggregate[A.column[k]]);
     }
     std::sort(P.column.begin() + row_start, P.column.end());
     P.row_begin.push_back(static_cast<int>(P.column.size()));
@@ -167,16 +167,27 @@ RigidModes smoothed_prolongation(const BlockRows<N>& A, const Aggregation& aggre
       for (int k = P.row_begin[i]; k < P.row_begin[i + 1]; ++k) {
         std::fill_n(P.block(k), P.kBlock, 0.0F);
       }
+      // A node in no aggregate follows its neighbours, a bone say, to where its forces balance.
+      const float weight = aggregate[i] >= 0 ? omega : 1;
       if (aggregate[i] >= 0) block_of(aggregate[i]) = (fixed(i) ? 1 : 1 - omega) * q(i);
       for (int k = A.row_begin[i]; !fixed(i) && k < A.row_begin[i + 1]; ++k) {
         const int j = A.column[k];
-        if (fixed(j) || aggregate[j] < 0) continue;
+        if (aggregate[j] < 0) continue;
         const Eigen::Map<const Eigen::Matrix<float, N, N>> A_ij(A.block(k));
-        block_of(aggregate[j]).noalias() -= (omega * A_ij).lazyProduct(q(j));
+        block_of(aggregate[j]).noalias() -= (weight * A_ij).lazyProduct(q(j));
       }
     }
   });
   return coarse_modes;
+}
+
+template <int N>
+void copy_values_by_columns(Prolongation<N>& P, ThreadPool& pool) {
+  P.values_by_columns.resize(P.values.size());
+  pool.run_pieces(static_cast<int>(P.slot.size()), 4096, [&](int first, int last, int) {
+    float* to = P.values_by_columns.data() + std::ptrdiff_t{P.kBlock} * first;
+    for (int k = first; k < last; ++k) to = std::copy_n(P.block(P.slot[k]), P.kBlock, to);
+  });
 }
 
 template <int N>
@@ -186,7 +197,7 @@ void restrict_to_coarse(const Prolongation<N>& P, const std::vector<float>& fine
     for (int a = first; a < last; ++a) {
       Float4 s0{}, s1{}, s2{};  // as in row_product(): pairs of rows of six
       for (int k = P.column_begin[a]; k < P.column_begin[a + 1]; ++k) {
-        const float* p = P.block(P.slot[k]);
+        const float* p = P.values_by_columns.data() + std::ptrdiff_t{P.kBlock} * k;
         const float* r = fine.data() + std::ptrdiff_t{N} * P.row[k];
         for (int c = 0; c + 1 < N; c += 2, p += 12) {
           s0 += load4(p) * r[c];
@@ -250,6 +261,8 @@ template RigidModes smoothed_prolongation(const BlockRows<6>&, const Aggregation
                                                    const std::vector<char>&,
                                                    const RigidModes&, float,
                                                    Prolongation<6>&, ThreadPool&);
+template void copy_values_by_columns(Prolongation<3>&, ThreadPool&);
+template void copy_values_by_columns(Prolongation<6>&, ThreadPool&);
 template void restrict_to_coarse(const Prolongation<3>&, const std::vector<float>&,
                                  std::vector<float>&, ThreadPool&);
 template void restrict_to_coarse(const Prolongation<6>&, const std::vector<float>&,

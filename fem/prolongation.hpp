@@ -30,6 +30,7 @@ struct Prolongation {
   std::vector<float> values;              // padded
   std::vector<int> column_begin{0};       // of the blocks by columns:
   std::vector<int> row, slot;             // rows sorted within a column
+  std::vector<float> values_by_columns;   // a copy: restriction by slots takes five times as long
 
   int num_rows() const { return static_cast<int>(row_begin.size()) - 1; }
   int num_columns() const { return static_cast<int>(column_begin.size()) - 1; }
@@ -38,7 +39,7 @@ struct Prolongation {
 };
 
 /// Where the smoothed prolongator has blocks: a row for each node, with the aggregates of itself and
-/// of its neighbours; rows marked as not smoothed, and neighbours so marked, count for themselves.
+/// of its neighbours, but that of itself only where the row is marked as not smoothed.
 /// @param unsmoothed  1 for such a row; empty: none
 template <int N>
 Prolongation<N> prolongation_pattern(const BlockRows<N>& A, const Aggregation& aggregation,
@@ -53,6 +54,10 @@ template <int N>
 RigidModes smoothed_prolongation(const BlockRows<N>& A, const Aggregation& aggregation,
                                  const std::vector<char>& unsmoothed, const RigidModes& modes,
                                  float omega, Prolongation<N>& P, ThreadPool& pool);
+
+/// After a change of P.values.
+template <int N>
+void copy_values_by_columns(Prolongation<N>& P, ThreadPool& pool);
 
 /// coarse = Pᵀ fine
 template <int N>

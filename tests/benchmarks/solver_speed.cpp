@@ -1,6 +1,6 @@
 // Linear solvers on a static problem: a cube of plain tetrahedra, six a cell, clamped on one side.
 //
-//   build/release/bin/solver_speed [statics|nu|threads] [MOST_CELLS] [RUNS]     (statics 32 5)
+//   build/release/bin/solver_speed [statics|nu|threads] [MOST_CELLS] [RUNS] [SOLVER]    (statics 32 5 all)
 //
 // Times are medians of processor time of runs in which the solvers take turns; `threads` prints wall
 // time, which means something on an idle machine only.
@@ -78,11 +78,12 @@ double product_seconds(const ClampedBox& box) {
   return median(times);
 }
 
-std::vector<Candidate> candidates(int cells) {
+std::vector<Candidate> candidates(int cells, const std::string& only) {
   std::vector<Candidate> all;
   all.push_back({"block Jacobi", [] { return make_conjugate_gradients(kTolerance, kMostIterations); }, {}, {}, {}});
   all.push_back({"multigrid", [] { return make_multigrid(kTolerance, kMostIterations); }, {}, {}, {}});
   if (cells <= kMostCholeskyCells) all.push_back({"Cholesky", make_cholesky, {}, {}, {}});
+  if (only != "all") std::erase_if(all, [&](const Candidate& c) { return c.name != only; });
   return all;
 }
 
@@ -102,7 +103,7 @@ constexpr const char* kHeader =
     "| tets | nu | solver | set-up ms | next prepare ms | solve ms | both ms | iterations | product ms | products a "
     "solve | peak MB |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
 
-void statics(int most_cells, int runs) {
+void statics(int most_cells, int runs, const std::string& only) {
   std::printf("%s", kHeader);
   std::vector<double> last;
   int last_cells = 0;
@@ -110,7 +111,7 @@ void statics(int most_cells, int runs) {
     if (cells > most_cells) break;
     const ClampedBox box = cube(cells, 0.45);
     const double product = product_seconds(box);
-    std::vector<Candidate> all = candidates(cells);
+    std::vector<Candidate> all = candidates(cells, only);
     for (int k = 0; k < runs; ++k) {
       for (Candidate& candidate : all) run(box, cpu_seconds, candidate);
     }
@@ -127,12 +128,12 @@ void statics(int most_cells, int runs) {
   }
 }
 
-void nu_sweep(int most_cells, int runs) {
+void nu_sweep(int most_cells, int runs, const std::string& only) {
   std::printf("%s", kHeader);
   for (const double nu : {0.45, 0.49, 0.499, 0.4999}) {
     const ClampedBox box = cube(most_cells, nu);
     const double product = product_seconds(box);
-    std::vector<Candidate> all = candidates(most_cells);
+    std::vector<Candidate> all = candidates(most_cells, only);
     for (int k = 0; k < runs; ++k) {
       for (Candidate& candidate : all) run(box, cpu_seconds, candidate);
     }
@@ -164,11 +165,12 @@ void threads(int most_cells, int runs) {
 int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "statics";
   const int most_cells = argc > 2 ? std::atoi(argv[2]) : 32, runs = argc > 3 ? std::atoi(argv[3]) : 5;
+  const std::string only = argc > 4 ? argv[4] : "all";
   if (most_cells < 1 || runs < 1 || (what != "statics" && what != "nu" && what != "threads")) {
-    std::fprintf(stderr, "usage: solver_speed [statics|nu|threads] [MOST_CELLS] [RUNS]\n");
+    std::fprintf(stderr, "usage: solver_speed [statics|nu|threads] [MOST_CELLS] [RUNS] [SOLVER]\n");
     return 2;
   }
-  if (what == "statics") statics(most_cells, runs);
-  if (what == "nu") nu_sweep(most_cells, runs);
+  if (what == "statics") statics(most_cells, runs, only);
+  if (what == "nu") nu_sweep(most_cells, runs, only);
   if (what == "threads") threads(most_cells, runs);
 }

@@ -46,10 +46,11 @@ class LinearSolverTest : public testing::TestWithParam<NamedSolver> {
 };
 
 INSTANTIATE_TEST_SUITE_P(
-    Both, LinearSolverTest,
+    All, LinearSolverTest,
     testing::Values(NamedSolver{"Cholesky", make_cholesky},
                     NamedSolver{"ConjugateGradients",
-                                [] { return make_conjugate_gradients(kTolerance, 1000); }}),
+                                [] { return make_conjugate_gradients(kTolerance, 1000); }},
+                    NamedSolver{"Multigrid", [] { return make_multigrid(kTolerance, 1000); }}),
     [](const testing::TestParamInfo<NamedSolver>& info) { return info.param.name; });
 
 BlockMatrix shifted_stiffness(const std::array<int, 3>& cells, double E = 2e4) {
