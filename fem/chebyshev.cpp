@@ -33,7 +33,8 @@ class Recurrence {
   float center_, radius_, rho_ = 0, previous_ = 0, residual_ = 0;
 };
 
-/// r ← r − A d; d_next = previous d + residual r; x ← x + d_next, and where d was not in x yet, + d.
+/// r ← r − A d; d_next = previous d + residual r; x ← x + d_next, and where d was not in x yet, +
+/// d.
 template <int N>
 void step(const BlockRows<N>& A, float previous, float residual, bool add_d, LevelVectors& v,
           ThreadPool& pool) {

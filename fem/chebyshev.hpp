@@ -13,8 +13,9 @@ inline constexpr int kRowsPerPiece = N == 3 ? 512 : 64;
 
 /// Largest eigenvalue of A: an estimate that is not below it, and a bound that can't be.
 struct LargestEigenvalue {
-  float likely_bound = 1;  // Ritz value plus its residual, of some Lanczos steps from a random start
-  float sure_bound = 1;    // Gershgorin's, with norms of blocks
+  float likely_bound =
+      1;                 // Ritz value plus its residual, of some Lanczos steps from a random start
+  float sure_bound = 1;  // Gershgorin's, with norms of blocks
 };
 
 /// One Lanczos step costs one product. [Zhou, Li 2011] found no case in practice where the likely
@@ -30,9 +31,9 @@ LargestEigenvalue largest_eigenvalue(const BlockRows<N>& A, ThreadPool& pool);
 /// scaling is in A. Errors with eigenvalues in [low, high] shrink; up to low + high none grows, so
 /// that a sweep before and one after the coarse correction are a positive definite preconditioner.
 ///
-/// [Adams et al. 2003] Adams, Brezina, Hu, Tuminaro. Parallel multigrid smoothing: polynomial versus
-/// Gauss-Seidel. Journal of Computational Physics 188.
-/// [Saad 2003] Saad. Iterative Methods for Sparse Linear Systems, 2nd ed. SIAM.
+/// [Adams et al. 2003] Adams, Brezina, Hu, Tuminaro. Parallel multigrid smoothing: polynomial
+/// versus Gauss-Seidel. Journal of Computational Physics 188. [Saad 2003] Saad. Iterative Methods
+/// for Sparse Linear Systems, 2nd ed. SIAM.
 struct ChebyshevSmoother {
   int degree = 3;
   float low = 0.05F, high = 1;

@@ -189,8 +189,7 @@ GalerkinPattern galerkin_pattern(const BlockRows<N>& A, const Prolongation<N>& P
 
 template <int N>
 bool galerkin_product(const BlockRows<N>& A, const GalerkinPattern& pattern, Prolongation<N>& P,
-                      RigidModes& coarse_modes, BlockRows<kModes>& coarse,
-                      ThreadPool& pool) {
+                      RigidModes& coarse_modes, BlockRows<kModes>& coarse, ThreadPool& pool) {
   const int num_coarse = P.num_columns();
   const std::vector<float> product = multiply(A, pattern, P, pool);
   const std::vector<float> upper = multiply_transposed(pattern, P, product, pool);

@@ -22,7 +22,8 @@ class LinearSolver {
   virtual ~LinearSolver() = default;
   /// Takes A's values; keeps what depends on its pattern as long as pattern_id() stays.
   /// @param x  where the nodes are now [m]: those of the first blocks, further blocks are no nodes.
-  ///           Multigrid lives on it; the others do without. Without nodes, nothing is known of them.
+  ///           Multigrid lives on it; the others do without. Without nodes, nothing is known of
+  ///           them.
   [[nodiscard]] virtual FactorStatus prepare(const BlockMatrix& A, const Positions& x) = 0;
   [[nodiscard]] FactorStatus prepare(const BlockMatrix& A) { return prepare(A, Positions(3, 0)); }
   /// @param x  start value on entry (used by iterative solvers), solution on exit
@@ -37,11 +38,17 @@ std::unique_ptr<LinearSolver> make_cholesky();
 std::unique_ptr<LinearSolver> make_conjugate_gradients(double tolerance, int max_iterations);
 
 /// Conjugate gradients with smoothed aggregation multigrid as preconditioner (multigrid.hpp): the
-/// number of iterations hardly depends on the size of the mesh. While the pattern stays, so does the
-/// preconditioner, turned with the nodes; it is built anew once the additional iterations that its
-/// age has cost add up to the price of that.
+/// number of iterations hardly depends on the size of the mesh. While the pattern stays, so does
+/// the preconditioner, turned with the nodes; it is built anew once the additional iterations that
+/// its age has cost add up to the price of that.
 /// @param tolerance  on |r| / |b|
 /// @param threads    the answer has the same bits with any number
 std::unique_ptr<LinearSolver> make_multigrid(double tolerance, int max_iterations, int threads = 1);
+
+/// Another solver, started from the best combination of its last solutions in the energy norm
+/// instead of the value given. Costs a product for each of them in prepare(); pays where one system
+/// follows from the last, as step by step in time.
+std::unique_ptr<LinearSolver> make_projected_start(std::unique_ptr<LinearSolver> solver,
+                                                   int num_kept = 5);
 
 }  // namespace articular::fem

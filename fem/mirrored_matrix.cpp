@@ -59,7 +59,8 @@ bool MirroredMatrix::take_values(const BlockMatrix& A, ThreadPool& pool) {
   return finite;
 }
 
-double MirroredMatrix::multiply_rows(Eigen::Index begin, Eigen::Index end, const double* x, double* y) const {
+double MirroredMatrix::multiply_rows(Eigen::Index begin, Eigen::Index end, const double* x,
+                                     double* y) const {
   double product = 0;
   for (Eigen::Index i = begin; i < end; ++i) {
     Double2 y01{};

@@ -9,7 +9,8 @@ namespace {
 
 // Couplings count as strong from here on, half of it on each further level [Vanek 1996].
 constexpr float kStrong = 0.08F;
-// Coarser levels shall have at most this part of the blocks; couplings that weak are taken for that.
+// Coarser levels shall have at most this part of the blocks; couplings that weak are taken for
+// that.
 constexpr double kLargestShare = 0.25;
 constexpr float kWeakestStrong = 0.01F;
 // Above this share a coarser level is not worth its cost.
@@ -48,9 +49,7 @@ Aggregation find_aggregates(const BlockRows<N>& A, float strong, const std::vect
   const std::vector<float> weight = coupling_weights(A, pool);
   const CouplingGraph graph{A.row_begin, A.column, weight};
   Aggregation aggregation = aggregate(graph, strong, alone);
-  const auto too_many = [&] {
-    return aggregation.num_aggregates > kLargestShare * A.num_rows();
-  };
+  const auto too_many = [&] { return aggregation.num_aggregates > kLargestShare * A.num_rows(); };
   while (too_many() && strong > kWeakestStrong) {
     strong /= 2;
     aggregation = aggregate(graph, strong, alone);
@@ -95,8 +94,8 @@ template <int N>
 bool find_values(MultigridLevel<N>& fine, RigidModes& modes, MultigridLevel<6>& coarse,
                  ThreadPool& pool) {
   const float omega = 4 / (3 * fine.largest.likely_bound);
-  modes = smoothed_prolongation(fine.A, fine.aggregation, fine.unsmoothed, modes, omega, fine.P,
-                                pool);
+  modes =
+      smoothed_prolongation(fine.A, fine.aggregation, fine.unsmoothed, modes, omega, fine.P, pool);
   return galerkin_product(fine.A, fine.galerkin, fine.P, modes, coarse.A, pool);
 }
 

@@ -41,7 +41,7 @@ class Multigrid {
   [[nodiscard]] bool refresh(RigidModes modes, ThreadPool& pool);
 
   BlockRows<3>& matrix() { return finest_.A; }
-  std::vector<float>& residual() { return finest_.vectors.r; }        // 3 a block, padded
+  std::vector<float>& residual() { return finest_.vectors.r; }  // 3 a block, padded
   const std::vector<float>& result() const { return finest_.vectors.x; }
   /// result = M⁻¹ residual, which is used up.
   void apply(ThreadPool& pool);

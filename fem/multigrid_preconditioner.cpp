@@ -108,7 +108,8 @@ void MultigridPreconditioner::turn(const MirroredMatrix& A, const Positions& x, 
   });
 }
 
-void MultigridPreconditioner::enter(Eigen::Index begin, Eigen::Index end, const double* r, double scale) {
+void MultigridPreconditioner::enter(Eigen::Index begin, Eigen::Index end, const double* r,
+                                    double scale) {
   float* to = cycle_.residual().data();
   for (Eigen::Index i = begin; i < end; ++i) {
     Eigen::Map<Eigen::Vector3f>(to + 3 * i).noalias() =
@@ -118,7 +119,8 @@ void MultigridPreconditioner::enter(Eigen::Index begin, Eigen::Index end, const 
 
 void MultigridPreconditioner::apply_nothing() { cycle_.apply_identity(); }
 
-void MultigridPreconditioner::leave(Eigen::Index begin, Eigen::Index end, double scale, double* z) const {
+void MultigridPreconditioner::leave(Eigen::Index begin, Eigen::Index end, double scale,
+                                    double* z) const {
   const float* from = cycle_.result().data();
   for (Eigen::Index i = begin; i < end; ++i) {
     const Eigen::Vector3f turned = S_[i] * Eigen::Map<const Eigen::Vector3f>(from + 3 * i);

@@ -8,9 +8,9 @@
 
 namespace articular::fem {
 
-/// How the neighbourhood of each node has turned: the rotation R next to Σ_j (x_j − x_i)(X_j − X_i)ᵀ
-/// over the neighbours j of node i in a graph, by the iteration of [Müller 2016] from the rotation
-/// given. A node without neighbours keeps it.
+/// How the neighbourhood of each node has turned: the rotation R next to Σ_j (x_j − x_i)(X_j −
+/// X_i)ᵀ over the neighbours j of node i in a graph, by the iteration of [Müller 2016] from the
+/// rotation given. A node without neighbours keeps it.
 /// @param row_begin, column  the graph; indices from num_nodes on are not nodes and are left out
 /// @param[in,out] R          one a node
 ///

@@ -37,11 +37,11 @@ void fill_columns(int num_columns, Prolongation<N>& P) {
   }
 }
 
-/// Modes of block i, its rotations about another center: ω × (x − c) = ω × (c_i − c) + ω × (x − c_i).
+/// Modes of block i, its rotations about another center: ω × (x − c) = ω × (c_i − c) + ω × (x −
+/// c_i).
 template <int N>
 Modes<N> moved(const RigidModes& modes, int i, const Vec3& center) {
-  Modes<N> B =
-      Eigen::Map<const Modes<N>>(modes.values.data() + std::ptrdiff_t{N} * kModes * i);
+  Modes<N> B = Eigen::Map<const Modes<N>>(modes.values.data() + std::ptrdiff_t{N} * kModes * i);
   const Vec3 arm = modes.center[i] - center;
   for (int k = 0; k < 3; ++k) {
     B.col(3 + k) += B.template leftCols<3>() * Vec3::Unit(k).cross(arm);
@@ -112,9 +112,8 @@ Prolongation<N> prolongation_pattern(const BlockRows<N>& A, const Aggregation& a
 
 template <int N>
 RigidModes smoothed_prolongation(const BlockRows<N>& A, const Aggregation& aggregation,
-                                          const std::vector<char>& unsmoothed,
-                                          const RigidModes& modes, float omega,
-                                          Prolongation<N>& P, ThreadPool& pool) {
+                                 const std::vector<char>& unsmoothed, const RigidModes& modes,
+                                 float omega, Prolongation<N>& P, ThreadPool& pool) {
   const std::vector<int>& aggregate = aggregation.aggregate;
   const int n = A.num_rows(), num_aggregates = aggregation.num_aggregates;
   std::vector<int> begin(static_cast<std::size_t>(num_aggregates) + 1, 0), member(n);
@@ -254,13 +253,11 @@ template Prolongation<3> prolongation_pattern(const BlockRows<3>&, const Aggrega
 template Prolongation<6> prolongation_pattern(const BlockRows<6>&, const Aggregation&,
                                               const std::vector<char>&);
 template RigidModes smoothed_prolongation(const BlockRows<3>&, const Aggregation&,
-                                                   const std::vector<char>&,
-                                                   const RigidModes&, float,
-                                                   Prolongation<3>&, ThreadPool&);
+                                          const std::vector<char>&, const RigidModes&, float,
+                                          Prolongation<3>&, ThreadPool&);
 template RigidModes smoothed_prolongation(const BlockRows<6>&, const Aggregation&,
-                                                   const std::vector<char>&,
-                                                   const RigidModes&, float,
-                                                   Prolongation<6>&, ThreadPool&);
+                                          const std::vector<char>&, const RigidModes&, float,
+                                          Prolongation<6>&, ThreadPool&);
 template void copy_values_by_columns(Prolongation<3>&, ThreadPool&);
 template void copy_values_by_columns(Prolongation<6>&, ThreadPool&);
 template void restrict_to_coarse(const Prolongation<3>&, const std::vector<float>&,

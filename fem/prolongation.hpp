@@ -13,9 +13,9 @@ namespace articular::fem {
 /// Rigid motions of one aggregate: three translations, three rotations.
 inline constexpr int kModes = 6;
 
-/// How the blocks of a level move in rigid motions of their surroundings, each about a centre of its
-/// own: N x 6 a block, row-major, three translations, then three rotations. Motions of groups about
-/// their centres follow by a shift, so that far from the origin no digits are lost.
+/// How the blocks of a level move in rigid motions of their surroundings, each about a centre of
+/// its own: N x 6 a block, row-major, three translations, then three rotations. Motions of groups
+/// about their centres follow by a shift, so that far from the origin no digits are lost.
 struct RigidModes {
   std::vector<double> values;
   std::vector<Vec3> center;  // [m]
@@ -38,8 +38,8 @@ struct Prolongation {
   float* block(int k) { return values.data() + std::ptrdiff_t{kBlock} * k; }
 };
 
-/// Where the smoothed prolongator has blocks: a row for each node, with the aggregates of itself and
-/// of its neighbours, but that of itself only where the row is marked as not smoothed.
+/// Where the smoothed prolongator has blocks: a row for each node, with the aggregates of itself
+/// and of its neighbours, but that of itself only where the row is marked as not smoothed.
 /// @param unsmoothed  1 for such a row; empty: none
 template <int N>
 Prolongation<N> prolongation_pattern(const BlockRows<N>& A, const Aggregation& aggregation,

@@ -23,9 +23,10 @@ class ThreadPool {
 
   int num_threads() const { return static_cast<int>(threads_.size()) + 1; }
 
-  /// task(k, worker) for k = 0 .. num_tasks - 1, each once, in any order; returns when all are done.
-  /// worker, in [0, num_threads()), is not used by two tasks at the same time: for scratch memory.
-  /// The first exception of a task is thrown here. One caller at a time; tasks do not call run().
+  /// task(k, worker) for k = 0 .. num_tasks - 1, each once, in any order; returns when all are
+  /// done. worker, in [0, num_threads()), is not used by two tasks at the same time: for scratch
+  /// memory. The first exception of a task is thrown here. One caller at a time; tasks do not call
+  /// run().
   template <class Task>
   void run(int num_tasks, const Task& task) {
     if (threads_.empty() || num_tasks <= 1) {

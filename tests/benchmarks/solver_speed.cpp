@@ -1,9 +1,10 @@
 // Linear solvers on a static problem: a cube of plain tetrahedra, six a cell, clamped on one side.
 //
-//   build/release/bin/solver_speed [statics|nu|threads] [MOST_CELLS] [RUNS] [SOLVER]    (statics 32 5 all)
+//   build/release/bin/solver_speed [statics|nu|threads] [MOST_CELLS] [RUNS] [SOLVER]    (statics 32
+//   5 all)
 //
-// Times are medians of processor time of runs in which the solvers take turns; `threads` prints wall
-// time, which means something on an idle machine only.
+// Times are medians of processor time of runs in which the solvers take turns; `threads` prints
+// wall time, which means something on an idle machine only.
 
 #include <sys/resource.h>
 
@@ -27,7 +28,7 @@ using namespace articular::fem;
 using articular::benchmarks::cpu_seconds;
 using articular::benchmarks::median;
 
-constexpr double kTolerance = 1e-8;    // [-] of the residual
+constexpr double kTolerance = 1e-8;  // [-] of the residual
 constexpr int kMostIterations = 20000;
 constexpr int kMostCholeskyCells = 24;  // beyond, minutes and gigabytes
 constexpr double kSize = 0.1;           // edge of the cube [m]
@@ -60,7 +61,8 @@ void run(const ClampedBox& box, double (*clock)(), Candidate& candidate) {
   start = clock();
   const SolveReport report = solver->solve(box.b, x);
   candidate.solve.push_back(clock() - start);
-  if (!report.converged) std::printf("%s: no convergence, %g\n", candidate.name, report.relative_residual);
+  if (!report.converged)
+    std::printf("%s: no convergence, %g\n", candidate.name, report.relative_residual);
   candidate.iterations = report.iterations;
   start = clock();
   if (solver->prepare(box.K, box.X) != FactorStatus::Ready) std::exit(EXIT_FAILURE);
@@ -80,8 +82,13 @@ double product_seconds(const ClampedBox& box) {
 
 std::vector<Candidate> candidates(int cells, const std::string& only) {
   std::vector<Candidate> all;
-  all.push_back({"block Jacobi", [] { return make_conjugate_gradients(kTolerance, kMostIterations); }, {}, {}, {}});
-  all.push_back({"multigrid", [] { return make_multigrid(kTolerance, kMostIterations); }, {}, {}, {}});
+  all.push_back({"block Jacobi",
+                 [] { return make_conjugate_gradients(kTolerance, kMostIterations); },
+                 {},
+                 {},
+                 {}});
+  all.push_back(
+      {"multigrid", [] { return make_multigrid(kTolerance, kMostIterations); }, {}, {}, {}});
   if (cells <= kMostCholeskyCells) all.push_back({"Cholesky", make_cholesky, {}, {}, {}});
   if (only != "all") std::erase_if(all, [&](const Candidate& c) { return c.name != only; });
   return all;
@@ -93,14 +100,16 @@ ClampedBox cube(int cells, double nu) {
 
 void print_row(int cells, double nu, double product, const Candidate& c) {
   std::printf("| %d | %g | %s | %.1f | %.1f | %.1f | %.1f | %d | %.3f | %.0f | %.0f |\n",
-              6 * cells * cells * cells, nu, c.name, 1e3 * median(c.set_up), 1e3 * median(c.refresh),
-              1e3 * median(c.solve), 1e3 * (median(c.set_up) + median(c.solve)), c.iterations,
-              1e3 * product, median(c.solve) / product, peak_megabytes());
+              6 * cells * cells * cells, nu, c.name, 1e3 * median(c.set_up),
+              1e3 * median(c.refresh), 1e3 * median(c.solve),
+              1e3 * (median(c.set_up) + median(c.solve)), c.iterations, 1e3 * product,
+              median(c.solve) / product, peak_megabytes());
   std::fflush(stdout);
 }
 
 constexpr const char* kHeader =
-    "| tets | nu | solver | set-up ms | next prepare ms | solve ms | both ms | iterations | product ms | products a "
+    "| tets | nu | solver | set-up ms | next prepare ms | solve ms | both ms | iterations | "
+    "product ms | products a "
     "solve | peak MB |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
 
 void statics(int most_cells, int runs, const std::string& only) {
@@ -120,8 +129,9 @@ void statics(int most_cells, int runs, const std::string& only) {
       print_row(cells, 0.45, product, candidate);
       now.push_back(median(candidate.set_up) + median(candidate.solve));
       if (last_cells == 0 || now.size() > last.size()) continue;
-      std::printf("    time grows with tets to the power %.2f\n",
-                  std::log(now.back() / last[now.size() - 1]) / (3 * std::log(1.0 * cells / last_cells)));
+      std::printf(
+          "    time grows with tets to the power %.2f\n",
+          std::log(now.back() / last[now.size() - 1]) / (3 * std::log(1.0 * cells / last_cells)));
     }
     last = now;
     last_cells = cells;
@@ -148,7 +158,11 @@ void threads(int most_cells, int runs) {
     const ClampedBox box = cube(cells, 0.45);
     std::vector<Candidate> all;
     for (const int n : {1, 2}) {
-      all.push_back({n == 1 ? "1" : "2", [n] { return make_multigrid(kTolerance, kMostIterations, n); }, {}, {}, {}});
+      all.push_back({n == 1 ? "1" : "2",
+                     [n] { return make_multigrid(kTolerance, kMostIterations, n); },
+                     {},
+                     {},
+                     {}});
     }
     for (int k = 0; k < runs; ++k) {
       for (Candidate& candidate : all) run(box, wall_seconds, candidate);
@@ -164,7 +178,8 @@ void threads(int most_cells, int runs) {
 
 int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "statics";
-  const int most_cells = argc > 2 ? std::atoi(argv[2]) : 32, runs = argc > 3 ? std::atoi(argv[3]) : 5;
+  const int most_cells = argc > 2 ? std::atoi(argv[2]) : 32,
+            runs = argc > 3 ? std::atoi(argv[3]) : 5;
   const std::string only = argc > 4 ? argv[4] : "all";
   if (most_cells < 1 || runs < 1 || (what != "statics" && what != "nu" && what != "threads")) {
     std::fprintf(stderr, "usage: solver_speed [statics|nu|threads] [MOST_CELLS] [RUNS] [SOLVER]\n");

@@ -103,9 +103,8 @@ TEST_F(PreconditionerTest, HasModestComplexity) {
 }
 
 TEST_F(PreconditionerTest, BoundsTheLargestEigenvalue) {
-  for (const ClampedBox& box : {cube(4), cube(4, 0.49), deformed_box({4, 4, 4}, 0.3, [](Vec3 x) {
-                                  return x;
-                                })}) {
+  for (const ClampedBox& box :
+       {cube(4), cube(4, 0.49), deformed_box({4, 4, 4}, 0.3, [](Vec3 x) { return x; })}) {
     build(box);
     const BlockRows<3>& S = preconditioner.cycle().matrix();
     Eigen::MatrixXd dense = Eigen::MatrixXd::Identity(3 * S.num_rows(), 3 * S.num_rows());
