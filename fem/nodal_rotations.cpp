@@ -11,13 +11,12 @@ namespace articular::fem {
 namespace {
 
 // Preconditioners turn with these; how exactly hardly matters to them.
-constexpr double kAngle = 1e-3;  // [rad] at which the iteration stops
+constexpr double kAngle = 5e-3;  // [rad] at which the iteration stops
 constexpr int kMostTurns = 20;   // reached from half a turn away only
 constexpr int kNodesPerPiece = 512;
 
 /// The rotation next to M, from R.
 Mat3 nearest_rotation(const Mat3& M, const Mat3& R) {
-  Eigen::Quaterniond q(R);
   const double smallest = 1e-9 * M.norm();
   if (!(smallest > 0)) return R;  // NaN included
   Mat3 turned = R;
@@ -29,9 +28,8 @@ Mat3 nearest_rotation(const Mat3& M, const Mat3& R) {
     if (omega.squaredNorm() < kAngle * kAngle) break;
     // The rotation by 2 atan(|ω|/2): that by |ω| up to its cube, without sine and cosine.
     const Vec3 half = 0.5 * omega;
-    q = Eigen::Quaterniond(1, half.x(), half.y(), half.z()) * q;
-    q.normalize();
-    turned = q.toRotationMatrix();
+    const Eigen::Quaterniond q(1, half.x(), half.y(), half.z());
+    turned = (q.normalized() * Eigen::Quaterniond(turned)).normalized().toRotationMatrix();
   }
   return turned;
 }
