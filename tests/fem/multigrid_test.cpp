@@ -54,7 +54,7 @@ class HostileTest : public testing::TestWithParam<int> {};
 TEST_P(HostileTest, Converges) {
   const HostileSystem system = hostile_systems()[GetParam()];
   Eigen::VectorXd x;
-  const SolveReport report = solve(*make_multigrid(kTolerance, kMostIterations), system.box, x);
+  const SolveReport report = solve(*make_multigrid(kTolerance, kMostIterations), system.make(), x);
   EXPECT_TRUE(report.converged) << report.relative_residual;
   EXPECT_LE(report.iterations, system.most_iterations);
   EXPECT_EQ(report.repairs, 0);
@@ -97,7 +97,7 @@ TEST_F(PreconditionerTest, IsSymmetricAndPositive) {
 
 TEST_F(PreconditionerTest, HasModestComplexity) {
   for (const HostileSystem& system : hostile_systems()) {
-    build(system.box);
+    build(system.make());
     EXPECT_LT(preconditioner.cycle().operator_complexity(), 6) << system.name;
   }
 }
