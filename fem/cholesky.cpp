@@ -18,7 +18,8 @@ class Cholesky final : public LinearSolver {
  public:
   Cholesky() { use_one_blas_thread(); }
 
-  FactorStatus prepare(const BlockMatrix& A) override {
+  using LinearSolver::prepare;
+  FactorStatus prepare(const BlockMatrix& A, const Positions&) override {
     if (!factor_ || A.pattern_id() != pattern_id_) analyze(A);
     ready_ = false;
     if (!take_values(A)) return FactorStatus::NotPositiveDefinite;

@@ -18,9 +18,14 @@ class ConjugateGradients final : public LinearSolver {
   ConjugateGradients(double tolerance, int max_iterations)
       : tolerance_(tolerance), max_iterations_(max_iterations) {}
 
-  FactorStatus prepare(const BlockMatrix& A) override { return prepare_with_pressure(A, {}); }
+  using LinearSolver::prepare;
+  FactorStatus prepare(const BlockMatrix& A, const Positions& x) override {
+    return prepare_with_pressure(A, x, {});
+  }
 
-  FactorStatus prepare_with_pressure(const BlockMatrix& A, const PressurePart& part) override {
+  using LinearSolver::prepare_with_pressure;
+  FactorStatus prepare_with_pressure(const BlockMatrix& A, const Positions&,
+                                     const PressurePart& part) override {
     pressure_.set(part.terms);
     if (A.num_blocks() != num_blocks() || A.pattern_id() != pattern_id_) take_pattern(A);
     for (std::size_t k = 0; k < slot_.size(); ++k) lower_[k] = A.block(slot_[k]);

@@ -5,6 +5,7 @@
 
 #include "fem/block_matrix.hpp"
 #include "fem/pressure_term.hpp"
+#include "fem/types.hpp"
 
 namespace articular::fem {
 
@@ -14,6 +15,7 @@ struct SolveReport {
   int iterations = 0;            // 0 for a direct solver
   double relative_residual = 0;  // of the last residual known, |b - A x| / |b|
   bool converged = true;
+  int repairs = 0;  // preconditioners that proved unfit during this solve and were replaced
 };
 
 /// What is added to the matrix of a linear system.
@@ -29,11 +31,18 @@ class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
   /// Takes A's values; keeps what depends on its pattern as long as pattern_id() stays.
-  [[nodiscard]] virtual FactorStatus prepare(const BlockMatrix& A) = 0;
+  /// @param x  where the nodes are now [m]: those of the first blocks, further blocks are no nodes.
+  ///           Multigrid lives on it; the others do without. Without nodes, nothing is known of
+  ///           them.
+  [[nodiscard]] virtual FactorStatus prepare(const BlockMatrix& A, const Positions& x) = 0;
+  [[nodiscard]] FactorStatus prepare(const BlockMatrix& A) { return prepare(A, Positions(3, 0)); }
   /// The same for A + Σ scale G C⁻¹ Gᵀ, which is positive definite (A alone need not be).
   /// @throws std::logic_error where a solver has no way to
-  [[nodiscard]] virtual FactorStatus prepare_with_pressure(const BlockMatrix& A,
+  [[nodiscard]] virtual FactorStatus prepare_with_pressure(const BlockMatrix& A, const Positions& x,
                                                            const PressurePart& part);
+  [[nodiscard]] FactorStatus prepare_with_pressure(const BlockMatrix& A, const PressurePart& part) {
+    return prepare_with_pressure(A, Positions(3, 0), part);
+  }
   /// @param x  start value on entry (used by iterative solvers), solution on exit
   [[nodiscard]] virtual SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) = 0;
 };
@@ -50,5 +59,19 @@ std::unique_ptr<LinearSolver> make_conjugate_gradients(double tolerance, int max
 /// iterations at any ν, and no block of G C⁻¹ Gᵀ is formed.
 /// @param tolerance  on |r| / |b|
 std::unique_ptr<LinearSolver> make_saddle_point_solver(double tolerance, int max_iterations);
+
+/// Conjugate gradients with smoothed aggregation multigrid as preconditioner (multigrid.hpp): the
+/// number of iterations hardly depends on the size of the mesh. While the pattern stays, so does
+/// the preconditioner, turned with the nodes; it is built anew once the additional iterations that
+/// its age has cost add up to the price of that.
+/// @param tolerance  on |r| / |b|
+/// @param threads    the answer has the same bits with any number
+std::unique_ptr<LinearSolver> make_multigrid(double tolerance, int max_iterations, int threads = 1);
+
+/// Another solver, started from the best combination of its last solutions in the energy norm
+/// instead of the value given. Costs a product for each of them in prepare(); pays where one system
+/// follows from the last, as step by step in time.
+std::unique_ptr<LinearSolver> make_projected_start(std::unique_ptr<LinearSolver> solver,
+                                                   int num_kept = 5);
 
 }  // namespace articular::fem

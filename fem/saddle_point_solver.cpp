@@ -129,9 +129,14 @@ class SaddlePointSolver final : public LinearSolver {
   SaddlePointSolver(double tolerance, int max_iterations)
       : tolerance_(tolerance), max_iterations_(max_iterations) {}
 
-  FactorStatus prepare(const BlockMatrix& A) override { return prepare_with_pressure(A, {}); }
+  using LinearSolver::prepare;
+  FactorStatus prepare(const BlockMatrix& A, const Positions& x) override {
+    return prepare_with_pressure(A, x, {});
+  }
 
-  FactorStatus prepare_with_pressure(const BlockMatrix& A, const PressurePart& part) override {
+  using LinearSolver::prepare_with_pressure;
+  FactorStatus prepare_with_pressure(const BlockMatrix& A, const Positions&,
+                                     const PressurePart& part) override {
     ready_ = false;
     const BlockMatrix& plain = part.plain != nullptr ? *part.plain : A;
     assert(plain.num_blocks() == A.num_blocks());
@@ -181,7 +186,8 @@ class SaddlePointSolver final : public LinearSolver {
 
 }  // namespace
 
-FactorStatus LinearSolver::prepare_with_pressure(const BlockMatrix&, const PressurePart&) {
+FactorStatus LinearSolver::prepare_with_pressure(const BlockMatrix&, const Positions&,
+                                                 const PressurePart&) {
   throw std::logic_error("this linear solver has no way to add the terms of a nodal pressure");
 }
 

@@ -312,7 +312,7 @@ const fem::BlockMatrix& Dynamics::matrix(const SystemScale& scale, fem::Tangent 
   const Stopwatch watch(times_.assembly);
   A_.set_zero();
   for (std::size_t t = 0; t < tissues_.size(); ++t)
-    add_tissue_stiffness(t, scale.stiffness, tangent);
+    add_tissue_stiffness(t, scale, tangent);
   for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
     const auto tissue =
         static_cast<std::size_t>(mass_nodes_[static_cast<std::size_t>(block)].first);

@@ -159,7 +159,7 @@ bool Equilibrium::Solver::prepare(fem::Tangent tangent) {
   const Stopwatch watch(seconds);
   ++counts.factorizations;
   if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
-  return prepare_linear(*linear_, A, dynamics_.pressure_part());
+  return prepare_linear(*linear_, A, dynamics_.configuration().x, dynamics_.pressure_part());
 }
 
 int Equilibrium::Solver::assemble(N_Vector u, N_Vector, SUNMatrix, void* data, N_Vector, N_Vector) {

@@ -57,7 +57,7 @@ struct Tissue {
   double mass_damping = 0;      // α [1/s]: a force −α m v on each node
   std::vector<NodeRef> nodes;   // what moves each node
   Positions X;                  // at the start, world [m]
-  FibreDirections fibres;  // one an element, or none
+  FibreDirections fibres;       // one an element, or none
   int muscle = -1;              // index into Model::muscles: what activates the fibres
 };
 

@@ -48,13 +48,15 @@ std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model) {
   if (model.scenario.integrator.solver == Integrator::Solver::Cholesky && smoothed)
     return fem::make_saddle_point_solver(kLinearTolerance, kMostLinearIterations);
   if (model.scenario.integrator.solver == Integrator::Solver::Cholesky) return fem::make_cholesky();
+  if (model.scenario.integrator.solver == Integrator::Solver::Multigrid && !smoothed)
+    return fem::make_multigrid(kLinearTolerance, kMostLinearIterations);
   return fem::make_conjugate_gradients(kLinearTolerance, kMostLinearIterations);
 }
 
-bool prepare_linear(fem::LinearSolver& solver, const fem::BlockMatrix& A,
+bool prepare_linear(fem::LinearSolver& solver, const fem::BlockMatrix& A, const Positions& x,
                     const fem::PressurePart& pressure) {
   const fem::FactorStatus status =
-      pressure.terms.empty() ? solver.prepare(A) : solver.prepare_with_pressure(A, pressure);
+      pressure.terms.empty() ? solver.prepare(A, x) : solver.prepare_with_pressure(A, x, pressure);
   return status == fem::FactorStatus::Ready;
 }
 
@@ -78,7 +80,8 @@ bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, SolverCounts& cou
   const Stopwatch watch(solve_seconds_);
   ++counts.factorizations;
   if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
-  const bool ready = prepare_linear(*solver_, A, dynamics_.pressure_part());
+  const bool ready =
+      prepare_linear(*solver_, A, dynamics_.configuration().x, dynamics_.pressure_part());
   gamma_ = ready ? gamma : 0;
   pattern_ = A.pattern_id();
   tangent_ = tangent;

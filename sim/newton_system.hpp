@@ -9,8 +9,9 @@ namespace articular::sim {
 /// The linear solver that the scenario asks for.
 std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model);
 
-/// Takes a matrix and what couples all nodes through pressures. @return whether it can be solved
-bool prepare_linear(fem::LinearSolver& solver, const fem::BlockMatrix& A,
+/// Takes a matrix, where its free nodes are, and what couples all nodes through pressures.
+/// @return whether it can be solved
+bool prepare_linear(fem::LinearSolver& solver, const fem::BlockMatrix& A, const Positions& x,
                     const fem::PressurePart& pressure);
 
 /// The linear solves of Newton's iteration for y' = rate(t, y), reduced to block velocities: with

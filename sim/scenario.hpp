@@ -230,7 +230,7 @@ struct Probe {
 
 struct Integrator {
   enum class Scheme { ImplicitEuler, TrBdf2, Dirk3, Bdf, Explicit };
-  enum class Solver { Cholesky, ConjugateGradients };
+  enum class Solver { Cholesky, ConjugateGradients, Multigrid };
   Scheme scheme = Scheme::ImplicitEuler;
   Solver solver = Solver::Cholesky;
   double step = 1e-3;                // [s]

@@ -167,12 +167,31 @@ Fibres read_fibres(const Node& node) {
 }  // namespace
 
 Material read_material(const Node& node) {
-  const std::initializer_list<std::string_view> keys = {
-      "law",          "young_modulus", "poisson_ratio", "bulk_modulus",    "volumetric",
-      "c10",          "c01",           "c20",           "c1",              "c2",
-      "c3",           "c4",            "c5",            "toe_end",         "active_stress",
-      "max_stress",   "p1",            "p2",            "optimal_stretch", "shear_along",
-      "shear_across", "fibres",        "element",       "mass_damping",    "stiffness_damping"};
+  const std::initializer_list<std::string_view> keys = {"law",
+                                                        "young_modulus",
+                                                        "poisson_ratio",
+                                                        "bulk_modulus",
+                                                        "volumetric",
+                                                        "c10",
+                                                        "c01",
+                                                        "c20",
+                                                        "c1",
+                                                        "c2",
+                                                        "c3",
+                                                        "c4",
+                                                        "c5",
+                                                        "toe_end",
+                                                        "active_stress",
+                                                        "max_stress",
+                                                        "p1",
+                                                        "p2",
+                                                        "optimal_stretch",
+                                                        "shear_along",
+                                                        "shear_across",
+                                                        "fibres",
+                                                        "element",
+                                                        "mass_damping",
+                                                        "stiffness_damping"};
   const TableReader table(node, "material", keys);
   const Law law = read_law_name(table.at("law"));
   refuse_other_keys(table, law, keys);

@@ -15,6 +15,8 @@ constexpr std::pair<std::string_view, Integrator::Scheme> kSchemes[] = {
     {"bdf", Integrator::Scheme::Bdf},
     {"explicit", Integrator::Scheme::Explicit}};
 
+constexpr const char* kSolvers[] = {"cholesky", "conjugate-gradients", "multigrid"};
+
 /// The presets; [integrator] overrides each setting.
 Integrator preset(Accuracy accuracy) {
   Integrator integrator;
@@ -46,7 +48,8 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
   table.may("solver", integrator.solver, [](const Node& n) {
     return read_choice<Integrator::Solver>(
         n, {{"cholesky", Integrator::Solver::Cholesky},
-            {"conjugate-gradients", Integrator::Solver::ConjugateGradients}});
+            {"conjugate-gradients", Integrator::Solver::ConjugateGradients},
+            {"multigrid", Integrator::Solver::Multigrid}});
   });
   table.may("step", integrator.step, as_quantity(kTime, kPositive));
   table.may("position_tolerance", integrator.position_tolerance, as_quantity(kLength, kPositive));
@@ -125,14 +128,12 @@ std::string settings_as_json(const Scenario& scenario) {
   json["accuracy"] = kAccuracies[static_cast<int>(scenario.accuracy)];
   json["analysis"] = scenario.analysis == Scenario::Analysis::Static ? "static" : "dynamic";
   json["contact"] = contact_as_json(scenario);
-  json["integrator"] = {
-      {"scheme", kSchemes[static_cast<int>(integrator.scheme)].first},
-      {"step_s", integrator.step},
-      {"solver",
-       integrator.solver == Integrator::Solver::Cholesky ? "cholesky" : "conjugate-gradients"},
-      {"position_tolerance_m", integrator.position_tolerance},
-      {"max_iterations", integrator.max_iterations},
-      {"min_step_s", integrator.min_step}};
+  json["integrator"] = {{"scheme", kSchemes[static_cast<int>(integrator.scheme)].first},
+                        {"step_s", integrator.step},
+                        {"solver", kSolvers[static_cast<int>(integrator.solver)]},
+                        {"position_tolerance_m", integrator.position_tolerance},
+                        {"max_iterations", integrator.max_iterations},
+                        {"min_step_s", integrator.min_step}};
   json["detection"] = {
       {"margin_m", scenario.detection.margin},
       {"narrow_test",

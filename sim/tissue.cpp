@@ -40,7 +40,7 @@ FibreDirections fibres_of_array(const Body& body, const MeshData& mesh) {
 }
 
 FibreDirections make_fibres(const Model& model, const std::vector<BodyGeometry>& geometry,
-                                 const Surface& surface, std::size_t b) {
+                            const Surface& surface, std::size_t b) {
   const Body& body = model.scenario.bodies[b];
   const MeshData& mesh = geometry[b].mesh;
   const Fibres& fibres = *body.material->fibres;

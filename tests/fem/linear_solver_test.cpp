@@ -46,10 +46,16 @@ class LinearSolverTest : public testing::TestWithParam<NamedSolver> {
 };
 
 INSTANTIATE_TEST_SUITE_P(
-    Both, LinearSolverTest,
+    All, LinearSolverTest,
     testing::Values(NamedSolver{"Cholesky", make_cholesky},
                     NamedSolver{"ConjugateGradients",
-                                [] { return make_conjugate_gradients(kTolerance, 1000); }}),
+                                [] { return make_conjugate_gradients(kTolerance, 1000); }},
+                    NamedSolver{"Multigrid", [] { return make_multigrid(kTolerance, 1000); }},
+                    NamedSolver{"ProjectedStart",
+                                [] {
+                                  return make_projected_start(
+                                      make_conjugate_gradients(kTolerance, 1000));
+                                }}),
     [](const testing::TestParamInfo<NamedSolver>& info) { return info.param.name; });
 
 BlockMatrix shifted_stiffness(const std::array<int, 3>& cells, double E = 2e4) {
@@ -226,6 +232,27 @@ TEST(ConjugateGradients, EndBelowRoundOff) {
 TEST(ConjugateGradients, RefuseBadSettings) {
   EXPECT_THROW(make_conjugate_gradients(0, 10), std::invalid_argument);
   EXPECT_THROW(make_conjugate_gradients(1e-6, 0), std::invalid_argument);
+}
+
+TEST(ProjectedStart, FindsCombinationsOfItsLastSolutions) {
+  BlockMatrix A = shifted_stiffness({3, 3, 3});
+  const auto solver = make_projected_start(make_conjugate_gradients(kTolerance, 1000), 3);
+  ASSERT_EQ(solver->prepare(A), FactorStatus::Ready);
+  Random random;
+  const Eigen::MatrixXd B = random.matrix<Eigen::MatrixXd>(3 * A.num_blocks(), 4);
+  Eigen::VectorXd x;
+  for (int k = 0; k < 4; ++k) EXPECT_GT(solver->solve(B.col(k), x).iterations, 10);
+  for (const double scale : {1.0, 7.0}) {  // the second time with another matrix
+    for (int s = 0; s < A.num_nonzero_blocks(); ++s) A.block(s) *= scale;
+    ASSERT_EQ(solver->prepare(A), FactorStatus::Ready);
+    EXPECT_LE(solver->solve(B.col(1) - 2 * B.col(2) + B.col(3), x).iterations, 5);
+  }
+  EXPECT_GT(solver->solve(B.col(0), x).iterations, 10);  // forgotten
+}
+
+TEST(ProjectedStart, RefusesBadSettings) {
+  EXPECT_THROW(make_projected_start(nullptr), std::invalid_argument);
+  EXPECT_THROW(make_projected_start(make_cholesky(), 0), std::invalid_argument);
 }
 
 }  // namespace

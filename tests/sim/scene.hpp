@@ -36,8 +36,7 @@ inline Body box_body(const std::string& name, Body::Kind kind, const Vec3& size,
   body.kind = kind;
   body.box = BoxGeometry{size, cells, center};
   if (kind != Body::Kind::Fixed) body.density = 1000;
-  if (kind == Body::Kind::Tissue)
-    body.material = material_of(fem::NeoHookean(20e3, 0.3));
+  if (kind == Body::Kind::Tissue) body.material = material_of(fem::NeoHookean(20e3, 0.3));
   return body;
 }
 
