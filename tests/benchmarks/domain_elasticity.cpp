@@ -101,9 +101,10 @@ DomainElasticity::DomainElasticity(const TetMesh& mesh, Domains domains,
 template <class Function>
 void DomainElasticity::for_each_domain(const Positions& x, Function function) const {
   for (int k = 0; k < domains_.size(); ++k) {
+    const Vec3 origin = x.col(domains_.node[domains_.node_begin[k]]);
     Mat3 F = Mat3::Zero();
     for (int i = domains_.node_begin[k]; i < domains_.node_begin[k + 1]; ++i) {
-      F += x.col(domains_.node[i]) * domains_.gradient[i].transpose();
+      F += (x.col(domains_.node[i]) - origin) * domains_.gradient[i].transpose();
     }
     function(k, F);
   }

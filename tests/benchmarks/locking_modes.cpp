@@ -76,7 +76,7 @@ double lowest_frequency(const Body& body, const LoadedBody& loaded) {
   PressureGradient G;
   formulation.add_stiffness(X, p, Tangent::Consistent, K);
   fix_components(loaded.fixed, 1, K);
-  const auto solver = smoothed != nullptr ? make_saddle_point_solver(1e-10, 1000) : make_cholesky();
+  const auto solver = smoothed != nullptr ? make_saddle_point_solver(1e-8, 1000) : make_cholesky();
   FactorStatus status{};
   PressureTerm term{.G = &G, .pressure = nullptr};
   if (smoothed != nullptr) {

@@ -42,12 +42,14 @@ struct Equilibrium {
   NewtonReport report;
 };
 Equilibrium equilibrium_of(const Body& body, const LoadedBody& loaded,
-                           const NewtonSettings& settings = {.max_iterations = 200});
+                           const NewtonSettings& settings = {.tolerance = 1e-7,
+                                                             .max_iterations = 200});
 
 void print_accuracy();
 void print_meshes();
 void print_newton();
 void print_modes();
 void print_cost();
+void print_curves();
 
 }  // namespace articular::fem

@@ -14,7 +14,6 @@ struct LoadedBody {
   Eigen::Array<bool, 3, Eigen::Dynamic> fixed;  // components that keep their rest position
   Positions f_ext;                              // [N]
   int probe = 0, axis = 0;                      // result: this component of this node
-  double expected = 0;                          // the converged result, or 0 where unknown
 
   explicit LoadedBody(TetMesh m);
 };
@@ -32,7 +31,7 @@ LoadedBody cook_membrane(int n, MeshKind kind = MeshKind::Kuhn);
 /// with the dead pressure 100 on x, y ≤ 0.5 of the top; the result is u_z of (0, 0, 1).
 LoadedBody block_compression(int n, MeshKind kind = MeshKind::Kuhn);
 
-/// A cantilever of 10 x 1 x 1, 40n x 2n x 2n/… cells of six tetrahedra each (n = 1: 960), clamped
+/// A cantilever of 10 x 1 x 1, 40n x 2n x 2n cells of six tetrahedra each (n = 1: 960), clamped
 /// at x = 0, with the dead force `force` upward spread over the face x = 10; the result is u_y in
 /// its middle.
 LoadedBody bent_beam(int n, double force, MeshKind kind = MeshKind::Kuhn);

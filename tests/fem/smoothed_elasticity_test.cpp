@@ -301,6 +301,45 @@ TEST(SmoothedElasticity, DoesNotDependOnTheUnitOfLength) {
   }
 }
 
+// One step of Newton's method in a deformed state: both solvers against a dense solution, with a
+// scale as a time step puts it, and a preconditioner of the same or of the smaller pattern.
+TEST(SmoothedElasticity, LinearSolversAddThePressureByItsFactors) {
+  const TetMesh mesh = box_mesh({3, 2, 2}, kSize, 0.15);
+  const SmoothedElasticity elasticity = layered(mesh);
+  const Positions x = shaken(mesh, 0.03);
+  const double scale = 0.3;
+  Eigen::VectorXd p;
+  elasticity.pressure(x, p);
+  BlockMatrix K = elasticity.make_matrix(), plain = elasticity.make_plain_matrix();
+  elasticity.add_stiffness(x, p, Tangent::Projected, scale, K);
+  elasticity.add_plain_stiffness(x, Tangent::Projected, scale, plain);
+  const double shift = 0.1 * K.block(0)(0, 0);
+  for (int i = 0; i < K.num_blocks(); ++i) {
+    K.block(K.slot(i, i)) += shift * Mat3::Identity();
+    plain.block(plain.slot(i, i)) += shift * Mat3::Identity();
+  }
+  PressureGradient G = elasticity.make_pressure_gradient();
+  elasticity.set_pressure_gradient(x, G);
+  const Eigen::MatrixXd expected = scale * dense_stiffness(elasticity, x, Tangent::Projected) +
+                                   shift * Eigen::MatrixXd::Identity(3 * x.cols(), 3 * x.cols());
+  const Eigen::VectorXd b = Random().matrix<Eigen::VectorXd>(3 * x.cols(), 1);
+  const Eigen::VectorXd solution = expected.llt().solve(b);
+  const PressureTerm term{.G = &G, .pressure = &elasticity.nodal_pressure(), .scale = scale};
+  const auto check = [&](LinearSolver& solver, const BlockMatrix* preconditioner) {
+    const PressurePart part{.terms = {&term, 1}, .plain = preconditioner};
+    ASSERT_EQ(solver.prepare_with_pressure(K, part), FactorStatus::Ready);
+    Eigen::VectorXd u;
+    const SolveReport report = solver.solve(b, u);
+    EXPECT_TRUE(report.converged);
+    EXPECT_LT((u - solution).norm(), 1e-8 * solution.norm());  // residual 1e-11, condition 1e3
+    EXPECT_NEAR(report.relative_residual, (b - expected * u).norm() / b.norm(), 1e-13);
+  };
+  check(*make_conjugate_gradients(1e-11, 1000), nullptr);
+  check(*make_saddle_point_solver(1e-11, 100), nullptr);
+  check(*make_saddle_point_solver(1e-11, 100), &plain);
+  EXPECT_THROW((void)make_cholesky()->prepare_with_pressure(K, {}), std::logic_error);
+}
+
 TEST(SmoothedElasticity, RefusesBadInput) {
   const TetMesh mesh = box_mesh({1, 1, 1}, kSize);
   const std::vector<SplitMaterials> one{neo_hookean(0.4)};

@@ -1,0 +1,17 @@
+# Error of Cook's membrane over 1/(1 − 2ν). Needs: out, the folder of curves.csv.
+set terminal svg size 640,400 font 'sans,13'
+set output out . '/locking.svg'
+set datafile separator ','
+names = "'plain' 'NS' 'ES' 'plain + PP 1' 'ES .95 + PP 1.5'"
+colours = "#888888 #d95f02 #1b9e77 #7570b3 #000000"
+rows(name) = sprintf("<grep '^%s,' %s/curves.csv", name, out)
+set logscale x
+set xtics ('ν .3' 2.5, '.49' 50, '.499' 500, '.4999' 5000)
+set xrange [2:6500]
+set yrange [-75:10]
+set ylabel "error of the deflection [%]"
+set title "Cook's membrane, 16 x 16 cells of six tetrahedra"
+set grid ytics lc rgb '#dddddd'
+set key left bottom
+plot for [i = 1:5] rows(word(names, i)) using (1 / (1 - 2 * $2)):3 with linespoints lw 2 pt 7 ps 0.6 \
+  lc rgb word(colours, i) title word(names, i)
