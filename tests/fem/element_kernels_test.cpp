@@ -100,7 +100,7 @@ Mat9 projected(const Mat9& C) {
 template <class M>
 void expect_scalar_results(const Soup& soup, InstructionSet set, double tolerance) {
   const M material(kE, kNu);
-  const Elasticity elasticity(soup.X, soup.tets, material, {.instruction_set = set});
+  const Elasticity elasticity(soup.X, soup.tets, material, {}, {.instruction_set = set});
   Positions f = Positions::Zero(3, soup.x.cols()), f_both = f;
   elasticity.add_internal_force(soup.x, f);
   BlockMatrix K = elasticity.make_matrix(), K_projected = K, K_both = K;
@@ -190,7 +190,7 @@ TYPED_TEST(ElementKernelsTest, SameBitsEveryTime) {
     Positions f[2];
     for (Positions& force : f) {
       force = Positions::Zero(3, s.x.cols());
-      Elasticity(s.X, s.tets, TypeParam(kE, kNu), {.instruction_set = set})
+      Elasticity(s.X, s.tets, TypeParam(kE, kNu), {}, {.instruction_set = set})
           .add_internal_force(s.x, force);
     }
     EXPECT_EQ(f[0], f[1]);
@@ -201,7 +201,7 @@ TYPED_TEST(ElementKernelsTest, PositionsThatAreNotNumbersComeThrough) {
   Soup s = soup(random_gradients(9, 1, 0.1), unit_tetrahedron());
   s.x(1, 5) = std::numeric_limits<double>::quiet_NaN();
   for (const InstructionSet set : instruction_sets()) {
-    const Elasticity elasticity(s.X, s.tets, TypeParam(kE, kNu), {.instruction_set = set});
+    const Elasticity elasticity(s.X, s.tets, TypeParam(kE, kNu), {}, {.instruction_set = set});
     for (const Tangent tangent : {Tangent::Consistent, Tangent::Projected}) {
       BlockMatrix K = elasticity.make_matrix();
       elasticity.add_stiffness(s.x, tangent, 1, K);

@@ -23,7 +23,7 @@ constexpr double kIdentity = 1e-12;   // [-] relative, round-off
 constexpr double kDerivative = 1e-8;  // [-] relative, best of a sweep of central differences
 const Vec3 kSize(0.02, 0.01, 0.005);  // [m]
 
-SplitMaterials neo_hookean(double nu, double E = kE) {
+Material neo_hookean(double nu, double E = kE) {
   return isochoric_neo_hookean<VolumeChange>(E, nu);
 }
 
@@ -342,7 +342,7 @@ TEST(SmoothedElasticity, LinearSolversAddThePressureByItsFactors) {
 
 TEST(SmoothedElasticity, RefusesBadInput) {
   const TetMesh mesh = box_mesh({1, 1, 1}, kSize);
-  const std::vector<SplitMaterials> one{neo_hookean(0.4)};
+  const std::vector<Material> one{neo_hookean(0.4)};
   const auto make = [&](const std::vector<int>& material, const Smoothing& smoothing) {
     return SmoothedElasticity(mesh.X, mesh.tets, one, material, smoothing);
   };

@@ -122,7 +122,7 @@ TYPED_TEST(StiffnessSlotsTest, SameBitsForAnyNumberOfThreads) {
   BlockMatrix K_of_one;
   double W_of_one = 0;
   for (const int threads : {1, 2, 3, 4, 7}) {
-    const Elasticity elasticity(mesh.X, mesh.tets, TypeParam(kE, kNu), {.threads = threads});
+    const Elasticity elasticity(mesh.X, mesh.tets, TypeParam(kE, kNu), {}, {.threads = threads});
     Positions f = Positions::Zero(3, x.cols());
     elasticity.add_internal_force(x, f);
     BlockMatrix K = elasticity.make_matrix();
