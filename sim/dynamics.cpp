@@ -311,8 +311,8 @@ void Dynamics::add_tissue_stiffness(std::size_t t, const SystemScale& scale, fem
 const fem::BlockMatrix& Dynamics::matrix(const SystemScale& scale, fem::Tangent tangent) {
   const Stopwatch watch(times_.assembly);
   A_.set_zero();
-  for (std::size_t t = 0; t < tissues_.size(); ++t)
-    add_tissue_stiffness(t, scale, tangent);
+  pressure_terms_.clear();
+  for (std::size_t t = 0; t < tissues_.size(); ++t) add_tissue_stiffness(t, scale, tangent);
   for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
     const auto tissue =
         static_cast<std::size_t>(mass_nodes_[static_cast<std::size_t>(block)].first);

@@ -112,7 +112,7 @@ TEST(Equilibrium, TissueOnATurningWallIsNotStrained) {
   s.loads[0].motion.rotation = {Vec3::Zero(), Vec3(0.5, -1.5, 1)};
   Simulation run(s);
   run.advance(1);
-  EXPECT_LT(run.stepper.stored_energy().elastic, 1e-20);
+  EXPECT_LT(run.stepper.stored_energy().elastic, 1e-16);  // of E V = 0.5 J: round-off
   EXPECT_LT(run.force_on(0).norm(), 1e-12);
 }
 

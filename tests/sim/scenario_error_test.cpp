@@ -120,9 +120,11 @@ INSTANTIATE_TEST_SUITE_P(
                 tissue("density = \"1 t/m^3\"\nmaterial = { law = @\"neohookean\", young_modulus = "
                        "\"1 Pa\", "
                        "poisson_ratio = 0 }\n"),
-                "`law`: expected one of \"linear\", \"corotated\", \"neo-hookean\", found "
-                "\"neohookean\"; did "
-                "you mean \"neo-hookean\"?"},
+                "`law`: expected one of \"linear\", \"corotated\", \"neo-hookean\", "
+                "\"isochoric-neo-hookean\", \"mooney-rivlin\", \"yeoh\", \"veronda-westmann\", "
+                "\"transversely-isotropic\", \"muscle\", found \"neohookean\"; did you mean "
+                "\"neo-hookean\"?"},
+
         Mistake{"InfiniteTime", "duration = @\"inf s\"\n" + kBodies,
                 "`duration`: expected a time such as \"0.6 s\", found \"inf s\" (not finite)"},
         Mistake{"VectorAsList", bone("mass = \"1 kg\"\nvelocity = @[1, 0, 0]\n"),

@@ -1,0 +1,192 @@
+// Tissue of any element and law in a scene: what it carries, how it is damped, how its fibres pull.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "fem/point_law.hpp"
+#include "scene.hpp"
+
+namespace articular::sim {
+namespace {
+
+Material smoothed(const fem::Material& law) {
+  Material material = material_of(law);
+  material.element = Material::Element::Smoothed;
+  return material;
+}
+
+/// A slender bar tied at z = 0, E = 15 kPa.
+Scenario bar(const Material& material, const Eigen::Vector3i& cells) {
+  Scenario s = scene(1);
+  s.bodies = {box_body("bar", Body::Kind::Tissue, {0.01, 0.01, 0.06}, {0, 0, 0.03}, cells),
+              stand("wall")};
+  s.bodies[0].material = material;
+  s.attachments = {attach("bar", "wall", {-1, -1, -1e-6}, {1, 1, 1e-6})};
+  return s;
+}
+
+/// Mean sideways displacement of the free end [m].
+double end_shift(const Simulation& run) {
+  const Tissue& tissue = run.model.tissues[0];
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    if (tissue.X(2, column) < 0.06 - 1e-9) continue;
+    sum += run.now().position(tissue.nodes[i]).x() - tissue.X(0, column);
+    ++count;
+  }
+  return sum / count;
+}
+
+// Euler–Bernoulli: u = q L⁴/(8 E I), q = ρ A g; shear adds a few per cent. Plain elements lock in
+// bending, and more so near ν = 0.5; smoothed ones do neither.
+TEST(Tissue, SmoothedElementsBendAsABeamDoesAtAnyPoissonRatio) {
+  const double g = 0.05, L = 0.06, b = 0.01;
+  const double expected = 1000 * b * b * g * std::pow(L, 4) / (8 * 15e3 * std::pow(b, 4) / 12);
+  for (const double nu : {0.3, 0.499}) {
+    const auto deflection = [&](const Material& material) {
+      Scenario s = bar(material, {4, 4, 24});
+      s.analysis = Scenario::Analysis::Static;
+      s.loads = {gravity({g, 0, 0})};
+      Simulation run(s);
+      run.advance(1);
+      EXPECT_NEAR(run.force_on(0).x(), 1000 * b * b * L * g, 1e-5 * 1000 * b * b * L * g);
+      return end_shift(run);
+    };
+    const auto law = fem::MooneyRivlin<>(15e3 / (4 * (1 + nu)), 0, 15e3 / (3 * (1 - 2 * nu)));
+    EXPECT_NEAR(deflection(smoothed(law)), expected, 0.05 * expected) << nu;
+    EXPECT_LT(deflection(material_of(law)), 0.9 * expected) << nu;
+  }
+}
+
+// Bones and smoothed tissue: the pressure pushes a bone through the nodes tied to it.
+TEST(Tissue, SmoothedTissueBetweenTwoBonesCarriesTheLowerOnesWeight) {
+  Scenario s = bar(smoothed(fem::isochoric_neo_hookean<fem::VolumeChange>(15e3, 0.49)), {2, 2, 6});
+  s.analysis = Scenario::Analysis::Static;
+  s.bodies.push_back(mass_body("weight", 1e-3, {0, 0, 0.06}, {1e-7, 1e-7, 1e-7}));
+  s.attachments.push_back(attach("bar", "weight", {-1, -1, 0.0599}, {1, 1, 0.0601}));
+  s.loads = {gravity({0, 0, 9.81})};
+  Simulation run(s);
+  run.advance(1);
+  const double weight = 9.81 * (1e-3 + 1000 * 0.01 * 0.01 * 0.06);
+  EXPECT_NEAR(run.force_on(1).z(), weight, 1e-5 * weight);
+  EXPECT_EQ(run.stepper.indifferent().size(), 0u);
+  EXPECT_LE(run.state.counts.newton_iterations, 12);
+}
+
+// In time: the period of a smoothed bar is that of the beam, f = 1.875²/(2π L²) sqrt(E I/(ρ A)),
+// and once the modes that the steps do not resolve are gone (a kick at a tied end has many),
+// nothing more is lost.
+TEST(Tissue, ASmoothedBarSwingsWithTheBeamsPeriod) {
+  Scenario s = bar(smoothed(fem::isochoric_neo_hookean<fem::VolumeChange>(15e3, 0.49)), {2, 2, 12});
+  s.integrator.scheme = Integrator::Scheme::Dirk3;
+  s.integrator.step = 2.5e-3;
+  s.bodies[0].velocity = {1e-3, 0, 0};
+  Simulation run(s);
+  const double f = 1.875104 * 1.875104 / (2 * std::numbers::pi * 0.06 * 0.06) *
+                   std::sqrt(15e3 * 1e-4 / 12 / 1000);
+  // The end comes back through its place of rest after each half period.
+  double crossing = 0, before = 0;
+  double early_loss = 0;
+  run.advance(0.75 / f, [&] {
+    if (run.state.t < 0.25 / f) early_loss = run.loss();
+    const double now = end_shift(run);
+    if (before > 0 && now <= 0 && crossing == 0)
+      crossing = run.state.t - s.integrator.step * now / (now - before);
+    before = now;
+  });
+  EXPECT_NEAR(crossing, 0.5 / f, 0.05 * 0.5 / f);
+  EXPECT_LT(std::abs(run.loss() - early_loss), 0.01 * run.state.energy.start);
+}
+
+// Rayleigh: an oscillation decays by exp(−ζ ω t), ζ = α/(2ω) + β ω/2, and what the dampers take is
+// in the balance.
+TEST(Tissue, DampingTakesTheEnergyThatItsRatioSays) {
+  Material material = material_of(fem::NeoHookean(15e3, 0.3));
+  const auto remaining = [&](double alpha, double beta, double& omega) {
+    material.mass_damping = alpha;
+    material.stiffness_damping = beta;
+    Scenario s = bar(material, {1, 1, 4});
+    s.integrator.scheme = Integrator::Scheme::Dirk3;
+    s.integrator.step = 0.5e-3;
+    s.bodies[0].velocity = {0, 0, 1e-4};
+    Simulation run(s);
+    double crossing = 0, before = 0;
+    const auto end = [&] {
+      double most = 0;
+      for (const NodeRef& node : run.model.tissues[0].nodes)
+        most = std::max(most, run.now().position(node).z());
+      return most - 0.06;
+    };
+    run.advance(0.3, [&] {
+      const double now = end();
+      if (before > 0 && now <= 0 && crossing == 0) crossing = run.state.t;
+      before = now;
+    });
+    omega = std::numbers::pi / crossing;
+    EXPECT_LT(std::abs(run.loss()), 0.02 * run.state.energy.start);
+    EXPECT_NEAR(run.loss() + run.state.energy.tissue_loss + run.stepper.stored_energy().total(),
+                run.state.energy.start, 1e-9 * run.state.energy.start);
+    return run.stepper.stored_energy().total() / run.state.energy.start;
+  };
+  double omega = 0;
+  const double undamped = remaining(0, 0, omega);
+  EXPECT_GT(undamped, 0.97);
+  const double w = omega;
+  EXPECT_NEAR(remaining(2, 0, omega), undamped * std::exp(-2 * 0.3), 0.02);
+  // β damps what is slow as βω²; higher modes, which have a fifth of the energy, fade at once.
+  const double stiff = remaining(0, 1.0 / (w * w), omega);
+  EXPECT_LT(stiff, undamped * std::exp(-0.3));
+  EXPECT_GT(stiff, 0.7 * undamped * std::exp(-0.3));
+}
+
+/// A block with fibres along z between two walls, activated in the first 10 ms.
+Scenario muscle_block(Material::Element element) {
+  fem::MuscleFibre::Constants fibre;
+  fem::BlemkerMuscle<fem::LogVolumeChange>::Constants ground;
+  ground.c10 = 1e4;
+  ground.kappa = 1e6;
+  Material material = material_of(fem::BlemkerMuscle<>(fem::MuscleFibre(fibre), ground));
+  material.element = element;
+  material.fibres = Fibres{.direction = Vec3::UnitZ(), .array = {}, .between = {}, .where = {}};
+  Scenario s = scene(1e-3);
+  s.bodies = {box_body("muscle", Body::Kind::Tissue, {0.01, 0.01, 0.02}, Vec3::Zero(), {2, 2, 4}),
+              stand("low"), stand("high")};
+  s.bodies[0].material = material;
+  s.attachments = {attach("muscle", "low", {-1, -1, -0.0101}, {1, 1, -0.0099}),
+                   attach("muscle", "high", {-1, -1, 0.0099}, {1, 1, 0.0101})};
+  Muscle muscle;
+  muscle.name = "muscle";
+  muscle.tissue = "muscle";
+  muscle.activation_time = 5e-3;
+  muscle.excitation = {{0, 1e-3}, {0, 0.02}};
+  s.muscles = {muscle};
+  return s;
+}
+
+// Isometric at its optimal length: the force is near a σ_max A (the sides, free in the middle, draw
+// in a little), and static analysis has the same.
+TEST(Tissue, AnActivatedBlockPullsWithItsActiveStress) {
+  const double expected = 0.02 * 0.3e6 * 1e-4;
+  for (const auto element : {Material::Element::Plain, Material::Element::Smoothed}) {
+    Scenario s = muscle_block(element);
+    s.integrator.step = 5e-3;
+    Simulation moving(s);
+    moving.advance(0.3);
+    EXPECT_NEAR(moving.force_on(0).z(), expected, 0.05 * expected);
+    EXPECT_NEAR(moving.force_on(0).z(), -moving.force_on(1).z(), 1e-3 * expected);
+    EXPECT_GT(moving.state.energy.muscle_work, 0);
+
+    s.analysis = Scenario::Analysis::Static;
+    s.integrator.step = 0.1;
+    Simulation still(s);
+    still.advance(0.2);
+    EXPECT_NEAR(still.force_on(0).z(), moving.force_on(0).z(), 1e-3 * expected);
+  }
+}
+
+}  // namespace
+}  // namespace articular::sim
