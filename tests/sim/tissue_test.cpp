@@ -83,7 +83,7 @@ TEST(Tissue, SmoothedTissueBetweenTwoBonesCarriesTheLowerOnesWeight) {
 TEST(Tissue, ASmoothedBarSwingsWithTheBeamsPeriod) {
   Scenario s = bar(smoothed(fem::isochoric_neo_hookean<fem::VolumeChange>(15e3, 0.49)), {2, 2, 12});
   s.integrator.scheme = Integrator::Scheme::Dirk3;
-  s.integrator.step = 2.5e-3;
+  s.integrator.step = 0.625e-3;
   s.bodies[0].velocity = {1e-3, 0, 0};
   Simulation run(s);
   const double f = 1.875104 * 1.875104 / (2 * std::numbers::pi * 0.06 * 0.06) *
