@@ -18,8 +18,8 @@ namespace articular::fem {
 /// The two numbers of the formulation. Larger ones are stiffer and smoother (plain_share) or softer
 /// (tau); these have the most margin in tests/benchmarks/locking_study.cpp.
 struct Smoothing {
-  double plain_share = 0.1;   // s [-], in [0, 1]: part of the distortion taken by tetrahedra alone
-  double tau = 2;             // τ [-], > 0: weight of the pressure's stabilisation
+  double plain_share = 0.1;  // s [-], in [0, 1]: part of the distortion taken by tetrahedra alone
+  double tau = 2;            // τ [-], > 0: weight of the pressure's stabilisation
 };
 
 /// Elastic energy, internal force and stiffness of linear tetrahedra that do not lock: distortion

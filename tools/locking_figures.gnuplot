@@ -2,7 +2,7 @@
 set terminal svg size 640,400 font 'sans,13'
 set output out . '/locking.svg'
 set datafile separator ','
-names = "'plain' 'NS' 'ES' 'plain + PP 1' 'ES .95 + PP 1.5'"
+names = "'plain' 'NS' 'ES' 'plain + PP 1' 'ES .9 + PP 2'"
 colours = "#888888 #d95f02 #1b9e77 #7570b3 #000000"
 rows(name) = sprintf("<grep '^%s,' %s/curves.csv", name, out)
 set logscale x

@@ -25,6 +25,8 @@ struct BeamTimes {
 /// Clamped nodes are no unknowns: the stiffness goes straight to the matrix of the others.
 class Beam {
  public:
+  static constexpr double kE = 1e6, kNu = 0.45;  // [Pa], [-]
+
   explicit Beam(const std::array<int, 3>& cells);
 
   void rest();  // back to the start
@@ -34,6 +36,7 @@ class Beam {
   int num_tets() const { return elasticity_.num_elements(); }
   int num_unknowns() const { return 3 * A_.num_blocks(); }
   const fem::Elasticity& elasticity() const { return elasticity_; }
+  const Positions& X() const { return mesh_.X; }
   const Positions& x() const { return x_; }
   const fem::BlockMatrix& matrix() const { return A_; }  // of the last step
   double tip_displacement() const;                       // mean over the end section, in y [m]
@@ -51,7 +54,7 @@ class Beam {
   fem::Elasticity elasticity_;
   fem::StiffnessSlots slots_;
   double bytes_of_elasticity_;
-  Positions x_, f_int_;
+  Positions x_, x_free_, f_int_;            // x_free_: of the blocks of the matrix
   Eigen::VectorXd v_, dv_, b_, Av_, mass_;  // of the unknowns; mass [kg] one a node
   int iterations_ = 0;
 };
