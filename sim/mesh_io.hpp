@@ -15,7 +15,7 @@ struct MeshData {
   Tetrahedra tets;      // as in the file, 4 x 0 if none
   Triangles triangles;  // surface triangles of the file, polygons split; 3 x 0 if none
   /// Cell arrays with three components by their names, one column a tetrahedron (.vtu, .vtk).
-  std::vector<std::pair<std::string, Eigen::Matrix3Xd>> cell_vectors;
+  std::vector<std::pair<std::string, Eigen::Matrix3Xd>> cell_vectors{};
 };
 
 /// Reads .vtu, .vtp, .vtk, .stl, .obj, .ply or Abaqus .inp (*NODE, *ELEMENT TYPE=C3D4; others

@@ -209,7 +209,7 @@ std::vector<Muscle> read_muscles(const TableReader& document, const Context& con
   std::vector<Muscle> muscles;
   for (const Node& node : entries(document, "muscle")) {
     const TableReader table(node, label(node, "muscle"),
-                            {"name", "mirror", "path", "max_force", "optimal_length",
+                            {"name", "mirror", "tissue", "path", "max_force", "optimal_length",
                              "max_length_ratio", "tendon_ratio", "passive_fraction", "max_velocity",
                              "activation_time", "deactivation_time", "excitation"});
     for (const Side side : read_sides(table)) {

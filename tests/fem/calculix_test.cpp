@@ -82,14 +82,16 @@ class CalculiX : public ::testing::Test {
       for (int a = 0; a < 4; ++a) in << ", " << problem.tets(a, e) + 1;
       in << '\n';
     }
-    in << "*MATERIAL, NAME=TISSUE\n" << material << "*SOLID SECTION, ELSET=BLOCK, MATERIAL=TISSUE\n";
+    in << "*MATERIAL, NAME=TISSUE\n"
+       << material << "*SOLID SECTION, ELSET=BLOCK, MATERIAL=TISSUE\n";
     in << "*BOUNDARY\n";
     for (Eigen::Index i = 0; i < problem.X.cols(); ++i)
       if (problem.clamped[static_cast<std::size_t>(i)]) in << i + 1 << ", 1, 3, 0\n";
     in << step << "*CLOAD\n";
     for (Eigen::Index i = 0; i < problem.X.cols(); ++i)
       for (int k = 0; k < 3; ++k)
-        if (problem.force(k, i) != 0) in << i + 1 << ", " << k + 1 << ", " << problem.force(k, i) << '\n';
+        if (problem.force(k, i) != 0)
+          in << i + 1 << ", " << k + 1 << ", " << problem.force(k, i) << '\n';
     in << "*NODE PRINT, NSET=ALL\nU\n*END STEP\n";
     in.close();
     const std::string command =
@@ -120,9 +122,7 @@ class CalculiX : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-double difference(const Positions& a, const Positions& b) {
-  return (a - b).norm() / b.norm();
-}
+double difference(const Positions& a, const Positions& b) { return (a - b).norm() / b.norm(); }
 
 TEST_F(CalculiX, AgreesOnHookesLaw) {
   const Problem problem = block();
@@ -138,10 +138,11 @@ TEST_F(CalculiX, AgreesOnTheIsochoricNeoHookeanLawAtFiniteStrain) {
   std::ostringstream material;
   material.precision(17);
   material << "*HYPERELASTIC, NEO HOOKE\n" << mu / 2 << ", " << 2 / (lambda + 2 * mu / 3) << '\n';
-  const Positions theirs =
-      solution(problem, material.str(),
-               "*STEP, NLGEOM, INC=1000\n*CONTROLS, PARAMETERS=FIELD\n1e-9, 1e-9\n*STATIC\n0.25, 1\n");
-  const Positions ours = displacements(problem, MooneyRivlin<VolumeChange>(mu / 2, 0, lambda + 2 * mu / 3));
+  const Positions theirs = solution(
+      problem, material.str(),
+      "*STEP, NLGEOM, INC=1000\n*CONTROLS, PARAMETERS=FIELD\n1e-9, 1e-9\n*STATIC\n0.25, 1\n");
+  const Positions ours =
+      displacements(problem, MooneyRivlin<VolumeChange>(mu / 2, 0, lambda + 2 * mu / 3));
   EXPECT_GT(ours.row(2).maxCoeff(), 0.4);  // a strain that Hooke's law would not do for
   EXPECT_LT(difference(ours, theirs), kAgreement);
 }
