@@ -19,7 +19,9 @@ Json explain_body(const sim::Model& model, const sim::BodyModel& body) {
     const sim::Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
     const auto free = std::count_if(tissue.nodes.begin(), tissue.nodes.end(),
                                     [](const sim::NodeRef& node) { return node.bone < 0; });
-    json["modelled_as"] = "tissue";
+    const bool smoothed = tissue.elements.smoothed() != nullptr;
+    json["modelled_as"] = fmt::format("tissue, {}{}", smoothed ? "smoothed" : "plain",
+                                      tissue.fibres.cols() > 0 ? ", fibres" : "");
     json["tetrahedra"] = tissue.elements.num_elements();
     json["nodes"] = tissue.nodes.size();
     json["unknowns"] = 3 * free;
@@ -72,7 +74,8 @@ Json explain(const sim::Model& model) {
   for (const sim::BodyModel& body : model.bodies)
     if (!body.collider && !model.contacts.empty())
       left_out.push_back(fmt::format("contact of `{}`: it is in no contact pair", body.name));
-  if (model.lines.empty()) left_out.push_back("muscles and ligaments: the scene has none");
+  if (model.lines.empty() && model.muscles.empty())
+    left_out.push_back("muscles and ligaments: the scene has none");
   if (model.gravity.isZero()) left_out.push_back("gravity: the scene has none");
   left_out.push_back("fluid flow in cartilage (poroelasticity)");
   left_out.push_back("wrapping of muscles over bone (straight between via points)");
