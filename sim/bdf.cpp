@@ -7,9 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/newton_system.hpp"
 #include "sim/newton_weights.hpp"
-#include "sim/sundials.hpp"
+#include "sim/rate_callback.hpp"
 
 namespace articular::sim {
 namespace {
@@ -58,25 +57,17 @@ class Bdf final : public TimeIntegrator {
 
 int Bdf::rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
   auto& self = *static_cast<Bdf*>(data);
-  return guarded(self.error_, [&] {
-    ++self.counts_.force_evaluations;
-    self.dynamics_.evaluate(N_VGetArrayPointer(y), t);
-    self.dynamics_.rate(N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
-    return self.dynamics_.forces().allFinite() ? 0 : 1;
-  });
+  return sundials::evaluate_rate(self.dynamics_, self.counts_, self.error_, t, y, y_dot);
 }
 
 int Bdf::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
   auto& self = *static_cast<Bdf*>(solver->content);
   return guarded(self.error_, [&] {
-    ++self.counts_.newton_iterations;
     double gamma = 0;
     N_Vector y = nullptr;
     check(CVodeGetCurrentGamma(self.cvode_.get(), &gamma), "CVodeGetCurrentGamma");
     check(CVodeGetCurrentState(self.cvode_.get(), &y), "CVodeGetCurrentState");
-    const bool solved = self.newton_.solve(N_VGetArrayPointer(y), gamma, N_VGetArrayPointer(b),
-                                           N_VGetArrayPointer(x), self.counts_);
-    return solved ? 0 : 1;
+    return sundials::correct(self.newton_, self.counts_, gamma, y, x, b);
   });
 }
 
@@ -99,15 +90,13 @@ int Bdf::project(realtype, N_Vector y, N_Vector correction, realtype, N_Vector, 
   return 0;
 }
 
-SUNLinearSolver_Type embedded(SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; }
-
 Bdf::Bdf(const Model& model, Dynamics& dynamics)
     : model_(model),
       dynamics_(dynamics),
       newton_(model, dynamics),
       context_(sundials::make_context()),
       y_(sundials::make_vector(model.layout.size(), context_)),
-      solver_(sundials::make_solver(context_, this, embedded, solve)),
+      solver_(sundials::make_solver(context_, this, sundials::matrix_embedded, solve)),
       cvode_(CVodeCreate(CV_BDF, context_.get())) {
   if (!cvode_) throw std::runtime_error("CVodeCreate failed");
   void* cvode = cvode_.get();

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "sim/newton_weights.hpp"
+#include "sim/rate_callback.hpp"
 #include "sim/runge_kutta.hpp"
-#include "sim/sundials.hpp"
 
 namespace articular::sim {
 namespace {
@@ -41,12 +41,7 @@ class ExplicitRungeKutta final : public TimeIntegrator {
 
 int ExplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
   auto& self = *static_cast<ExplicitRungeKutta*>(data);
-  return sundials::guarded(self.error_, [&] {
-    ++self.counts_.force_evaluations;
-    self.dynamics_.evaluate(N_VGetArrayPointer(y), t);
-    self.dynamics_.rate(N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
-    return self.dynamics_.forces().allFinite() ? 0 : 1;
-  });
+  return sundials::evaluate_rate(self.dynamics_, self.counts_, self.error_, t, y, y_dot);
 }
 
 /// Velocities against what moves the tolerance in the longest step: what steps are shorter for is

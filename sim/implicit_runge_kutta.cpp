@@ -3,10 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/newton_system.hpp"
 #include "sim/newton_weights.hpp"
+#include "sim/rate_callback.hpp"
 #include "sim/runge_kutta.hpp"
-#include "sim/sundials.hpp"
 
 namespace articular::sim {
 namespace {
@@ -59,27 +58,17 @@ class ImplicitRungeKutta final : public TimeIntegrator {
 
 int ImplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
   auto& self = *static_cast<ImplicitRungeKutta*>(data);
-  return guarded(self.error_, [&] {
-    ++self.counts_.force_evaluations;
-    self.dynamics_.evaluate(N_VGetArrayPointer(y), t);
-    self.dynamics_.rate(N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
-    return self.dynamics_.forces().allFinite() ? 0 : 1;
-  });
+  return sundials::evaluate_rate(self.dynamics_, self.counts_, self.error_, t, y, y_dot);
 }
 
-/// The right-hand side was evaluated last where Newton's iteration stands: the residual comes
-/// first.
 int ImplicitRungeKutta::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
   auto& self = *static_cast<ImplicitRungeKutta*>(solver->content);
   return guarded(self.error_, [&] {
-    ++self.counts_.newton_iterations;
     double gamma = 0;
     N_Vector y = nullptr;
     check(ARKStepGetCurrentGamma(self.arkode_.get(), &gamma), "ARKStepGetCurrentGamma");
     check(ARKStepGetCurrentState(self.arkode_.get(), &y), "ARKStepGetCurrentState");
-    const bool solved = self.newton_.solve(N_VGetArrayPointer(y), gamma, N_VGetArrayPointer(b),
-                                           N_VGetArrayPointer(x), self.counts_);
-    return solved ? 0 : 1;
+    return sundials::correct(self.newton_, self.counts_, gamma, y, x, b);
   });
 }
 
@@ -108,8 +97,6 @@ int ImplicitRungeKutta::predict_stage(realtype t, N_Vector z, void* data) {
   return 0;
 }
 
-SUNLinearSolver_Type embedded(SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; }
-
 void set_scheme(void* arkode, Integrator::Scheme scheme) {
   if (scheme == Integrator::Scheme::ImplicitEuler) {
     double one = 1;  // implicit Euler: y1 = y0 + h f(t1, y1)
@@ -131,7 +118,7 @@ ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics)
       newton_(model, dynamics),
       context_(sundials::make_context()),
       y_(sundials::make_vector(model.layout.size(), context_)),
-      solver_(sundials::make_solver(context_, this, embedded, solve)),
+      solver_(sundials::make_solver(context_, this, sundials::matrix_embedded, solve)),
       arkode_(ARKStepCreate(nullptr, rate, 0, y_.get(), context_.get())) {
   if (!arkode_) throw std::runtime_error("ARKStepCreate failed");
   void* arkode = arkode_.get();

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "sim/newton_system.hpp"
+#include "sim/sundials.hpp"
+
+/// What the schemes' C callbacks have in common.
+namespace articular::sim::sundials {
+
+/// y_dot = rate(t, y). @return 0, or 1 where a force is not finite
+inline int evaluate_rate(Dynamics& dynamics, SolverCounts& counts, std::exception_ptr& error,
+                         double t, N_Vector y, N_Vector y_dot) {
+  return guarded(error, [&] {
+    ++counts.force_evaluations;
+    dynamics.evaluate(N_VGetArrayPointer(y), t);
+    dynamics.rate(N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
+    return dynamics.forces().allFinite() ? 0 : 1;
+  });
+}
+
+/// x: Newton's correction at the state y, where the rate was evaluated last (the residual comes
+/// first). @return 0, or 1 where there is none
+inline int correct(NewtonSystem& newton, SolverCounts& counts, double gamma, N_Vector y, N_Vector x,
+                   N_Vector b) {
+  ++counts.newton_iterations;
+  const bool solved = newton.solve(N_VGetArrayPointer(y), gamma, N_VGetArrayPointer(b),
+                                   N_VGetArrayPointer(x), counts);
+  return solved ? 0 : 1;
+}
+
+inline SUNLinearSolver_Type matrix_embedded(SUNLinearSolver) {
+  return SUNLINEARSOLVER_MATRIX_EMBEDDED;
+}
+
+}  // namespace articular::sim::sundials
