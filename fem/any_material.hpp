@@ -14,12 +14,17 @@
 namespace articular::fem {
 
 /// Every law that elements can have; another one joins by its name here.
-using Material =
+using AnyLaw =
     std::variant<Linear, Corotated, NeoHookean, MooneyRivlin<VolumeChange>,
                  MooneyRivlin<LogVolumeChange>, Yeoh<VolumeChange>, Yeoh<LogVolumeChange>,
                  VerondaWestmann<VolumeChange>, VerondaWestmann<LogVolumeChange>,
                  TransverselyIsotropic<VolumeChange>, TransverselyIsotropic<LogVolumeChange>,
                  BlemkerMuscle<VolumeChange>, BlemkerMuscle<LogVolumeChange>>;
+
+/// A name that headers can declare without the laws.
+struct Material : AnyLaw {
+  using AnyLaw::AnyLaw;
+};
 
 /// @throws std::invalid_argument where a material with fibres has none, or one is no unit vector
 void check_fibres(const Material& material, const FibreDirections& fibres, const Tetrahedra& tets);

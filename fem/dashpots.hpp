@@ -1,12 +1,14 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "fem/block_matrix.hpp"
 #include "fem/types.hpp"
-#include "fem/viscosity.hpp"
 
 namespace articular::fem {
+
+class KelvinVoigt;
 
 /// A Kelvin–Voigt dashpot in each element of a mesh of linear tetrahedra.
 class Dashpots {
@@ -26,7 +28,7 @@ class Dashpots {
 
  private:
   Tetrahedra tets_;
-  KelvinVoigt law_;
+  std::shared_ptr<const KelvinVoigt> law_;
   std::vector<Mat3> inverse_edges_;  // [1/m]
   std::vector<double> volume_;       // [m³]
   std::vector<int> slots_;           // 16 an element, 4b + a

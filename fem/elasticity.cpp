@@ -198,16 +198,6 @@ Eigen::MatrixXd Elasticity::cauchy_stress(const Positions& x, double activation)
   return stress;
 }
 
-Eigen::VectorXd Elasticity::von_mises(const Positions& x, double activation) const {
-  Eigen::VectorXd result(num_elements());
-  for_each_element(x, activation, [&](const PointLaw& law, int place, const Mat3& F) {
-    const Mat3 sigma = law.cauchy_stress(F);
-    const Mat3 deviator = sigma - sigma.trace() / 3 * Mat3::Identity();
-    result[elements_.element(place)] = std::sqrt(1.5) * deviator.norm();
-  });
-  return result;
-}
-
 Eigen::VectorXd Elasticity::volume_ratio(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
   for_each_element(x, 0, [&](const PointLaw&, int place, const Mat3& F) {

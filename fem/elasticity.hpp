@@ -7,7 +7,7 @@
 #include "fem/block_matrix.hpp"
 #include "fem/element_batches.hpp"
 #include "fem/element_kernels.hpp"
-#include "fem/projected_tangent.hpp"
+#include "fem/tangent.hpp"
 #include "fem/stiffness_slots.hpp"
 #include "fem/types.hpp"
 
@@ -36,6 +36,8 @@ class Elasticity {
   const Tetrahedra& tets() const { return tets_; }
   const std::vector<double>& rest_volume() const { return volume_; }  // [m³], one an element
 
+  const FibreDirections& fibres() const { return fibres_; }  // one an element, or none
+
   /// W [J]
   double energy(const Positions& x, double activation = 0) const;
   /// f += ∂W/∂x [N]: the force needed to hold the shape.
@@ -59,7 +61,6 @@ class Elasticity {
 
   /// Per element, for output. cauchy_stress: 6 x M (xx yy zz xy yz xz) [Pa].
   Eigen::MatrixXd cauchy_stress(const Positions& x, double activation = 0) const;
-  Eigen::VectorXd von_mises(const Positions& x, double activation = 0) const;              // [Pa]
   Eigen::VectorXd volume_ratio(const Positions& x) const;                                  // J
   Eigen::VectorXd strain_energy_density(const Positions& x, double activation = 0) const;  // [J/m³]
   Eigen::VectorXd fibre_stretch(const Positions& x) const;  // |F a₀|, where there are fibres

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include "fem/projected_tangent.hpp"
+
 namespace articular::fem {
 namespace {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fem/any_material.hpp"
-#include "fem/projected_tangent.hpp"
+#include "fem/tangent.hpp"
 
 namespace articular::fem {
 

@@ -5,13 +5,10 @@
 #include <Eigen/LU>
 
 #include "fem/material.hpp"
+#include "fem/tangent.hpp"
 
 /// What every assembly does with a material's stress and tangent at one F.
 namespace articular::fem {
-
-/// Which tangent the assembly uses: the consistent one, or each element's projected to be positive
-/// semidefinite (for solvers that need it far from equilibrium).
-enum class Tangent { Consistent, Projected };
 
 /// The nearest positive semidefinite matrix (in the Frobenius norm): eigenvalues below 0 become 0.
 inline Mat9 projected(const Mat9& tangent) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fem/point_law.hpp"
+#include "fem/projected_tangent.hpp"
 #include "fem/rest_shape.hpp"
 #include "fem/tetrahedron.hpp"
 
@@ -343,21 +344,19 @@ Eigen::MatrixXd SmoothedElasticity::cauchy_stress(const Positions& x, double act
   return stress;
 }
 
-Eigen::VectorXd SmoothedElasticity::von_mises(const Positions& x, double activation) const {
-  const Eigen::MatrixXd stress = cauchy_stress(x, activation);
-  Eigen::VectorXd result(num_elements());
-  for (int e = 0; e < num_elements(); ++e) {
-    const Vec3 normal = stress.col(e).head<3>(), shear = stress.col(e).tail<3>();
-    const Vec3 deviator = normal.array() - normal.mean();
-    result[e] = std::sqrt(1.5 * (deviator.squaredNorm() + 2 * shear.squaredNorm()));
-  }
-  return result;
-}
-
 Eigen::VectorXd SmoothedElasticity::volume_ratio(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
   for_each_element(x, 0,
                    [&](const PointLaw&, int e, const Mat3& F) { result[e] = F.determinant(); });
+  return result;
+}
+
+Eigen::VectorXd SmoothedElasticity::fibre_stretch(const Positions& x) const {
+  assert(fibres_.cols() == num_elements());
+  Eigen::VectorXd result(num_elements());
+  for_each_element(x, 0, [&](const PointLaw&, int e, const Mat3& F) {
+    result[e] = (F * fibres_.col(e)).norm();
+  });
   return result;
 }
 

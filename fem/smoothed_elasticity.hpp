@@ -10,7 +10,7 @@
 #include "fem/edge_domains.hpp"
 #include "fem/nodal_pressure.hpp"
 #include "fem/pressure_gradient.hpp"
-#include "fem/projected_tangent.hpp"
+#include "fem/tangent.hpp"
 #include "fem/types.hpp"
 
 namespace articular::fem {
@@ -58,6 +58,9 @@ class SmoothedElasticity {
   int num_pressures() const { return pressure_.size(); }
   const Tetrahedra& tets() const { return tets_; }
   const std::vector<double>& rest_volume() const { return volume_; }  // [m³], one an element
+  const FibreDirections& fibres() const { return fibres_; }           // one an element, or none
+  const FibreDirections& domain_fibres() const { return domain_fibres_; }  // one a domain, or none
+  const Smoothing& smoothing() const { return smoothing_; }
   const EdgeDomains& domains() const { return domains_; }
   const NodalPressure& nodal_pressure() const { return pressure_; }
 
@@ -98,8 +101,8 @@ class SmoothedElasticity {
   /// Per element, for output: means of the stress of the six edges' distortion, and the nodal
   /// pressures' mean. cauchy_stress: 6 x M (xx yy zz xy yz xz) [Pa].
   Eigen::MatrixXd cauchy_stress(const Positions& x, double activation = 0) const;
-  Eigen::VectorXd von_mises(const Positions& x, double activation = 0) const;  // [Pa]
-  Eigen::VectorXd volume_ratio(const Positions& x) const;                      // J
+  Eigen::VectorXd volume_ratio(const Positions& x) const;   // J
+  Eigen::VectorXd fibre_stretch(const Positions& x) const;  // |F a₀|, where there are fibres
   /// [J/m³]; sums to energy(x, activation)
   Eigen::VectorXd strain_energy_density(const Positions& x, double activation = 0) const;
 

@@ -130,6 +130,19 @@ std::optional<double> Bdf::advance(Eigen::VectorXd& y, double t, double h) {
   double reached = t;
   const int flag = CVode(cvode, t + h, y_.get(), &reached, CV_ONE_STEP);
   sundials::rethrow(error_);
+  switch (flag) {
+    case CV_CONV_FAILURE:
+    case CV_ERR_FAILURE:
+    case CV_LSOLVE_FAIL:
+    case CV_PROJFUNC_FAIL:
+    case CV_REPTD_PROJFUNC_ERR:
+    case CV_FIRST_RHSFUNC_ERR:  // forces that are not finite
+    case CV_REPTD_RHSFUNC_ERR:
+    case CV_UNREC_RHSFUNC_ERR:
+      break;
+    default:
+      check(flag, "CVode");
+  }
   if (flag < 0 || !view(y_).allFinite()) {
     ++counts_.rejected_newton;
     next_step_ = 0.1 * std::min(next_step_, h);

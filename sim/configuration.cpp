@@ -69,6 +69,11 @@ void positions_of(const Configuration& configuration, const std::vector<NodeRef>
     x.col(static_cast<Eigen::Index>(i)) = configuration.position(nodes[i]);
 }
 
+Mat3 world_inertia(const Model& model, const Configuration& configuration, int bone) {
+  const Mat3& R = configuration.poses[static_cast<std::size_t>(bone)].R;
+  return R * model.bones[static_cast<std::size_t>(bone)].mass.inertia * R.transpose();
+}
+
 void velocities_of(const Configuration& configuration, const std::vector<NodeRef>& nodes,
                    Positions& v) {
   v.resize(3, static_cast<Eigen::Index>(nodes.size()));

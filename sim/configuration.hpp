@@ -39,6 +39,9 @@ Configuration predicted(const Model& model, const Configuration& now, double h);
 void positions_of(const Configuration& configuration, const std::vector<NodeRef>& nodes,
                   Positions& x);
 
+/// About the centre of mass, in the world frame [kg m²].
+Mat3 world_inertia(const Model& model, const Configuration& configuration, int bone);
+
 void velocities_of(const Configuration& configuration, const std::vector<NodeRef>& nodes,
                    Positions& v);
 

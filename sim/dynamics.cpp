@@ -3,103 +3,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/smoothed_elasticity.hpp"
 #include "sim/stopwatch.hpp"
+#include "sim/tissue.hpp"
 
 namespace articular::sim {
 
-Dynamics::Dynamics(const Model& model) : model_(model) {
+Dynamics::Dynamics(const Model& model) : model_(model), matrix_(model) {
   f_.resize(3 * model.num_blocks);
+  tissues_.resize(model.tissues.size());
+  predicted_.resize(model.tissues.size());
   mass_nodes_.resize(static_cast<std::size_t>(model.layout.num_free_nodes));
   for (std::size_t t = 0; t < model.tissues.size(); ++t) {
     const Tissue& tissue = model.tissues[t];
-    tissues_.push_back({Positions(3, tissue.X.cols()),
-                        Positions(3, tissue.X.cols()),
-                        tissue.elements.make_matrix(),
-                        {},
-                        {},
-                        {}});
+    tissues_[t].x.resize(3, tissue.X.cols());
+    tissue_force_.emplace_back(3, tissue.X.cols());
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
       if (tissue.nodes[i].bone < 0)
         mass_nodes_[static_cast<std::size_t>(tissue.nodes[i].block)] = {static_cast<int>(t),
                                                                         static_cast<int>(i)};
-    const Tetrahedra& tets = tissue.elements.tets();
-    double volume = 0;
-    for (const double element : tissue.elements.rest_volume()) volume += element;
-    // Edge of the cube that six mean tetrahedra fill.
-    trusted_motion_ =
-        std::min(trusted_motion_, std::cbrt(6 * volume / static_cast<double>(tets.cols())));
-    append_stencils(tissue);
-    if (tissue.elements.smoothed() != nullptr) make_pressure_gradient(t);
-  }
-  for (int r = 0; r < model.layout.num_rigid; ++r) {
-    const int block = model.bones[static_cast<std::size_t>(r)].block;
-    base_.blocks.insert(base_.blocks.end(), {block, block + 1});
-    base_.close();
+    trusted_motion_ = std::min(trusted_motion_, element_size(tissue));
   }
   for (const BodyModel& body : model.bodies)
     if (body.collider) trusted_motion_ = std::min(trusted_motion_, body.collider->reach);
-  for (const Line& line : model.lines) append_stencil(model, line, base_);
-  build_pattern();
-}
-
-/// The couplings of a tissue's elements, or of its smoothing domains.
-void Dynamics::append_stencils(const Tissue& tissue) {
-  const auto append = [&](int node) {
-    append_blocks(model_, tissue.nodes[static_cast<std::size_t>(node)], base_.blocks);
-  };
-  if (const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed()) {
-    const fem::EdgeDomains& domains = smoothed->domains();
-    for (int k = 0; k < domains.size(); ++k) {
-      for (int i = domains.node_begin[static_cast<std::size_t>(k)];
-           i < domains.node_begin[static_cast<std::size_t>(k) + 1]; ++i)
-        append(domains.node[static_cast<std::size_t>(i)]);
-      base_.close();
-    }
-    return;
-  }
-  for (const auto& element : tissue.elements.tets().colwise()) {
-    for (const int node : element) append(node);
-    base_.close();
-  }
-}
-
-/// The pattern of a tissue's pressure gradient by blocks of unknowns.
-void Dynamics::make_pressure_gradient(std::size_t t) {
-  const Tissue& tissue = model_.tissues[t];
-  const fem::SmoothedElasticity& smoothed = *tissue.elements.smoothed();
-  const Tetrahedra& corners = smoothed.nodal_pressure().of_corner();
-  Stencils blocks;
-  std::vector<int> offsets{0};
-  for (Eigen::Index e = 0; e < corners.cols(); ++e) {
-    for (const int node : tissue.elements.tets().col(e))
-      append_blocks(model_, tissue.nodes[static_cast<std::size_t>(node)], blocks.blocks);
-    blocks.close();
-    offsets.push_back(static_cast<int>(4 * (e + 1)));
-  }
-  TissueWork& work = tissues_[t];
-  work.node_G = smoothed.make_pressure_gradient();
-  work.G = fem::PressureGradient(
-      model_.layout.num_unknown_blocks(), smoothed.num_pressures(), blocks.blocks, blocks.offsets,
-      {corners.data(), static_cast<std::size_t>(corners.size())}, offsets);
-}
-
-/// A node that is tied to a bone pushes the bone, and turns it by its lever.
-void Dynamics::set_pressure_gradient(std::size_t t) {
-  const Tissue& tissue = model_.tissues[t];
-  TissueWork& work = tissues_[t];
-  tissue.elements.smoothed()->set_pressure_gradient(work.x, work.node_G);
-  work.G.set_zero();
-  for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
-    const NodeRef& node = tissue.nodes[i];
-    if (node.bone >= model_.layout.num_rigid) continue;
-    for (int s = work.node_G.row_begin()[i]; s < work.node_G.row_begin()[i + 1]; ++s) {
-      const int c = work.node_G.column()[static_cast<std::size_t>(s)];
-      const Vec3& g = work.node_G.block(s);
-      work.G.block(work.G.slot(node.block, c)) += g;
-      if (node.bone >= 0)
-        work.G.block(work.G.slot(node.block + 1, c)) += configuration_.lever(node).cross(g);
-    }
-  }
 }
 
 double Dynamics::activation_of(std::size_t tissue) const {
@@ -107,42 +33,55 @@ double Dynamics::activation_of(std::size_t tissue) const {
   return muscle < 0 ? 0 : configuration_.activation[muscle];
 }
 
-void Dynamics::forget() {
-  if (contact_couplings_.blocks.empty()) return;
-  contact_couplings_ = {};
-  build_pattern();
-}
-
 void Dynamics::set_candidates(const std::vector<CandidateList>& candidates) {
   candidates_ = &candidates;
-  const std::size_t known = contact_couplings_.blocks.size();
-  append_missing_stencils(model_, candidates, A_, contact_couplings_);
-  if (contact_couplings_.blocks.size() > known) build_pattern();
+  matrix_.couple(candidates);
 }
 
-void Dynamics::build_pattern() {
-  Stencils all = base_;
-  for (std::size_t s = 0; s + 1 < contact_couplings_.offsets.size(); ++s) {
-    all.blocks.insert(all.blocks.end(),
-                      contact_couplings_.blocks.begin() + contact_couplings_.offsets[s],
-                      contact_couplings_.blocks.begin() + contact_couplings_.offsets[s + 1]);
-    all.close();
+void Dynamics::displacements_of(std::size_t t, const Eigen::VectorXd& dx, Positions& u) const {
+  const Tissue& tissue = model_.tissues[t];
+  u.setZero(3, static_cast<Eigen::Index>(tissue.nodes.size()));
+  for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+    const NodeRef& node = tissue.nodes[i];
+    if (node.bone >= model_.layout.num_rigid) continue;
+    const auto column = static_cast<Eigen::Index>(i);
+    u.col(column) = dx.segment<3>(3 * node.block);
+    if (node.bone >= 0)
+      u.col(column) += dx.segment<3>(3 * node.block + 3).cross(configuration_.lever(node));
   }
-  A_ = fem::BlockMatrix(model_.layout.num_unknown_blocks(), all.blocks, all.offsets);
+}
+
+void Dynamics::predict_pressures(const Eigen::VectorXd& dx) {
   for (std::size_t t = 0; t < tissues_.size(); ++t) {
-    TissueWork& work = tissues_[t];
-    const auto& nodes = model_.tissues[t].nodes;
-    work.slot.assign(static_cast<std::size_t>(work.K.num_nonzero_blocks()), -1);
-    for (int i = 0; i < work.K.num_blocks(); ++i)
-      for (int s = work.K.row_begin()[static_cast<std::size_t>(i)];
-           s < work.K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
-        const int j = work.K.column()[static_cast<std::size_t>(s)];
-        const NodeRef &p = nodes[static_cast<std::size_t>(i)],
-                      &q = nodes[static_cast<std::size_t>(j)];
-        if (p.bone < 0 && q.bone < 0)
-          work.slot[static_cast<std::size_t>(s)] = A_.slot(p.block, q.block);
-      }
+    const fem::SmoothedElasticity* smoothed = model_.tissues[t].elements.smoothed();
+    if (smoothed == nullptr) continue;
+    displacements_of(t, dx, v_);
+    predicted_[t].before = tissues_[t].pressure;
+    smoothed->predicted_pressure(tissues_[t].x, matrix_.pressure_gradient(t), v_,
+                                 predicted_[t].after);
   }
+}
+
+void Dynamics::find_pressure(std::size_t t) {
+  if (prediction_part_ && model_.tissues[t].elements.smoothed() != nullptr) {
+    const auto& [before, after] = predicted_[t];
+    tissues_[t].pressure = before + *prediction_part_ * (after - before);
+    return;
+  }
+  model_.tissues[t].elements.pressure(tissues_[t].x, tissues_[t].pressure);
+}
+
+/// In a static analysis all stress has relaxed.
+void Dynamics::read_lags(std::size_t t, const double* y) {
+  const Tissue& tissue = model_.tissues[t];
+  TissueMoment& now = tissues_[t];
+  tissue.relaxation->stress(now.x, activation_of(t), now.stress);
+  if (model_.scenario.analysis != Scenario::Analysis::Static) {
+    now.lags = Eigen::Map<const Eigen::VectorXd>(y + model_.layout.lags() + tissue.first_lag,
+                                                 tissue.relaxation->num_lags());
+    return;
+  }
+  tissue.relaxation->settle(now.stress, now.lags);
 }
 
 bool Dynamics::carries_own_weight(const NodeRef& node) const {
@@ -158,17 +97,23 @@ void Dynamics::evaluate(const double* y, double t) {
     const Stopwatch watch(times_.elastic_force);
     for (std::size_t k = 0; k < tissues_.size(); ++k) {
       const Tissue& tissue = model_.tissues[k];
-      TissueWork& work = tissues_[k];
-      positions_of(configuration_, tissue.nodes, work.x);
-      work.f.setZero();
-      tissue.elements.add_internal_force(work.x, activation_of(k), work.f);
+      TissueMoment& moment = tissues_[k];
+      Positions& f = tissue_force_[k];
+      positions_of(configuration_, tissue.nodes, moment.x);
+      find_pressure(k);
+      f.setZero();
+      tissue.elements.add_internal_force(moment.x, moment.pressure, activation_of(k), f);
       if (tissue.dashpots) {
         velocities_of(configuration_, tissue.nodes, v_);
-        tissue.dashpots->add_force(work.x, v_, work.f);
+        tissue.dashpots->add_force(moment.x, v_, f);
+      }
+      if (tissue.relaxation) {
+        read_lags(k, y);
+        tissue.relaxation->add_force(moment.x, moment.lags, 1, f);
       }
       for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
         const auto column = static_cast<Eigen::Index>(i);
-        Vec3 force = -work.f.col(column);
+        Vec3 force = -f.col(column);
         enters(force.norm());
         if (carries_own_weight(tissue.nodes[i])) {
           const Vec3 weight = tissue.lumped_mass[column] * model_.gravity;
@@ -205,11 +150,6 @@ void Dynamics::evaluate(const double* y, double t) {
   }
 }
 
-Mat3 Dynamics::world_inertia(int bone) const {
-  const Mat3& R = configuration_.poses[static_cast<std::size_t>(bone)].R;
-  return R * model_.bones[static_cast<std::size_t>(bone)].mass.inertia * R.transpose();
-}
-
 double Dynamics::activation_time(const double* y, double t, int muscle) const {
   const Muscle& m = model_.muscles[static_cast<std::size_t>(muscle)].given;
   const double u = steady_activation(model_.muscles[static_cast<std::size_t>(muscle)], t);
@@ -241,11 +181,17 @@ void Dynamics::rate(const double* y, double* y_dot) const {
     q_dot[1] = 0.5 * turned.x();
     q_dot[2] = 0.5 * turned.y();
     q_dot[3] = 0.5 * turned.z();
-    const Mat3 inertia = world_inertia(r);
+    const Mat3 inertia = world_inertia(model_, configuration_, r);
     acceleration(bone.block) = f_.segment<3>(3 * bone.block) / bone.mass.mass;
     acceleration(bone.block + 1) =
         inertia.llt().solve(f_.segment<3>(3 * bone.block + 3) - omega.cross(inertia * omega));
   }
+  for (std::size_t t = 0; t < tissues_.size(); ++t)
+    if (const auto& relaxation = model_.tissues[t].relaxation)
+      relaxation->rate(
+          tissues_[t].stress, tissues_[t].lags,
+          Eigen::Map<Eigen::VectorXd>(y_dot + layout.lags() + model_.tissues[t].first_lag,
+                                      relaxation->num_lags()));
   for (int m = 0; m < layout.num_muscles; ++m) {
     const double u =
         steady_activation(model_.muscles[static_cast<std::size_t>(m)], configuration_.t);
@@ -260,7 +206,7 @@ std::pair<Vec3, Vec3> Dynamics::attachment_force(int tissue, int bone) const {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].bone != bone) continue;
     const Vec3 pull =
-        -tissues_[static_cast<std::size_t>(tissue)].f.col(static_cast<Eigen::Index>(i));
+        -tissue_force_[static_cast<std::size_t>(tissue)].col(static_cast<Eigen::Index>(i));
     force += pull;
     moment += configuration_.lever(nodes[i]).cross(pull);
   }
@@ -280,55 +226,14 @@ void Dynamics::multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const
   for (int k = 0; k < model_.layout.num_rigid; ++k) {
     const Bone& bone = model_.bones[static_cast<std::size_t>(k)];
     r.segment<3>(3 * bone.block) = bone.mass.mass * b.segment<3>(3 * bone.block);
-    r.segment<3>(3 * bone.block + 3) = world_inertia(k) * b.segment<3>(3 * bone.block + 3);
+    r.segment<3>(3 * bone.block + 3) =
+        world_inertia(model_, configuration_, k) * b.segment<3>(3 * bone.block + 3);
   }
-}
-
-void Dynamics::add_tissue_stiffness(std::size_t t, const SystemScale& scale, fem::Tangent tangent) {
-  const Tissue& tissue = model_.tissues[t];
-  TissueWork& work = tissues_[t];
-  work.K.set_zero();
-  tissue.elements.add_stiffness(work.x, activation_of(t), tangent, scale.stiffness, work.K);
-  if (tissue.dashpots) tissue.dashpots->add_damping(work.x, scale.damping, work.K);
-  if (const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed()) {
-    set_pressure_gradient(t);
-    pressure_terms_.push_back({&work.G, &smoothed->nodal_pressure(), scale.stiffness});
-  }
-  for (int i = 0; i < work.K.num_blocks(); ++i)
-    for (int s = work.K.row_begin()[static_cast<std::size_t>(i)];
-         s < work.K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
-      const int slot = work.slot[static_cast<std::size_t>(s)];
-      if (slot >= 0) {
-        A_.block(slot) += work.K.block(s);
-        continue;
-      }
-      const int j = work.K.column()[static_cast<std::size_t>(s)];
-      add_stiffness(model_, configuration_, tissue.nodes[static_cast<std::size_t>(i)],
-                    tissue.nodes[static_cast<std::size_t>(j)], work.K.block(s), A_);
-    }
 }
 
 const fem::BlockMatrix& Dynamics::matrix(const SystemScale& scale, fem::Tangent tangent) {
   const Stopwatch watch(times_.assembly);
-  A_.set_zero();
-  pressure_terms_.clear();
-  for (std::size_t t = 0; t < tissues_.size(); ++t) add_tissue_stiffness(t, scale, tangent);
-  for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
-    const auto tissue =
-        static_cast<std::size_t>(mass_nodes_[static_cast<std::size_t>(block)].first);
-    const double share = scale.mass + scale.damping * model_.tissues[tissue].mass_damping;
-    A_.block(A_.slot(block, block)).diagonal().array() += share * mass_of(block);
-  }
-  for (int r = 0; r < model_.layout.num_rigid; ++r) {
-    const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
-    A_.block(A_.slot(bone.block, bone.block)).diagonal().array() += scale.mass * bone.mass.mass;
-    A_.block(A_.slot(bone.block + 1, bone.block + 1)) += scale.mass * world_inertia(r);
-  }
-  for (std::size_t l = 0; l < model_.lines.size(); ++l)
-    add_line_stiffness(model_, model_.lines[l], configuration_, lines_[l], scale, A_);
-  if (candidates_ != nullptr)
-    add_contact_stiffness(model_, configuration_, *candidates_, tangent, scale.stiffness, A_);
-  return A_;
+  return matrix_.assemble({configuration_, lines_, tissues_, candidates_}, scale, tangent);
 }
 
 double Dynamics::kinetic_energy() const {
@@ -340,7 +245,8 @@ double Dynamics::kinetic_energy() const {
     const auto& velocity = configuration_.velocities[static_cast<std::size_t>(r)];
     energy +=
         0.5 * model_.bones[static_cast<std::size_t>(r)].mass.mass * velocity.linear.squaredNorm();
-    energy += 0.5 * velocity.angular.dot(world_inertia(r) * velocity.angular);
+    energy +=
+        0.5 * velocity.angular.dot(world_inertia(model_, configuration_, r) * velocity.angular);
   }
   return energy;
 }
@@ -349,6 +255,10 @@ double Dynamics::elastic_energy() const {
   double energy = 0;
   for (std::size_t t = 0; t < tissues_.size(); ++t)
     energy += model_.tissues[t].elements.energy(tissues_[t].x, activation_of(t));
+  if (model_.scenario.analysis == Scenario::Analysis::Static)
+    for (std::size_t t = 0; t < tissues_.size(); ++t)
+      if (const auto& relaxation = model_.tissues[t].relaxation)
+        energy += relaxation->settled_energy(tissues_[t].x, activation_of(t));
   return energy;
 }
 
@@ -364,6 +274,12 @@ double Dynamics::damping_power() const {
     if (tissue.dashpots) {
       velocities_of(configuration_, tissue.nodes, v_);
       power += tissue.dashpots->power(tissues_[t].x, v_);
+    }
+    if (tissue.relaxation && model_.scenario.analysis != Scenario::Analysis::Static) {
+      velocities_of(configuration_, tissue.nodes, v_);
+      damping_.setZero(3, v_.cols());
+      tissue.relaxation->add_force(tissues_[t].x, tissues_[t].lags, 1, damping_);
+      power += damping_.cwiseProduct(v_).sum();
     }
     if (tissue.mass_damping == 0) continue;
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
@@ -394,6 +310,43 @@ void Dynamics::add_damping_product(const Eigen::VectorXd& u, double scale,
     for (Eigen::Index i = 0; i < count; ++i)
       add_force(configuration_, tissue.nodes[static_cast<std::size_t>(i)], scale * damping_.col(i),
                 f);
+  }
+}
+
+void Dynamics::add_lag_force(const double* b, double gamma, Eigen::VectorXd& f) const {
+  for (std::size_t t = 0; t < tissues_.size(); ++t) {
+    const Tissue& tissue = model_.tissues[t];
+    if (!tissue.relaxation) continue;
+    lag_part_ = Eigen::Map<const Eigen::VectorXd>(b + model_.layout.lags() + tissue.first_lag,
+                                                  tissue.relaxation->num_lags());
+    const Eigen::Index n = lag_part_.size() / tissue.relaxation->num_terms();
+    for (Eigen::Index i = 0; i < tissue.relaxation->num_terms(); ++i)
+      lag_part_.segment(n * i, n) /=
+          1 + gamma / tissue.relaxation->terms()[static_cast<std::size_t>(i)].time;
+    damping_.setZero(3, static_cast<Eigen::Index>(tissue.nodes.size()));
+    tissue.relaxation->add_force(tissues_[t].x, lag_part_, -1, damping_);
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+      add_force(configuration_, tissue.nodes[i], damping_.col(static_cast<Eigen::Index>(i)), f);
+  }
+}
+
+/// δS0 is that of the law, not of its tangent: it costs less, and the lags' rows are met at once.
+void Dynamics::correct_lags(const double* b, double gamma, const Eigen::VectorXd& w,
+                            double* x) const {
+  for (std::size_t t = 0; t < tissues_.size(); ++t) {
+    const Tissue& tissue = model_.tissues[t];
+    if (!tissue.relaxation) continue;
+    displacements_of(t, w, v_);
+    v_ = tissues_[t].x + gamma * v_;
+    tissue.relaxation->stress(v_, activation_of(t), stress_there_);
+    stress_there_ -= tissues_[t].stress;
+    const Eigen::Index n = stress_there_.size();
+    for (Eigen::Index i = 0; i < tissue.relaxation->num_terms(); ++i) {
+      const Eigen::Index at = model_.layout.lags() + tissue.first_lag + n * i;
+      const double ratio = gamma / tissue.relaxation->terms()[static_cast<std::size_t>(i)].time;
+      Eigen::Map<Eigen::VectorXd>(x + at, n) =
+          (Eigen::Map<const Eigen::VectorXd>(b + at, n) + ratio * stress_there_) / (1 + ratio);
+    }
   }
 }
 

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
-#include "fem/linear_solver.hpp"
-#include "sim/contact_force.hpp"
-#include "sim/line_force.hpp"
+#include "sim/newton_matrix.hpp"
 
 /// Forces, rates and the Newton matrix of the whole scene.
 namespace articular::sim {
@@ -21,7 +20,7 @@ class Dynamics {
   /// The candidates for the coming step; their couplings enter the pattern.
   void set_candidates(const std::vector<CandidateList>& candidates);
   /// Drops what depends on the past (couplings of earlier candidates).
-  void forget();
+  void forget() { matrix_.forget(); }
 
   /// Reads y and computes all forces there. Block forces: 3 entries a block, reactions included.
   void evaluate(const double* y, double t);
@@ -41,10 +40,29 @@ class Dynamics {
 
   /// What smoothed tissues add to that matrix: pressures that couple all of their nodes. Refers to
   /// this object.
-  fem::PressurePart pressure_part() const { return {pressure_terms_, nullptr}; }
+  fem::PressurePart pressure_part() const { return matrix_.pressure_part(); }
 
   /// f += scale D u for block velocities u, of the dampers in tissue.
   void add_damping_product(const Eigen::VectorXd& u, double scale, Eigen::VectorXd& f) const;
+
+  /// Newton's iteration with the pressures of smoothed tissues as unknowns of their own: those
+  /// after a correction `dx` of the block positions, to first order, from where the last evaluate()
+  /// and matrix() were.
+  void predict_pressures(const Eigen::VectorXd& dx);
+  /// From now on, evaluate() takes the pressures this part of the way there.
+  void take_prediction(double part) { prediction_part_ = part; }
+  /// From now on, evaluate() takes those of the positions.
+  void drop_prediction() { prediction_part_.reset(); }
+
+  /// Newton's iteration for the lags of relaxing stress. Their rows (1 + γ/τ) δL = b_L + γ/τ δS0
+  /// leave known parts b_L/(1 + γ/τ), whose force is added:
+  void add_lag_force(const double* b, double gamma, Eigen::VectorXd& f) const;
+  /// and with a correction γ w of the blocks' positions the rest of them follows, in x.
+  void correct_lags(const double* b, double gamma, const Eigen::VectorXd& w, double* x) const;
+  /// The lags that entered the last evaluate(); empty where a tissue does not relax.
+  const Eigen::VectorXd& lags(int tissue) const {
+    return tissues_[static_cast<std::size_t>(tissue)].lags;
+  }
 
   /// The largest force on one node, bone or line that entered the last evaluate() [N]: what a
   /// residual is small against.
@@ -55,7 +73,7 @@ class Dynamics {
   /// holds.
   double trusted_motion() const { return trusted_motion_; }  // [m]
 
-  std::uint64_t pattern_id() const { return A_.pattern_id(); }
+  std::uint64_t pattern_id() const { return matrix_.pattern_id(); }
 
   /// Mass of a free node [kg].
   double mass_of(int block) const;
@@ -75,19 +93,11 @@ class Dynamics {
   DynamicsTimes& times() { return times_; }
 
  private:
-  struct TissueWork {
-    Positions x, f;
-    fem::BlockMatrix K;
-    std::vector<int> slot;            // of each block of K in the matrix; -1: a bone is involved
-    fem::PressureGradient node_G, G;  // smoothed elements: by nodes, and by blocks of unknowns
-  };
-  void append_stencils(const Tissue& tissue);
-  void build_pattern();
-  void add_tissue_stiffness(std::size_t t, const SystemScale& scale, fem::Tangent tangent);
-  void make_pressure_gradient(std::size_t t);
-  void set_pressure_gradient(std::size_t t);
+  /// Displacements of a tissue's nodes by small ones of the blocks.
+  void displacements_of(std::size_t t, const Eigen::VectorXd& dx, Positions& u) const;
+  void find_pressure(std::size_t t);
+  void read_lags(std::size_t t, const double* y);
   double activation_of(std::size_t tissue) const;
-  Mat3 world_inertia(int bone) const;
   /// All tissue nodes but those whose mass a rigid bone has taken over.
   bool carries_own_weight(const NodeRef& node) const;
 
@@ -95,15 +105,20 @@ class Dynamics {
   const std::vector<CandidateList>* candidates_ = nullptr;
   Configuration configuration_;
   Eigen::VectorXd f_;
-  mutable Positions v_, damping_;  // at the nodes of a tissue
-  std::vector<fem::PressureTerm> pressure_terms_;
+  mutable Positions v_, damping_;                    // at the nodes of a tissue
+  mutable Eigen::VectorXd lag_part_, stress_there_;  // of a tissue
   double largest_force_ = 0;
   std::vector<LineState> lines_;
   std::vector<ContactSummary> contacts_;
-  std::vector<TissueWork> tissues_;
+  std::vector<TissueMoment> tissues_;
+  std::vector<Positions> tissue_force_;  // needed to hold the shape, of each node [N]
+  struct PressurePrediction {
+    Eigen::VectorXd before, after;  // of one tissue
+  };
+  std::vector<PressurePrediction> predicted_;
+  std::optional<double> prediction_part_;        // way from `before` to `after`
   std::vector<std::pair<int, int>> mass_nodes_;  // tissue, node of each free block
-  Stencils base_, contact_couplings_;
-  fem::BlockMatrix A_;
+  NewtonMatrix matrix_;
   double trusted_motion_ = std::numeric_limits<double>::infinity();
   DynamicsTimes times_;
 };

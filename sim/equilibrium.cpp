@@ -192,6 +192,7 @@ double Equilibrium::Solver::line_search(const Eigen::VectorXd& direction) {
   if (!(slope < 0)) return s;  // not downhill: nothing to search for
   for (int trial = 0; trial < kMostTrials; ++trial) {
     trial_ = before_ + s * direction;
+    dynamics_.take_prediction(s);
     const double there = direction.dot(residual_at(trial_));
     if (there <= -kSlopeFall * slope) return s;  // false for NaN
     const double secant = std::isfinite(there) ? slope / (slope - there) : 0.25;
@@ -213,6 +214,7 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
       self.counts.linear_iterations += report.iterations;
       if (!report.converged || !self.correction_.allFinite()) return 1;
     }
+    self.dynamics_.predict_pressures(self.correction_);
     // A bone's correction is a rotation on top of where it is.
     for (int r = 0; r < self.model_.layout.num_rigid; ++r) {
       const int row = 3 * self.model_.bones[static_cast<std::size_t>(r)].block + 3;
@@ -223,6 +225,7 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
     self.r_before_ = self.r_;
     const double residual = self.largest(self.r_) / self.dynamics_.largest_force();
     const double s = self.line_search(self.correction_);
+    self.dynamics_.take_prediction(s);
     view(x) = s * self.correction_;
     self.iterations.push_back({residual, s * self.largest_displacement(self.correction_), s});
     return 0;
@@ -270,6 +273,7 @@ int Equilibrium::Solver::run(double tolerance) {
 }
 
 bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
+  dynamics_.drop_prediction();
   start_ = y;
   t_ = t;
   damping_ = damping;
@@ -285,12 +289,14 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
   for (int round = 0; round < kMostRounds; ++round) {
     if (!(dynamics_.largest_force() > 0)) break;  // nothing acts
     const int flag = run(kBalanced * dynamics_.largest_force());
+    dynamics_.drop_prediction();
+    known_ = false;
     const bool stuck = flag == KIN_STEP_LT_STPTOL && iterations.back().fraction < 1;
+    residual_at(view(solution_));  // with the pressures of these positions
     if (flag < 0 || stuck || !r_.allFinite()) {
       ++counts.rejected_newton;
       return false;
     }
-    residual_at(view(solution_));
     if (flag == KIN_STEP_LT_STPTOL) break;
     if (largest(r_) <= 2 * kBalanced * dynamics_.largest_force()) break;
   }

@@ -78,6 +78,15 @@ std::optional<double> ExplicitRungeKutta::advance(Eigen::VectorXd& y, double t, 
   double reached = t;
   const int flag = ARKStepEvolve(arkode, t + h, y_.get(), &reached, ARK_ONE_STEP);
   sundials::rethrow(error_);
+  switch (flag) {
+    case ARK_ERR_FAILURE:
+    case ARK_FIRST_RHSFUNC_ERR:  // forces that are not finite
+    case ARK_REPTD_RHSFUNC_ERR:
+    case ARK_UNREC_RHSFUNC_ERR:
+      break;
+    default:
+      check(flag, "ARKStepEvolve");
+  }
   if (flag < 0 || !view(y_).allFinite()) {
     ++counts_.rejected_newton;
     next_step_ = 0.1 * std::min(next_step_, h);

@@ -1,5 +1,7 @@
 #include "sim/frames.hpp"
 
+#include "fem/von_mises.hpp"
+
 namespace articular::sim {
 namespace {
 
@@ -34,31 +36,20 @@ std::vector<Field> tissue_point_fields(const Model& model, const Tissue& tissue,
           {"contact_pressure", "Pa", pressure}};
 }
 
-/// Stretch of the fibres, |F a₀|.
-Eigen::RowVectorXd fibre_stretch(const Tissue& tissue, const Positions& x) {
-  Eigen::RowVectorXd stretch(tissue.fibres.cols());
-  for (Eigen::Index e = 0; e < stretch.size(); ++e) {
-    const auto tet = tissue.elements.tets().col(e);
-    Mat3 rest, now;
-    for (int k = 0; k < 3; ++k) {
-      rest.col(k) = tissue.X.col(tet[k + 1]) - tissue.X.col(tet[0]);
-      now.col(k) = x.col(tet[k + 1]) - x.col(tet[0]);
-    }
-    stretch[e] = (now * rest.inverse() * tissue.fibres.col(e)).norm();
-  }
-  return stretch;
-}
-
+/// @param lags  of the tissue's relaxation
 std::vector<Field> tissue_cell_fields(const Tissue& tissue, const Positions& x,
-                                      const Configuration& now) {
+                                      const Configuration& now, const Eigen::VectorXd& lags) {
   const TissueElements& e = tissue.elements;
   const double activation = tissue.muscle < 0 ? 0 : now.activation[tissue.muscle];
+  Eigen::MatrixXd stress = e.cauchy_stress(x, activation);
+  if (tissue.relaxation) tissue.relaxation->add_cauchy_stress(x, lags, stress);
   std::vector<Field> fields = {
-      {"cauchy_stress", "Pa", e.cauchy_stress(x, activation)},
-      {"von_mises", "Pa", e.von_mises(x, activation).transpose()},
+      {"cauchy_stress", "Pa", stress},
+      {"von_mises", "Pa", fem::von_mises(stress).transpose()},
       {"volume_ratio", "1", e.volume_ratio(x).transpose()},
       {"strain_energy_density", "J/m^3", e.strain_energy_density(x, activation).transpose()}};
-  if (tissue.fibres.cols() > 0) fields.push_back({"fibre_stretch", "1", fibre_stretch(tissue, x)});
+  if (tissue.fibres.cols() > 0)
+    fields.push_back({"fibre_stretch", "1", e.fibre_stretch(x).transpose()});
   return fields;
 }
 
@@ -129,7 +120,7 @@ void write_frame(const Model& model, const Stepper& stepper, int index, double t
           {body.name, x, tissue.elements.tets(),
            tissue_point_fields(model, tissue, now, x,
                                contact_forces[static_cast<std::size_t>(tissue.body)]),
-           tissue_cell_fields(tissue, x, now)},
+           tissue_cell_fields(tissue, x, now, stepper.dynamics().lags(body.tissue))},
           index, time);
     } else if (body.X.cols() > 0) {
       write_bone(model, now, body, index, time, writer);

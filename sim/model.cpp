@@ -10,6 +10,7 @@
 #include "sim/body_geometry.hpp"
 #include "sim/collider.hpp"
 #include "sim/muscle_law.hpp"
+#include "sim/newton_weights.hpp"
 #include "sim/region.hpp"
 #include "sim/tissue.hpp"
 
@@ -46,6 +47,7 @@ class Builder {
     make_loads();
     make_contacts();
     make_probes();
+    model_.position_tolerance = position_tolerance(model_);
     return std::move(model_);
   }
 
@@ -145,6 +147,11 @@ class Builder {
       for (NodeRef& node : tissue.nodes)
         if (node.bone >= 0) node.block = model_.bones[static_cast<std::size_t>(node.bone)].block;
     model_.layout.num_muscles = static_cast<int>(scenario().muscles.size());
+    for (Tissue& tissue : model_.tissues) {
+      if (!tissue.relaxation) continue;
+      tissue.first_lag = model_.layout.num_lags;
+      model_.layout.num_lags += tissue.relaxation->num_lags();
+    }
   }
 
   std::vector<char> surface_nodes(int tissue) const {

@@ -6,6 +6,7 @@
 
 #include "collision/surface.hpp"
 #include "fem/dashpots.hpp"
+#include "fem/relaxation.hpp"
 #include "sim/rigid_body.hpp"
 #include "sim/scenario.hpp"
 #include "sim/tissue_elements.hpp"
@@ -53,6 +54,8 @@ struct Tissue {
   int body = 0;
   TissueElements elements;
   std::optional<fem::Dashpots> dashpots;
+  std::optional<fem::Relaxation> relaxation;
+  int first_lag = 0;            // of the relaxation, among Layout::lags()
   Eigen::VectorXd lumped_mass;  // [kg], one a node
   double mass_damping = 0;      // α [1/s]: a force −α m v on each node
   std::vector<NodeRef> nodes;   // what moves each node
@@ -116,9 +119,9 @@ struct ProbeModel {
 
 /// Where everything stands in the state vector y:
 /// [free tissue x | per rigid bone: p, quaternion (w x y z) | free tissue v | per rigid bone: v, ω
-/// | activations]
+/// | activations | lags of relaxing tissues]
 struct Layout {
-  int num_free_nodes = 0, num_rigid = 0, num_muscles = 0;
+  int num_free_nodes = 0, num_rigid = 0, num_muscles = 0, num_lags = 0;
 
   int num_unknown_blocks() const { return num_free_nodes + 2 * num_rigid; }
   int node_x(int block) const { return 3 * block; }
@@ -128,7 +131,8 @@ struct Layout {
     return 3 * num_free_nodes + 7 * num_rigid;
   }  // in the order of the blocks
   int activations() const { return velocities() + 3 * num_unknown_blocks(); }
-  int size() const { return activations() + num_muscles; }
+  int lags() const { return activations() + num_muscles; }
+  int size() const { return lags() + num_lags; }
 };
 
 struct Model {
@@ -144,7 +148,8 @@ struct Model {
   std::vector<ProbeModel> probes;
   Vec3 gravity = Vec3::Zero();  // [m/s²]
   Layout layout;
-  int num_blocks = 0;  // with the blocks of fixed and driven bones
+  double position_tolerance = 0;  // [m], of the Newton iteration
+  int num_blocks = 0;             // with the blocks of fixed and driven bones
   std::vector<std::string> warnings;
 };
 

@@ -42,13 +42,16 @@ double lengthening(const Line& line, const Configuration& now, const Eigen::Vect
 }  // namespace
 
 std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model) {
+  using Solver = Integrator::Solver;
   const bool smoothed =
       std::any_of(model.tissues.begin(), model.tissues.end(),
                   [](const Tissue& tissue) { return tissue.elements.smoothed() != nullptr; });
-  if (model.scenario.integrator.solver == Integrator::Solver::Cholesky && smoothed)
-    return fem::make_saddle_point_solver(kLinearTolerance, kMostLinearIterations);
-  if (model.scenario.integrator.solver == Integrator::Solver::Cholesky) return fem::make_cholesky();
-  if (model.scenario.integrator.solver == Integrator::Solver::Multigrid && !smoothed)
+  const Solver solver = model.scenario.integrator.solver;
+  if (solver == Solver::Cholesky || solver == Solver::Auto) {
+    if (smoothed) return fem::make_saddle_point_solver(kLinearTolerance, kMostLinearIterations);
+    return fem::make_cholesky();
+  }
+  if (solver == Solver::Multigrid && !smoothed)
     return fem::make_multigrid(kLinearTolerance, kMostLinearIterations);
   return fem::make_conjugate_gradients(kLinearTolerance, kMostLinearIterations);
 }
@@ -76,7 +79,7 @@ bool NewtonSystem::needs_matrix(double gamma) const {
 }
 
 bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, SolverCounts& counts) {
-  const fem::BlockMatrix& A = dynamics_.matrix({1, gamma, gamma * gamma}, tangent);
+  const fem::BlockMatrix& A = dynamics_.matrix({1, gamma, gamma * gamma, gamma}, tangent);
   const Stopwatch watch(solve_seconds_);
   ++counts.factorizations;
   if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
@@ -160,6 +163,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
       add_line_force(model_.lines[l], now,
                      -viscosity / gamma * lengthening(model_.lines[l], now, shift_), pull_);
   dynamics_.add_damping_product(shift_, 1 / gamma, pull_);
+  dynamics_.add_lag_force(b, gamma, pull_);
   mass_rhs_ += gamma * pull_.head(num_velocities);
 
   last_residual_ = residual_;
@@ -187,6 +191,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     x_q[2] = dq.y() + growth * q.y();
     x_q[3] = dq.z() + growth * q.z();
   }
+  dynamics_.correct_lags(b, gamma, w_, x);
   if (scale < 1) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;
   return true;
 }

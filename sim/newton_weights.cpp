@@ -1,11 +1,18 @@
 #include "sim/newton_weights.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "fem/point_law.hpp"
+#include "sim/tissue.hpp"
 
 namespace articular::sim {
 namespace {
 
 constexpr double kActivationTolerance = 1e-4;
+/// Of relaxing stress by the shear modulus.
+constexpr double kStrainTolerance = 1e-4;
 
 }  // namespace
 
@@ -13,9 +20,20 @@ double turning_radius(const Bone& bone) {
   return std::sqrt(bone.mass.inertia.trace() / (2 * bone.mass.mass));
 }
 
+double position_tolerance(const Model& model) {
+  const Integrator& integrator = model.scenario.integrator;
+  if (integrator.position_tolerance) return *integrator.position_tolerance;
+  double size = std::numeric_limits<double>::infinity();
+  for (const Tissue& tissue : model.tissues) size = std::min(size, element_size(tissue));
+  if (model.tissues.empty())
+    for (int r = 0; r < model.layout.num_rigid; ++r)
+      size = std::min(size, turning_radius(model.bones[static_cast<std::size_t>(r)]));
+  return integrator.element_tolerance * (std::isfinite(size) ? size : 1);
+}
+
 void set_weights(const Model& model, double h, Eigen::Ref<Eigen::VectorXd> weight) {
   const Layout& layout = model.layout;
-  const double position = 1 / model.scenario.integrator.position_tolerance;
+  const double position = 1 / model.position_tolerance;
   weight.head(3 * layout.num_free_nodes).setConstant(position);
   weight.segment(layout.velocities(), 3 * layout.num_unknown_blocks()).setConstant(position * h);
   for (int r = 0; r < layout.num_rigid; ++r) {
@@ -25,7 +43,16 @@ void set_weights(const Model& model, double h, Eigen::Ref<Eigen::VectorXd> weigh
     weight.segment<4>(layout.bone_q(r)).setConstant(position * size);
     weight.segment<3>(layout.velocities() + 3 * bone.block + 3).setConstant(position * size * h);
   }
-  weight.tail(layout.num_muscles).setConstant(1 / kActivationTolerance);
+  weight.segment(layout.activations(), layout.num_muscles).setConstant(1 / kActivationTolerance);
+  if (layout.num_lags == 0) return;
+  // The norm is a mean over all entries: lags must not hide what moves.
+  weight.head(layout.lags()) *= std::sqrt(static_cast<double>(layout.size()) / layout.lags());
+  for (const Tissue& tissue : model.tissues) {
+    if (!tissue.relaxation) continue;
+    const Body& body = model.scenario.bodies[static_cast<std::size_t>(tissue.body)];
+    weight.segment(layout.lags() + tissue.first_lag, tissue.relaxation->num_lags())
+        .setConstant(1 / (kStrainTolerance * fem::shear_modulus(*body.material->law)));
+  }
 }
 
 }  // namespace articular::sim

@@ -10,6 +10,10 @@ namespace articular::sim {
 /// what moves them so far in a time h [s], rotations by the bone's size.
 void set_weights(const Model& model, double h, Eigen::Ref<Eigen::VectorXd> weight);
 
+/// What the scenario gives, or its part of the mean element size of the finest tissue; without
+/// tissue, of the smallest bone's radius of gyration [m].
+double position_tolerance(const Model& model);
+
 /// Radius of gyration [m]: how far a turn by one radian moves the bone's mass.
 double turning_radius(const Bone& bone);
 

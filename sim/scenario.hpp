@@ -2,13 +2,18 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "collision/narrow_rule.hpp"
-#include "fem/elasticity.hpp"
+#include "fem/prony_term.hpp"
 #include "sim/error.hpp"
+
+namespace articular::fem {
+struct Material;
+}
 
 /// A scenario as the user wrote it, in SI units: plain data, no meshes loaded, nothing looked up.
 /// The TOML form of every field is documented in scenarios/README.md.
@@ -74,12 +79,13 @@ struct Fibres {
 };
 
 struct Material {
-  fem::Material law = fem::NeoHookean(1, 0);
+  std::shared_ptr<const fem::Material> law;
   std::optional<Fibres> fibres;  // where the law has them
   /// Plain linear tetrahedra, or smoothed ones that do not lock.
   enum class Element { Plain, Smoothed } element = Element::Plain;
   double mass_damping = 0;       // α [1/s] of Rayleigh damping
   double stiffness_damping = 0;  // β [s]
+  std::vector<fem::PronyTerm> relaxation;
   Location where;
 };
 
@@ -230,13 +236,15 @@ struct Probe {
 
 struct Integrator {
   enum class Scheme { ImplicitEuler, TrBdf2, Dirk3, Bdf, Explicit };
-  enum class Solver { Cholesky, ConjugateGradients, Multigrid };
+  enum class Solver { Auto, Cholesky, ConjugateGradients, Multigrid };
   Scheme scheme = Scheme::ImplicitEuler;
-  Solver solver = Solver::Cholesky;
-  double step = 1e-3;                // [s]
-  double position_tolerance = 1e-6;  // [m], of the Newton iteration
-  int max_iterations = 20;           // Newton iterations before the step is halved
-  double min_step = 1e-7;            // [s], below which the run stops
+  Solver solver = Solver::Auto;
+  double step = 1e-3;  // [s]
+  /// [m], of the Newton iteration; default: `element_tolerance` of the elements' size.
+  std::optional<double> position_tolerance;
+  double element_tolerance = 5e-4;
+  int max_iterations = 20;  // Newton iterations before the step is halved
+  double min_step = 1e-7;   // [s], below which the run stops
 };
 
 struct Detection {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "fem/any_material.hpp"
 #include "sim/scenario_reader.hpp"
 
 namespace articular::sim {
@@ -58,7 +59,7 @@ std::vector<std::string_view> keys_of(Law law) {
 void refuse_other_keys(const TableReader& table, Law law,
                        std::initializer_list<std::string_view> keys) {
   std::vector<std::string_view> known = keys_of(law);
-  known.insert(known.end(), {"law", "element", "mass_damping", "stiffness_damping"});
+  known.insert(known.end(), {"law", "element", "mass_damping", "stiffness_damping", "relaxation"});
   for (const std::string_view key : keys)
     if (std::find(known.begin(), known.end(), key) == known.end())
       table.refuse({key}, fmt::format("the law is {}", found(table.at("law"))));
@@ -164,6 +165,23 @@ Fibres read_fibres(const Node& node) {
   return fibres;
 }
 
+std::vector<fem::PronyTerm> read_relaxation(const Node& node) {
+  std::vector<fem::PronyTerm> terms;
+  double sum = 0;
+  for (const Node& element :
+       read_list(node, "a list of terms such as [{ weight = 0.3, time = \"50 ms\" }, ...]")) {
+    const TableReader table(element, "term of `relaxation`", {"weight", "time"});
+    terms.push_back({.weight = read_number(table.at("weight"), kPositive),
+                     .time = read_quantity(table.at("time"), kTime, kPositive)});
+    sum += terms.back().weight;
+  }
+  if (!(sum < 1))
+    fail(node, fmt::format("the weights sum up to {:.4g}, which must be below 1: nothing would be "
+                           "left of the stress",
+                           sum));
+  return terms;
+}
+
 }  // namespace
 
 Material read_material(const Node& node) {
@@ -191,14 +209,15 @@ Material read_material(const Node& node) {
                                                         "fibres",
                                                         "element",
                                                         "mass_damping",
-                                                        "stiffness_damping"};
+                                                        "stiffness_damping",
+                                                        "relaxation"};
   const TableReader table(node, "material", keys);
   const Law law = read_law_name(table.at("law"));
   refuse_other_keys(table, law, keys);
   Material material;
   material.where = node.where;
   try {
-    material.law = read_law(table, law);
+    material.law = std::make_shared<const fem::Material>(read_law(table, law));
   } catch (const std::invalid_argument& error) {
     throw InputError(node.where, fmt::format("material: {}", error.what()));
   }
@@ -210,6 +229,10 @@ Material read_material(const Node& node) {
   });
   table.may("mass_damping", material.mass_damping, as_quantity(kRate, kNotNegative));
   table.may("stiffness_damping", material.stiffness_damping, as_quantity(kTime, kNotNegative));
+  table.may("relaxation", material.relaxation, read_relaxation);
+  if (law == Law::Linear)
+    table.refuse({"relaxation"},
+                 "the law is \"linear\", whose stress does not turn with rotations");
   return material;
 }
 

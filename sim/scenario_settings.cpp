@@ -15,7 +15,7 @@ constexpr std::pair<std::string_view, Integrator::Scheme> kSchemes[] = {
     {"bdf", Integrator::Scheme::Bdf},
     {"explicit", Integrator::Scheme::Explicit}};
 
-constexpr const char* kSolvers[] = {"cholesky", "conjugate-gradients", "multigrid"};
+constexpr const char* kSolvers[] = {"auto", "cholesky", "conjugate-gradients", "multigrid"};
 
 /// The presets; [integrator] overrides each setting.
 Integrator preset(Accuracy accuracy) {
@@ -28,7 +28,7 @@ Integrator preset(Accuracy accuracy) {
       break;
     case Accuracy::Accurate:
       integrator.step = 0.5e-3;
-      integrator.position_tolerance = 0.1e-6;
+      integrator.element_tolerance = 5e-5;
       break;
   }
   return integrator;
@@ -47,7 +47,8 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
     table.refuse({"scheme"}, "a static analysis has no time integration");
   table.may("solver", integrator.solver, [](const Node& n) {
     return read_choice<Integrator::Solver>(
-        n, {{"cholesky", Integrator::Solver::Cholesky},
+        n, {{"auto", Integrator::Solver::Auto},
+            {"cholesky", Integrator::Solver::Cholesky},
             {"conjugate-gradients", Integrator::Solver::ConjugateGradients},
             {"multigrid", Integrator::Solver::Multigrid}});
   });
@@ -131,9 +132,12 @@ std::string settings_as_json(const Scenario& scenario) {
   json["integrator"] = {{"scheme", kSchemes[static_cast<int>(integrator.scheme)].first},
                         {"step_s", integrator.step},
                         {"solver", kSolvers[static_cast<int>(integrator.solver)]},
-                        {"position_tolerance_m", integrator.position_tolerance},
                         {"max_iterations", integrator.max_iterations},
                         {"min_step_s", integrator.min_step}};
+  if (integrator.position_tolerance)
+    json["integrator"]["position_tolerance_m"] = *integrator.position_tolerance;
+  else
+    json["integrator"]["position_tolerance_of_element"] = integrator.element_tolerance;
   json["detection"] = {
       {"margin_m", scenario.detection.margin},
       {"narrow_test",

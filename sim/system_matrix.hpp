@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "fem/block_matrix.hpp"
 #include "sim/configuration.hpp"
@@ -10,6 +11,8 @@ namespace articular::sim {
 /// What a system matrix is made of: mass M + damping D + stiffness K.
 struct SystemScale {
   double mass = 0, damping = 0, stiffness = 0;
+  /// Length [s] of the implicit step that relaxing stress takes; infinity: it rests.
+  double step = std::numeric_limits<double>::infinity();
 };
 
 /// Blocks of unknowns that a set of nodes moves with; fixed and driven bones have none.

@@ -3,9 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <stdexcept>
 
+#include "fem/elasticity.hpp"
 #include "fem/fibre_field.hpp"
+#include "fem/point_law.hpp"
+#include "fem/smoothed_elasticity.hpp"
+#include "fem/viscosity.hpp"
 #include "sim/region.hpp"
 
 namespace articular::sim {
@@ -57,20 +63,25 @@ FibreDirections make_fibres(const Model& model, const std::vector<BodyGeometry>&
 TissueElements make_elements(const Material& material, const MeshData& mesh,
                              const FibreDirections& fibres) {
   if (material.element == Material::Element::Smoothed)
-    return TissueElements(fem::SmoothedElasticity(mesh.X, mesh.tets, material.law, {}, fibres));
-  return TissueElements(fem::Elasticity(mesh.X, mesh.tets, material.law, fibres));
+    return TissueElements(fem::SmoothedElasticity(mesh.X, mesh.tets, *material.law, {}, fibres));
+  return TissueElements(fem::Elasticity(mesh.X, mesh.tets, *material.law, fibres));
 }
 
 /// Bulk and shear modulus at small strain.
 std::pair<double, double> moduli(const fem::Material& law) {
-  return std::visit([](const auto& m) { return std::pair(m.bulk_modulus(), m.shear_modulus()); },
-                    law);
+  return {fem::bulk_modulus(law), fem::shear_modulus(law)};
 }
 
 }  // namespace
 
+double element_size(const Tissue& tissue) {
+  const std::vector<double>& volume = tissue.elements.rest_volume();
+  const double sum = std::accumulate(volume.begin(), volume.end(), 0.0);
+  return std::cbrt(6 * sum / static_cast<double>(volume.size()));
+}
+
 double constrained_modulus(const Material& material) {
-  const auto [kappa, mu] = moduli(material.law);
+  const auto [kappa, mu] = moduli(*material.law);
   return kappa + 4 * mu / 3;
 }
 
@@ -93,6 +104,7 @@ Tissue make_tissue(const Model& model, const std::vector<BodyGeometry>& geometry
     Tissue tissue{.body = index,
                   .elements = make_elements(material, mesh, fibres),
                   .dashpots = {},
+                  .relaxation = {},
                   .lumped_mass = fem::lumped_mass(mesh.X, mesh.tets, *body.density),
                   .mass_damping = material.mass_damping,
                   .nodes = {},
@@ -100,11 +112,15 @@ Tissue make_tissue(const Model& model, const std::vector<BodyGeometry>& geometry
                   .fibres = fibres};
     tissue.nodes.resize(static_cast<std::size_t>(mesh.X.cols()));
     if (material.stiffness_damping > 0) {
-      const auto [kappa, mu] = moduli(material.law);
+      const auto [kappa, mu] = moduli(*material.law);
       tissue.dashpots.emplace(mesh.X, mesh.tets,
                               fem::stiffness_damping(material.stiffness_damping, mu, kappa),
-                              tissue.elements.make_matrix());
+                              tissue.elements.make_plain_matrix());
     }
+    if (!material.relaxation.empty())
+      tissue.relaxation.emplace(material.relaxation, *material.law,
+                                tissue.elements.distortion_points(mesh.X),
+                                tissue.elements.make_matrix());
     return tissue;
   } catch (const std::invalid_argument& error) {
     throw InputError(body.mesh ? body.mesh->where : body.where,

@@ -15,6 +15,9 @@ namespace articular::sim {
 Tissue make_tissue(const Model& model, const std::vector<BodyGeometry>& geometry,
                    const collision::Surface& surface, int body);
 
+/// Edge of the cube that six of its mean tetrahedra fill [m].
+double element_size(const Tissue& tissue);
+
 /// λ + 2μ at small strain [Pa].
 double constrained_modulus(const Material& material);
 double constrained_modulus(double young_modulus, double poisson_ratio);

@@ -1,9 +1,18 @@
 #pragma once
 
-#include <variant>
+#include <memory>
+#include <span>
+#include <vector>
 
-#include "fem/elasticity.hpp"
-#include "fem/smoothed_elasticity.hpp"
+#include "fem/block_matrix.hpp"
+#include "fem/distortion_points.hpp"
+#include "fem/stiffness_slots.hpp"
+#include "fem/tangent.hpp"
+
+namespace articular::fem {
+class Elasticity;
+class SmoothedElasticity;
+}  // namespace articular::fem
 
 namespace articular::sim {
 
@@ -11,34 +20,48 @@ namespace articular::sim {
 /// is that of fibres, where there are any.
 class TissueElements {
  public:
-  template <class Elements>
-  explicit TissueElements(Elements elements) : elements_(std::move(elements)) {}
+  explicit TissueElements(fem::Elasticity elements);
+  explicit TissueElements(fem::SmoothedElasticity elements);
+  TissueElements(TissueElements&&) noexcept;
+  TissueElements& operator=(TissueElements&&) noexcept;
+  ~TissueElements();
 
   const Tetrahedra& tets() const;
   int num_elements() const { return static_cast<int>(tets().cols()); }
   const std::vector<double>& rest_volume() const;  // [m³], one an element
 
   double energy(const Positions& x, double activation) const;  // [J]
-  void add_internal_force(const Positions& x, double activation, Positions& f) const;
+  /// Smoothed elements: the nodal pressure of x [Pa]; of plain ones empty.
+  void pressure(const Positions& x, Eigen::VectorXd& p) const;
+  /// @param p  the nodal pressure of smoothed elements, see pressure()
+  void add_internal_force(const Positions& x, const Eigen::VectorXd& p, double activation,
+                          Positions& f) const;
   fem::BlockMatrix make_matrix() const;
   /// K += scale times the stiffness; of smoothed elements, without what couples all nodes through
   /// the pressure.
+  void add_stiffness(const Positions& x, const Eigen::VectorXd& p, double activation,
+                     fem::Tangent tangent, double scale, fem::BlockMatrix& K) const;
+  /// Straight into a larger matrix; plain elements only.
+  fem::StiffnessSlots slots_in(const fem::BlockMatrix& A, std::span<const int> block_of_node) const;
   void add_stiffness(const Positions& x, double activation, fem::Tangent tangent, double scale,
-                     fem::BlockMatrix& K) const;
+                     const fem::StiffnessSlots& slots, fem::BlockMatrix& A) const;
+  /// The pattern of the elements alone, without smoothing domains.
+  fem::BlockMatrix make_plain_matrix() const;
+  fem::DistortionPoints distortion_points(const Positions& X) const;
   /// Not null where the pressure is an unknown of the nodes.
-  const fem::SmoothedElasticity* smoothed() const {
-    return std::get_if<fem::SmoothedElasticity>(&elements_);
-  }
+  const fem::SmoothedElasticity* smoothed() const;
 
   /// Per element, for output; see fem::Elasticity.
   Eigen::MatrixXd cauchy_stress(const Positions& x, double activation) const;
-  Eigen::VectorXd von_mises(const Positions& x, double activation) const;
+  Eigen::VectorXd fibre_stretch(const Positions& x) const;
   Eigen::VectorXd volume_ratio(const Positions& x) const;
   Eigen::VectorXd strain_energy_density(const Positions& x, double activation) const;
 
  private:
-  std::variant<fem::Elasticity, fem::SmoothedElasticity> elements_;
-  mutable Eigen::VectorXd pressure_;  // work
+  struct Elements;
+  const fem::Elasticity& plain() const;
+
+  std::unique_ptr<Elements> elements_;
 };
 
 }  // namespace articular::sim

@@ -114,6 +114,16 @@ INSTANTIATE_TEST_SUITE_P(
                 "Poisson's ratio must lie between -1 and 0.5 (exclusive), found 0.5"},
         Mistake{"PoissonRatioNan", material("young_modulus = \"1 Pa\", poisson_ratio = @nan"),
                 "Poisson's ratio must be finite, found nan"},
+        Mistake{"RelaxationOfALinearLaw",
+                material("young_modulus = \"1 Pa\", poisson_ratio = 0.3, @relaxation = "
+                         "[{ weight = 0.3, time = \"1 s\" }]"),
+                "`relaxation` does not belong here: the law is \"linear\", whose stress does not "
+                "turn with rotations"},
+        Mistake{"RelaxationOfAllStress",
+                tissue("density = \"1 t/m^3\"\nmaterial = { law = \"corotated\", young_modulus = "
+                       "\"1 Pa\", poisson_ratio = 0.3, relaxation = @[{ weight = 0.3, time = "
+                       "\"1 s\" }, { weight = 0.8, time = \"2 s\" }] }\n"),
+                "`relaxation`: the weights sum up to 1.1, which must be below 1"},
         Mistake{"PoissonRatioText", material("young_modulus = \"1 Pa\", poisson_ratio = @\"0.3\""),
                 "`poisson_ratio`: expected a number without unit or quotes, found \"0.3\""},
         Mistake{"UnknownLaw",

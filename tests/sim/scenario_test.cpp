@@ -284,21 +284,21 @@ TEST_F(CompleteScenario, HasItsTissueAndGeometries) {
   const Body& disc = scenario_.bodies[2];
   EXPECT_EQ(disc.kind, Body::Kind::Tissue);
   EXPECT_EQ(disc.density, 1100);
-  EXPECT_TRUE(std::holds_alternative<fem::NeoHookean>(disc.material->law));
-  EXPECT_NEAR(fem::shear_modulus(disc.material->law), 5.4e6 / (2 * 1.4), 1e-6);
-  EXPECT_NEAR(fem::bulk_modulus(disc.material->law), 5.4e6 / (3 * (1 - 2 * 0.4)), 1e-6);
+  EXPECT_TRUE(std::holds_alternative<fem::NeoHookean>(*disc.material->law));
+  EXPECT_NEAR(fem::shear_modulus(*disc.material->law), 5.4e6 / (2 * 1.4), 1e-6);
+  EXPECT_NEAR(fem::bulk_modulus(*disc.material->law), 5.4e6 / (3 * (1 - 2 * 0.4)), 1e-6);
   EXPECT_EQ(disc.velocity, Vec3(0, 0, 1));
   const Body& ball = scenario_.bodies[3];
   EXPECT_EQ(ball.sphere->radius, 5e-3);
   EXPECT_EQ(ball.sphere->element_size, 1e-3);
   EXPECT_EQ(ball.sphere->center, Vec3(0, 1e-3, 0));
-  EXPECT_TRUE(std::holds_alternative<fem::Corotated>(ball.material->law));
+  EXPECT_TRUE(std::holds_alternative<fem::Corotated>(*ball.material->law));
   const Body& block = scenario_.bodies[4];
   EXPECT_EQ(block.box->size, Vec3(10e-3, 11e-3, 12e-3));
   EXPECT_EQ(block.box->cells, Eigen::Vector3i(4, 5, 6));
   EXPECT_EQ(block.box->center, Vec3(0, 0, 5e-3));
   EXPECT_TRUE(block.placement.rotation.isApprox(Vec3(0, 0, 45 * kDegree)));
-  EXPECT_TRUE(std::holds_alternative<fem::Linear>(block.material->law));
+  EXPECT_TRUE(std::holds_alternative<fem::Linear>(*block.material->law));
   const Body& tool = scenario_.bodies[5];
   EXPECT_EQ(tool.v_shape->leg_length, 40e-3);
   EXPECT_EQ(tool.v_shape->width, 8e-3);
@@ -524,14 +524,15 @@ TEST_F(Presets, SetStepAndTolerance) {
   EXPECT_EQ(read("accuracy = \"balanced\"\n" + kStart).integrator.step, 1e-3);
   const Integrator accurate = read("accuracy = \"accurate\"\n" + kStart).integrator;
   EXPECT_EQ(accurate.step, 0.5e-3);
-  EXPECT_EQ(accurate.position_tolerance, 0.1e-6);
+  EXPECT_EQ(accurate.element_tolerance, 5e-5);
 }
 
 TEST_F(Presets, GiveWayToTheIntegratorTable) {
   const Integrator integrator =
       read("accuracy = \"accurate\"\n" + kStart + "[integrator]\nstep = \"4 ms\"\n").integrator;
   EXPECT_EQ(integrator.step, 4e-3);
-  EXPECT_EQ(integrator.position_tolerance, 0.1e-6);
+  EXPECT_EQ(integrator.element_tolerance, 5e-5);
+  EXPECT_FALSE(integrator.position_tolerance.has_value());
 }
 
 using MeshPaths = ScenarioTest;

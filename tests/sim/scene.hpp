@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "sim/stepper.hpp"
 
 /// Small scenes put together in code.
@@ -24,7 +25,7 @@ inline Scenario scene(double step, Integrator::Scheme scheme = Integrator::Schem
 
 inline Material material_of(const fem::Material& law) {
   Material material;
-  material.law = law;
+  material.law = std::make_shared<const fem::Material>(law);
   return material;
 }
 

@@ -143,6 +143,96 @@ TEST(Tissue, DampingTakesTheEnergyThatItsRatioSays) {
   EXPECT_GT(stiff, 0.7 * undamped * std::exp(-0.3));
 }
 
+const std::vector<fem::PronyTerm> kRelaxation{{0.3, 20e-3}, {0.2, 5e-3}};
+
+/// A light bar between two grips of which one draws it out by a tenth in 2 ms.
+Scenario stretched_bar(const fem::Material& law, Material::Element element,
+                       const std::vector<fem::PronyTerm>& relaxation) {
+  Material material = material_of(law);
+  material.element = element;
+  material.relaxation = relaxation;
+  Scenario s = bar(material, {2, 2, 6});
+  s.bodies[0].density = 1;
+  s.bodies.push_back(stand("grip"));
+  s.attachments.push_back(attach("bar", "grip", {-1, -1, 0.0599}, {1, 1, 0.0601}));
+  s.loads = {shift("grip", 2e-3, {0, 0, 0.006})};
+  s.integrator.step = 0.5e-3;
+  s.integrator.position_tolerance = 1e-10;
+  return s;
+}
+
+/// Pull on the grip when the bar has been drawn out, and everything is at rest.
+double static_pull(double mu, double kappa, Material::Element element,
+                   const std::vector<fem::PronyTerm>& relaxation = {}) {
+  Scenario s = stretched_bar(fem::MooneyRivlin<>(mu / 2, 0, kappa), element, relaxation);
+  s.analysis = Scenario::Analysis::Static;
+  Simulation run(s);
+  run.advance(2e-3);
+  EXPECT_NEAR(run.loss(), 0, 5e-3 * run.state.energy.motion_work);
+  return -run.force_on(1).z();
+}
+
+// Held, the bar relaxes: at first it pulls as its law says, in the end as that with what is left of
+// the shear modulus, which is what static analysis finds; in between as the series says.
+TEST(Tissue, AStretchedBarRelaxes) {
+  const double mu = 5e3, kappa = 50e3;
+  const auto element = Material::Element::Plain;
+  const double sudden = static_pull(mu, kappa, element);
+  const double at_rest = static_pull(0.5 * mu, kappa, element);
+  EXPECT_NEAR(static_pull(mu, kappa, element, kRelaxation), at_rest, 1e-5 * at_rest);
+
+  Simulation run(stretched_bar(fem::MooneyRivlin<>(mu / 2, 0, kappa), element, kRelaxation));
+  run.advance(2e-3);
+  EXPECT_GT(-run.force_on(1).z(), 0.8 * sudden);
+  run.advance(22e-3);
+  const auto remaining = [](double t) {
+    return 1 - 0.3 * (1 - std::exp(-t / 20e-3)) - 0.2 * (1 - std::exp(-t / 5e-3));
+  };
+  // The pressure does not relax: what of the pull does, follows the series.
+  const double relaxing = (0.5 * (remaining(20e-3) + remaining(22e-3)) - 0.5) / 0.5;
+  const double expected = at_rest + relaxing * (sudden - at_rest);
+  EXPECT_NEAR(-run.force_on(1).z(), expected, 0.02 * expected);
+  run.advance(0.4);
+  EXPECT_NEAR(-run.force_on(1).z(), at_rest, 1e-5 * at_rest);
+  EXPECT_LT(std::abs(run.loss()), 0.05 * run.state.energy.motion_work);
+}
+
+// The same of smoothed elements, but that their pressure is stabilised with the modulus at rest.
+TEST(Tissue, ASmoothedBarRelaxesToItsStaticState) {
+  const double mu = 5e3, kappa = 250e3;
+  const auto element = Material::Element::Smoothed;
+  const double at_rest = static_pull(mu, kappa, element, kRelaxation);
+  EXPECT_NEAR(at_rest, 0.5 * static_pull(mu, kappa, element), 0.03 * at_rest);
+  Simulation run(stretched_bar(fem::MooneyRivlin<>(mu / 2, 0, kappa), element, kRelaxation));
+  run.advance(0.4);
+  EXPECT_NEAR(-run.force_on(1).z(), at_rest, 1e-5 * at_rest);
+}
+
+// The lags are integrated as accurately as all else: the error of the pull falls with the order of
+// the scheme.
+TEST(Tissue, RelaxationHasTheOrderOfTheScheme) {
+  const auto pull = [&](Integrator::Scheme scheme, double step) {
+    Scenario s =
+        stretched_bar(fem::MooneyRivlin<>(2.5e3, 0, 20e3), Material::Element::Plain, kRelaxation);
+    s.bodies[0].density = 0.1;  // waves are over at once
+    s.integrator.scheme = scheme;
+    s.integrator.step = step;
+    s.loads = {shift("grip", 32e-3, {0, 0, 0.006})};
+    s.loads[0].motion.smooth = true;
+    Simulation run(s);
+    run.advance(24e-3);
+    return -run.force_on(1).z();
+  };
+  using Scheme = Integrator::Scheme;
+  const double exact = pull(Scheme::Dirk3, 0.2e-3);
+  const auto error = [&](Scheme scheme, double step) {
+    return std::abs(pull(scheme, step) - exact);
+  };
+  EXPECT_NEAR(std::log2(error(Scheme::ImplicitEuler, 3e-3) / error(Scheme::ImplicitEuler, 1.5e-3)),
+              1, 0.2);
+  EXPECT_NEAR(std::log2(error(Scheme::TrBdf2, 3e-3) / error(Scheme::TrBdf2, 1.5e-3)), 2, 0.4);
+}
+
 /// A block with fibres along z between two walls, activated in the first 10 ms.
 Scenario muscle_block(Material::Element element) {
   fem::MuscleFibre::Constants fibre;

@@ -26,7 +26,7 @@ TEST_F(Overrides, ReplaceValuesByNameAndNumber) {
                        "muscle.m.path.1.point=0 0 2 m", "title = \"A b\"", "body.0.name=cranium",
                        "muscle.m.path.0.body=cranium", "body.\"disc_left\".density=2 g/cm^3"});
   EXPECT_EQ(scenario.duration, 0.1);
-  const fem::Material& law = scenario.bodies[2].material->law;
+  const fem::Material& law = *scenario.bodies[2].material->law;
   EXPECT_NEAR(fem::bulk_modulus(law) / fem::shear_modulus(law), 2 * 1.3 / (3 * 0.4), 1e-12);
   EXPECT_EQ(scenario.bodies[2].density, 2000);
   EXPECT_EQ(scenario.loads[0].acceleration, Vec3(0, 0, -1));
