@@ -22,6 +22,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "tests/fem/delaunay_mesh.hpp"
+
 namespace articular::fem {
 namespace {
 
@@ -58,6 +60,13 @@ double beam_result(const Candidate& c, int n, MeshKind kind = MeshKind::Kuhn) {
   const LoadedBody loaded = bent_beam(n, kBeamForce, kind);
   const Body body(c, loaded.mesh, study_material(kBeamNu, kBeamModulus / (2 * (1 + kBeamNu))));
   return equilibrium_of(body, loaded).displacement;
+}
+
+void print_delaunay(const char* name, const LoadedBody& loaded) {
+  const MeshQuality quality = quality_of(loaded.mesh);
+  std::printf("Delaunay, %s: %d nodes, %d tetrahedra, dihedral angles %.1f to %.1f degrees\n", name,
+              static_cast<int>(loaded.mesh.X.cols()), static_cast<int>(loaded.mesh.tets.cols()),
+              quality.smallest_dihedral, quality.largest_dihedral);
 }
 
 }  // namespace
@@ -167,7 +176,10 @@ void print_meshes() {
       "\n## Error [%%] on other meshes\n\n"
       "| distortion + volume | block 8, moved nodes: .49 | .499 | block 8, five tetrahedra, "
       "moved nodes: .49 | .499 | Cook 16, five, moved: .3 | .499 | beam, moved | beam, five, "
-      "moved |\n|---|---|---|---|---|---|---|---|---|\n");
+      "moved | block 8, Delaunay: .49 | .499 | Cook 16, Delaunay: .3 | .499 |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  const LoadedBody delaunay_block = delaunay_block_compression(8);
+  const LoadedBody delaunay_cook = delaunay_cook_membrane(16);
   for (const char* name :
        {"plain", "NS", "ES + PP 1", "ES .95 + PP 1", "ES .95 + PP 1.5", "ES .9 + PP 2"}) {
     const Candidate& c = candidate(name);
@@ -184,9 +196,17 @@ void print_meshes() {
     for (const MeshKind kind : {MeshKind::MovedNodes, MeshKind::FiveTetrahedra}) {
       std::printf(" | %s", percent(beam_result(c, 1, kind), kBeam).c_str());
     }
+    for (const auto& [nu, expected] : kBlock) {
+      std::printf(" | %s", error(c, delaunay_block, nu, expected).c_str());
+    }
+    for (const double nu : {0.3, 0.499}) {
+      std::printf(" | %s", error(c, delaunay_cook, nu, kCook.at(nu)).c_str());
+    }
     std::printf(" |\n");
     std::fflush(stdout);
   }
+  print_delaunay("block", delaunay_block);
+  print_delaunay("Cook", delaunay_cook);
 }
 
 void print_curves() {

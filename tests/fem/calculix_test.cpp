@@ -11,6 +11,7 @@
 #include "fem/elasticity.hpp"
 #include "fem/mooney_rivlin.hpp"
 #include "tests/fem/box_mesh.hpp"
+#include "tests/fem/calculix_input.hpp"
 #include "tests/fem/fixed_nodes.hpp"
 
 namespace articular::fem {
@@ -68,22 +69,12 @@ class CalculiX : public ::testing::Test {
     if (!folder_.empty()) std::filesystem::remove_all(folder_);
   }
 
-  /// @param material  its lines of the input  @param step  those of the step
+  /// @param material  its lines of the input, and that all elements have it
+  /// @param step  those of the step
   Positions solution(const Problem& problem, const std::string& material, const std::string& step) {
     std::ofstream in(folder_ / "block.inp");
-    in.precision(17);
-    in << "*NODE, NSET=ALL\n";
-    for (Eigen::Index i = 0; i < problem.X.cols(); ++i)
-      in << i + 1 << ", " << problem.X(0, i) << ", " << problem.X(1, i) << ", " << problem.X(2, i)
-         << '\n';
-    in << "*ELEMENT, TYPE=C3D4, ELSET=BLOCK\n";
-    for (Eigen::Index e = 0; e < problem.tets.cols(); ++e) {
-      in << e + 1;
-      for (int a = 0; a < 4; ++a) in << ", " << problem.tets(a, e) + 1;
-      in << '\n';
-    }
-    in << "*MATERIAL, NAME=TISSUE\n"
-       << material << "*SOLID SECTION, ELSET=BLOCK, MATERIAL=TISSUE\n";
+    write_calculix_mesh(in, problem.X, problem.tets);
+    in << material;
     in << "*BOUNDARY\n";
     for (Eigen::Index i = 0; i < problem.X.cols(); ++i)
       if (problem.clamped[static_cast<std::size_t>(i)]) in << i + 1 << ", 1, 3, 0\n";
@@ -127,7 +118,8 @@ double difference(const Positions& a, const Positions& b) { return (a - b).norm(
 TEST_F(CalculiX, AgreesOnHookesLaw) {
   const Problem problem = block();
   std::ostringstream material;
-  material << "*ELASTIC\n" << kE << ", " << kNu << '\n';
+  material << "*MATERIAL, NAME=TISSUE\n*ELASTIC\n"
+           << kE << ", " << kNu << "\n*SOLID SECTION, ELSET=BLOCK, MATERIAL=TISSUE\n";
   const Positions theirs = solution(problem, material.str(), "*STEP\n*STATIC\n");
   EXPECT_LT(difference(displacements(problem, Linear(kE, kNu)), theirs), kAgreement);
 }
@@ -136,8 +128,7 @@ TEST_F(CalculiX, AgreesOnTheIsochoricNeoHookeanLawAtFiniteStrain) {
   const Problem problem = block();
   const auto [mu, lambda] = lame_parameters(kE, kNu);
   std::ostringstream material;
-  material.precision(17);
-  material << "*HYPERELASTIC, NEO HOOKE\n" << mu / 2 << ", " << 2 / (lambda + 2 * mu / 3) << '\n';
+  write_calculix_neo_hooke(material, mu, lambda + 2 * mu / 3);
   const Positions theirs = solution(
       problem, material.str(),
       "*STEP, NLGEOM, INC=1000\n*CONTROLS, PARAMETERS=FIELD\n1e-9, 1e-9\n*STATIC\n0.25, 1\n");

@@ -96,12 +96,18 @@ LoadedBody::LoadedBody(TetMesh m) : mesh(std::move(m)) {
   f_ext = Positions::Zero(3, mesh.X.cols());
 }
 
+Vec3 cook_point(int n, const Vec3& unit) {
+  const double s = unit[0], t = unit[1];
+  return {48 * s, 44 * s * (1 - t) + (44 + 16 * s) * t, 48.0 / n * unit[2]};
+}
+
 LoadedBody cook_membrane(int n, MeshKind kind) {
   TetMesh mesh = unit_mesh({n, n, 1}, kind);
-  for (auto X : mesh.X.colwise()) {
-    const double s = X[0], t = X[1];
-    X = Vec3(48 * s, 44 * s * (1 - t) + (44 + 16 * s) * t, 48.0 / n * X[2]);
-  }
+  for (auto X : mesh.X.colwise()) X = cook_point(n, X);
+  return cook_membrane(std::move(mesh));
+}
+
+LoadedBody cook_membrane(TetMesh mesh) {
   LoadedBody body(std::move(mesh));
   body.fixed.row(2).setConstant(true);
   for (Eigen::Index a = 0; a < body.mesh.X.cols(); ++a) {
@@ -115,7 +121,11 @@ LoadedBody cook_membrane(int n, MeshKind kind) {
 }
 
 LoadedBody block_compression(int n, MeshKind kind) {
-  LoadedBody body(unit_mesh({n, n, n}, kind));
+  return block_compression(unit_mesh({n, n, n}, kind));
+}
+
+LoadedBody block_compression(TetMesh mesh) {
+  LoadedBody body(std::move(mesh));
   for (Eigen::Index a = 0; a < body.mesh.X.cols(); ++a) {
     for (int i = 0; i < 3; ++i) {
       if (body.mesh.X(i, a) < kOnPlane) body.fixed(i, a) = true;

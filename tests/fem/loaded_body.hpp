@@ -26,10 +26,16 @@ enum class MeshKind { Kuhn, MovedNodes, FiveTetrahedra };
 /// traction 6.25 upward on the face x = 48; the result is u_y of the corner (48, 60). Units of
 /// length and stress are free: mm and MPa, say.
 LoadedBody cook_membrane(int n, MeshKind kind = MeshKind::Kuhn);
+/// On any mesh of that shape with nodes where its corners are.
+LoadedBody cook_membrane(TetMesh mesh);
+/// Its shape: where a point of the unit cube comes to lie.
+Vec3 cook_point(int n, const Vec3& unit);
 
 /// A quarter of a 2 x 2 x 1 block between a smooth base and a top that keeps its horizontal place,
 /// with the dead pressure 100 on x, y ≤ 0.5 of the top; the result is u_z of (0, 0, 1).
 LoadedBody block_compression(int n, MeshKind kind = MeshKind::Kuhn);
+/// On any mesh of the unit cube with edges around the load.
+LoadedBody block_compression(TetMesh mesh);
 
 /// A cantilever of 10 x 1 x 1, 40n x 2n x 2n cells of six tetrahedra each (n = 1: 960), clamped
 /// at x = 0, with the dead force `force` upward spread over the face x = 10; the result is u_y in

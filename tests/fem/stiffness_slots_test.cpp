@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fem/elasticity.hpp"
+#include "tests/fem/basic_laws.hpp"
 #include "tests/fem/box_mesh.hpp"
 #include "tests/fem/dense.hpp"
 #include "tests/fem/random_matrices.hpp"
@@ -22,10 +23,11 @@ constexpr double kNu = 0.4;
 constexpr double kRoundOff = 1e-13;   // relative: the same terms, summed in another order
 const Vec3 kSize(0.02, 0.01, 0.005);  // [m]
 
-template <class M>
-class StiffnessSlotsTest : public testing::Test {};
-using AllMaterials = testing::Types<Linear, Corotated, NeoHookean>;
-TYPED_TEST_SUITE(StiffnessSlotsTest, AllMaterials);
+class StiffnessSlotsTest : public testing::TestWithParam<BasicLaw> {
+ protected:
+  static Material material() { return GetParam().make(kE, kNu); }
+};
+INSTANTIATE_TEST_SUITE_P(All, StiffnessSlotsTest, testing::ValuesIn(basic_laws()), name_of);
 
 Positions shaken(const TetMesh& mesh) {
   const double cell = (mesh.X.col(mesh.tets(1, 0)) - mesh.X.col(mesh.tets(0, 0))).norm();
@@ -66,9 +68,9 @@ BlockMatrix matrix_of(const Tetrahedra& tets, const std::vector<int>& rows) {
   return {*std::max_element(rows.begin(), rows.end()) + 1, stencils, offsets};
 }
 
-TYPED_TEST(StiffnessSlotsTest, BlocksGoToTheRowsOfTheirNodes) {
+TEST_P(StiffnessSlotsTest, BlocksGoToTheRowsOfTheirNodes) {
   const TetMesh mesh = box_mesh({4, 3, 5}, kSize, 0.15);
-  const Elasticity elasticity(mesh.X, mesh.tets, TypeParam(kE, kNu));
+  const Elasticity elasticity(mesh.X, mesh.tets, material());
   const Positions x = shaken(mesh);
   BlockMatrix K = elasticity.make_matrix();
   elasticity.add_stiffness(x, Tangent::Consistent, 0.5, K);
@@ -90,9 +92,9 @@ TYPED_TEST(StiffnessSlotsTest, BlocksGoToTheRowsOfTheirNodes) {
   EXPECT_LT((dense(A) - dense(A).transpose()).norm(), 1e-15 * expected.norm());  // both halves
 }
 
-TYPED_TEST(StiffnessSlotsTest, ForceAndStiffnessAtOnceAreThoseOfTwoCalls) {
+TEST_P(StiffnessSlotsTest, ForceAndStiffnessAtOnceAreThoseOfTwoCalls) {
   const TetMesh mesh = box_mesh({4, 3, 5}, kSize, 0.15);
-  const Elasticity elasticity(mesh.X, mesh.tets, TypeParam(kE, kNu));
+  const Elasticity elasticity(mesh.X, mesh.tets, material());
   const Positions x = shaken(mesh);
   const std::vector<int> rows = scattered_rows(elasticity.num_nodes());
   for (const Tangent tangent : {Tangent::Consistent, Tangent::Projected}) {
@@ -108,7 +110,7 @@ TYPED_TEST(StiffnessSlotsTest, ForceAndStiffnessAtOnceAreThoseOfTwoCalls) {
 }
 
 // Large enough for several parts; nodes and elements in no order.
-TYPED_TEST(StiffnessSlotsTest, SameBitsForAnyNumberOfThreads) {
+TEST_P(StiffnessSlotsTest, SameBitsForAnyNumberOfThreads) {
   TetMesh mesh = box_mesh({13, 12, 11}, kSize, 0.15);
   const std::vector<int> node = shuffled(static_cast<int>(mesh.X.cols()));
   const std::vector<int> element = shuffled(static_cast<int>(mesh.tets.cols()));
@@ -122,7 +124,7 @@ TYPED_TEST(StiffnessSlotsTest, SameBitsForAnyNumberOfThreads) {
   BlockMatrix K_of_one;
   double W_of_one = 0;
   for (const int threads : {1, 2, 3, 4, 7}) {
-    const Elasticity elasticity(mesh.X, mesh.tets, TypeParam(kE, kNu), {}, {.threads = threads});
+    const Elasticity elasticity(mesh.X, mesh.tets, material(), {}, {.threads = threads});
     Positions f = Positions::Zero(3, x.cols());
     elasticity.add_internal_force(x, f);
     BlockMatrix K = elasticity.make_matrix();
@@ -144,12 +146,12 @@ TYPED_TEST(StiffnessSlotsTest, SameBitsForAnyNumberOfThreads) {
 
 // The parts of a large mesh cover it: what it does is what its two halves do, each too small to be
 // divided.
-TYPED_TEST(StiffnessSlotsTest, ALargeMeshIsTheSumOfItsPieces) {
+TEST_P(StiffnessSlotsTest, ALargeMeshIsTheSumOfItsPieces) {
   const TetMesh mesh = box_mesh({13, 12, 11}, kSize, 0.15);
   const Positions x = shaken(mesh);
   const Eigen::Index half = mesh.tets.cols() / 2;
   Positions f = Positions::Zero(3, x.cols()), f_pieces = f;
-  const Elasticity whole(mesh.X, mesh.tets, TypeParam(kE, kNu));
+  const Elasticity whole(mesh.X, mesh.tets, material());
   BlockMatrix K = whole.make_matrix(), K_pieces = K;
   whole.add_internal_force(x, f);
   whole.add_stiffness(x, Tangent::Consistent, 1, K);
@@ -157,7 +159,7 @@ TYPED_TEST(StiffnessSlotsTest, ALargeMeshIsTheSumOfItsPieces) {
   std::iota(rows.begin(), rows.end(), 0);
   for (const Tetrahedra& tets :
        {Tetrahedra(mesh.tets.leftCols(half)), Tetrahedra(mesh.tets.rightCols(half))}) {
-    const Elasticity piece(mesh.X, tets, TypeParam(kE, kNu));
+    const Elasticity piece(mesh.X, tets, material());
     piece.add_internal_force(x, f_pieces);
     piece.add_stiffness(x, Tangent::Consistent, 1, piece.slots_in(K, rows), K_pieces);
   }
