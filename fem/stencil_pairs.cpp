@@ -18,7 +18,7 @@ void for_each_pair(const StencilBatch& batch, Visit visit) {
 
 /// Nodes that fill up a batch repeat the first one.
 bool exists(const StencilBatch& batch, int a, int lane) {
-  return lane < batch.count && (a == 0 || batch.node[a].lane[lane] != batch.node[0].lane[lane]);
+  return a == 0 || batch.node[a].lane[lane] != batch.node[0].lane[lane];
 }
 
 }  // namespace
