@@ -19,4 +19,16 @@ concept Batched = requires(const M& m) {
   { m.batch_law() } -> std::same_as<BatchLaw>;
 };
 
+/// A law that is split into distortion and dilatation (see split_material.hpp), as plain numbers,
+/// for the kernels of point_kernels.hpp.
+struct SplitBatchLaw {
+  enum class Distortion { Corotated, NeoHookean, Polynomial };
+  enum class Theta { Volume, LogVolume };  // of Corotated: neither, but that of its rotation
+  Distortion distortion;
+  Theta theta = Theta::Volume;
+  /// Corotated, NeoHookean: μ, λ of the distortion. Polynomial: c10, c20, c01 of
+  /// c10 (Ī1 − 3) + c20 (Ī1 − 3)² + c01 (Ī2 − 3). [Pa]
+  double c[3];
+};
+
 }  // namespace articular::fem

@@ -54,6 +54,10 @@ class Corotated {
   }
 
   BatchLaw batch_law() const { return {BatchLaw::Kind::Corotated, lame_.mu, lame_.lambda}; }
+  /// Of a distortion().
+  SplitBatchLaw split_batch_law() const {
+    return {.distortion = SplitBatchLaw::Distortion::Corotated, .c = {lame_.mu, lame_.lambda, 0}};
+  }
 
  private:
   explicit Corotated(const Lame& lame) : lame_(lame) {}

@@ -8,6 +8,14 @@ namespace articular::fem {
 /// batch in several goes.
 inline constexpr int kBatchSize = 8;
 
+/// One number of each of eight elements.
+struct alignas(64) Eight {
+  double lane[kBatchSize];
+};
+struct EightIndices {
+  int lane[kBatchSize];
+};
+
 /// Elements in a chunk, at most. Stiffnesses of a chunk are summed in a buffer of its own before
 /// they go to the matrix: of 1000 neighbours, each block of the matrix has four on average, and the
 /// buffer (200 kB) stays in the second-level cache.
@@ -30,6 +38,13 @@ static_assert(10 * kChunkSize <= 65536);
 /// Places of the blocks (i, j) and (j, i) of a pair in a matrix; equal for a node with itself.
 struct PairSlots {
   int lower, upper;
+};
+
+/// Sums of the 3x3 blocks of the pairs of nodes in a chunk, column-major: entries 0 to 7, and the
+/// last one apart.
+struct PairSums {
+  Eight* entries;
+  double* last;
 };
 
 /// What a kernel works on: one chunk. Lanes of its last batch from num_elements on do not exist.

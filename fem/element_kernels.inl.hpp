@@ -4,7 +4,9 @@
 #include <cstddef>
 
 #include "fem/corotated_lanes.inl.hpp"
+#include "fem/gather_lanes.inl.hpp"
 #include "fem/neo_hookean_lanes.inl.hpp"
+#include "fem/pair_blocks.inl.hpp"
 
 namespace articular::fem::ARTICULAR_INSTRUCTION_SET {
 namespace {
@@ -16,20 +18,6 @@ struct Elements {
   Lanes volume;
   const int* node[4];  // of the first of them
 };
-
-inline Vector gather(const double* x, const int* node) {
-  const auto component = [&](int i) {
-    const auto at = [&](int lane) { return x[3 * static_cast<std::ptrdiff_t>(node[lane]) + i]; };
-#if defined(__AVX512F__)
-    return Lanes{at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)};
-#elif defined(__AVX2__)
-    return Lanes{at(0), at(1), at(2), at(3)};
-#else
-    return Lanes{at(0), at(1)};
-#endif
-  };
-  return {component(0), component(1), component(2)};
-}
 
 inline Elements load_elements(const ElementBatch& batch, int first, const double* x) {
   Elements e;
@@ -59,34 +47,14 @@ inline void add_force(const Matrix& P, const Elements& e, const Vector (&g)[3], 
   }
 }
 
-/// Blocks of the pairs of a chunk: eight entries, aligned, and the last one apart.
+/// Blocks of the pairs of a chunk.
 struct PairBlocks {
-  alignas(64) double entries[10 * kChunkSize][8];
+  Eight entries[10 * kChunkSize];
   double last[10 * kChunkSize];
 };
 
-/// Adds one block of each element to that of its pair.
-inline void add_block(const Matrix& K_ab, const std::uint16_t* pair, int count,
-                      PairBlocks& blocks) {
-  constexpr int kGroups = 8 / kWidth;
-  Lanes part[kGroups][kWidth];  // of each element: entries 0 to 7, kWidth at once
-  for (int k = 0; k < 8; ++k) part[k / kWidth][k % kWidth] = K_ab[k / 3][k % 3];
-  for (int group = 0; group < kGroups; ++group) transpose(part[group]);
-  alignas(64) double last[kWidth];
-  store(K_ab[2][2], last);
-  for (int lane = 0; lane < kWidth; ++lane) {
-    if (lane >= count) break;
-    double* const entries = blocks.entries[pair[lane]];
-    for (int group = 0; group < kGroups; ++group) {
-      double* const place = entries + group * kWidth;
-      store(load(place) + part[group][lane], place);
-    }
-    blocks.last[pair[lane]] += last[lane];
-  }
-}
-
 inline void add_blocks(const Matrix (&inner)[6], const BatchPairs& pairs, int first, int count,
-                       PairBlocks& sums) {
+                       const PairSums& sums) {
   // Translations are free: the blocks of node 0 are minus the sums over the other nodes.
   const Matrix &K11 = inner[0], &K21 = inner[1], &K31 = inner[2], &K22 = inner[3], &K32 = inner[4],
                &K33 = inner[5];
@@ -95,42 +63,6 @@ inline void add_blocks(const Matrix (&inner)[6], const BatchPairs& pairs, int fi
   const Matrix K00 = -(K10 + K20 + K30);
   const Matrix* const blocks[10] = {&K00, &K10, &K20, &K30, &K11, &K21, &K31, &K22, &K32, &K33};
   for (int k = 0; k < 10; ++k) add_block(*blocks[k], pairs.pair[k] + first, count, sums);
-}
-
-/// Entries 0 to 7 of a block += those of a pair, or of its transpose.
-inline void add_entries(const double* entries, double* block) {
-  for (int k = 0; k < 8; k += kWidth) store(load(block + k) + load(entries + k), block + k);
-}
-inline void add_transposed_entries(const double* entries, double* block) {
-#if defined(__AVX512F__)
-  const Lanes a = load(entries);
-  store(load(block) + __builtin_shufflevector(a, a, 0, 3, 6, 1, 4, 7, 2, 5), block);
-#else
-  for (int k = 0; k < 8; ++k) block[k] += entries[3 * (k % 3) + k / 3];
-#endif
-}
-
-/// The sums of a chunk go to the matrix, to both halves.
-inline void add_to_matrix(const PairBlocks& sums, const ChunkJob& job) {
-  constexpr int kAhead = 12;  // pairs, of two or three lines each
-  const auto fetch = [&job](int slot) {
-    const double* const block = job.K + std::ptrdiff_t{9} * slot;
-    __builtin_prefetch(block, 1);
-    __builtin_prefetch(block + 8, 1);
-  };
-  for (int p = 0; p < job.num_coupled; ++p) {
-    if (p + kAhead < job.num_coupled) {
-      fetch(job.slots[p + kAhead].lower);
-      fetch(job.slots[p + kAhead].upper);
-    }
-    double* const lower = job.K + std::ptrdiff_t{9} * job.slots[p].lower;
-    add_entries(sums.entries[p], lower);
-    lower[8] += sums.last[p];
-    if (p < job.num_diagonal) continue;
-    double* const upper = job.K + std::ptrdiff_t{9} * job.slots[p].upper;
-    add_transposed_entries(sums.entries[p], upper);
-    upper[8] += sums.last[p];
-  }
 }
 
 /// Batches are read once: the processor's own guess is late at each page. Beyond the end nothing
@@ -145,13 +77,9 @@ enum class Stiffness { None, Consistent, Projected };
 template <class Law, bool kForce, Stiffness kStiffness>
 void assemble(const ChunkJob& job) {
   const Law law{job.mu, job.lambda};
-  PairBlocks sums;
-  if constexpr (kStiffness != Stiffness::None) {
-    for (int p = 0; p < job.num_pairs; ++p) {
-      for (int k = 0; k < 8; k += kWidth) store(Lanes{}, sums.entries[p] + k);
-      sums.last[p] = 0;
-    }
-  }
+  PairBlocks blocks;
+  const PairSums sums{blocks.entries, blocks.last};
+  if constexpr (kStiffness != Stiffness::None) set_zero(job.num_pairs, sums);
   for (int begin = 0; begin < job.num_elements; begin += kWidth) {
     const int batch = begin / kBatchSize, first = begin % kBatchSize;
     const int left = job.num_elements - begin, count = left < kWidth ? left : kWidth;
@@ -172,7 +100,9 @@ void assemble(const ChunkJob& job) {
       add_blocks(K, job.pairs[batch], first, count, sums);
     }
   }
-  if constexpr (kStiffness != Stiffness::None) add_to_matrix(sums, job);
+  if constexpr (kStiffness != Stiffness::None) {
+    add_to_matrix(sums, job.slots, job.num_diagonal, job.num_coupled, job.K);
+  }
 }
 
 template <class Law>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/batch_law.hpp"
 #include "fem/isochoric.hpp"
 #include "fem/split_material.hpp"
 
@@ -41,6 +42,10 @@ class IsochoricMooneyRivlin {
     Mat9 result = c10_ * first_isochoric_invariant(F).hessian;
     if (c01_ != 0) result += c01_ * second_isochoric_invariant(F).hessian;
     return result;
+  }
+
+  SplitBatchLaw split_batch_law() const {
+    return {.distortion = SplitBatchLaw::Distortion::Polynomial, .c = {c10_, 0, c01_}};
   }
 
  private:

@@ -52,6 +52,10 @@ class NeoHookean {
   }
 
   BatchLaw batch_law() const { return {BatchLaw::Kind::NeoHookean, mu_, lambda_}; }
+  /// Of a distortion().
+  SplitBatchLaw split_batch_law() const {
+    return {.distortion = SplitBatchLaw::Distortion::NeoHookean, .c = {mu_, lambda_, 0}};
+  }
 
  private:
   explicit NeoHookean(const Lame& lame)

@@ -27,6 +27,7 @@ class PressureGradient {
   int slot(int node, int pressure) const;
   Vec3& block(int slot) { return values_[slot]; }
   const Vec3& block(int slot) const { return values_[slot]; }
+  double* values() { return values_.data()->data(); }  // 3 a slot
   void set_zero();
   /// For a node that cannot move.
   void set_row_zero(int node);

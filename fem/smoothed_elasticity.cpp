@@ -36,18 +36,33 @@ void check(const Smoothing& smoothing, const Tetrahedra& tets,
   if (!message.str().empty()) throw std::invalid_argument(message.str());
 }
 
-/// All slots of the pairs of `rows` (a) and `columns` (b) of each element, 4b + a.
-template <class Matrix>
-std::vector<int> pair_slots(const Matrix& matrix, const Tetrahedra& rows,
-                            const Tetrahedra& columns) {
-  std::vector<int> slots;
-  slots.reserve(16 * static_cast<std::size_t>(rows.cols()));
-  for (Eigen::Index e = 0; e < rows.cols(); ++e) {
-    for (const int b : columns.col(e)) {
-      for (const int a : rows.col(e)) slots.push_back(matrix.slot(a, b));
+/// Where the tetrahedra's blocks go in G: slot of (a, c) for node a of a batch and pressure c of
+/// its corners, 4a + c.
+std::vector<EightIndices> slots_in(const PressureGradient& G, const StencilBatches& stencils,
+                                   const Tetrahedra& of_corner) {
+  std::vector<EightIndices> slots;
+  for (const StencilBatches::Chunk& chunk : stencils.chunks()) {
+    for (int i = chunk.elements; i < chunk.end; ++i) {
+      const StencilBatch batch = stencils.batch(i);
+      for (int a = 0; a < 4; ++a) {
+        for (int c = 0; c < 4; ++c) {
+          EightIndices& slot = slots.emplace_back();
+          for (int lane = 0; lane < kBatchSize; ++lane) {
+            slot.lane[lane] =
+                G.slot(batch.node[a].lane[lane], of_corner(c, stencils.index(i).lane[lane]));
+          }
+        }
+      }
     }
   }
   return slots;
+}
+
+/// What for_each_element_octet() asks for.
+const Eight* no_pressure(int, Eight&) { return nullptr; }
+const Eight* unit_pressure(int, Eight& ones) {
+  std::fill(std::begin(ones.lane), std::end(ones.lane), 1.0);
+  return &ones;
 }
 
 std::vector<int> offsets_by_four(std::size_t num_elements) {
@@ -60,21 +75,23 @@ std::vector<int> offsets_by_four(std::size_t num_elements) {
 
 SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tets,
                                        const Material& material, const Smoothing& smoothing,
-                                       FibreDirections fibres)
+                                       FibreDirections fibres, InstructionSet instruction_set)
     : SmoothedElasticity(X, tets, std::vector{material},
                          std::vector<int>(static_cast<std::size_t>(tets.cols()), 0), smoothing,
-                         std::move(fibres)) {}
+                         std::move(fibres), instruction_set) {}
 
 SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tets,
                                        std::vector<Material> materials,
                                        std::vector<int> material_of_element,
-                                       const Smoothing& smoothing, FibreDirections fibres)
+                                       const Smoothing& smoothing, FibreDirections fibres,
+                                       InstructionSet instruction_set)
     : num_nodes_(static_cast<int>(X.cols())),
       tets_(tets),
       materials_(std::move(materials)),
       material_of_element_(std::move(material_of_element)),
       smoothing_(smoothing),
-      fibres_(std::move(fibres)) {
+      fibres_(std::move(fibres)),
+      instruction_set_(instruction_set) {
   check(smoothing_, tets_, materials_, material_of_element_);
   for (const Material& material : materials_) check_fibres(material, fibres_, tets_);
   for (Eigen::Index e = 0; e < tets.cols(); ++e) {
@@ -98,24 +115,10 @@ SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tet
   pressure_ =
       NodalPressure(num_nodes_, tets_, volume_, material_of_element_, moduli, smoothing_.tau);
 
-  const BlockMatrix K = make_matrix();
-  slots_ = pair_slots(K, tets_, tets_);
-  plain_slots_ = pair_slots(make_plain_matrix(), tets_, tets_);
-  gradient_slots_ = pair_slots(make_pressure_gradient(), tets_, pressure_.of_corner());
-  std::size_t most_nodes = 0;
-  for (int k = 0; k < domains_.size(); ++k) {
-    domain_slot_begin_.push_back(static_cast<int>(domain_slots_.size()));
-    const int* node = domains_.node.data() + domains_.node_begin[k];
-    const int n = domains_.num_nodes(k);
-    for (int b = 0; b < n; ++b) {
-      for (int a = b; a < n; ++a) {
-        domain_slots_.push_back(K.slot(node[a], node[b]));
-        domain_slots_.push_back(K.slot(node[b], node[a]));
-      }
-    }
-    most_nodes = std::max(most_nodes, static_cast<std::size_t>(n));
-  }
-  columns_.resize(most_nodes);
+  stencils_ = StencilBatches(X, tets_, domains_, inverse_edges_, volume_, material_of_element_);
+  pairs_ = {stencils_, StencilPairs::Part::All, make_matrix()};
+  plain_pairs_ = {stencils_, StencilPairs::Part::Elements, make_plain_matrix()};
+  gradient_slots_ = slots_in(make_pressure_gradient(), stencils_, pressure_.of_corner());
   p_work_.resize(num_pressures());
 }
 
@@ -156,6 +159,63 @@ Mat3 SmoothedElasticity::gradient_of_domain(const Positions& x, int k) const {
   return F;
 }
 
+/// Calls function(octet) for the domains of a chunk, with their share of the distortion.
+template <class Function>
+void SmoothedElasticity::for_each_domain_octet(const StencilBatches::Chunk& chunk,
+                                               const Positions& x, double activation,
+                                               Function function) const {
+  const StencilKernels& kernels = stencil_kernels(instruction_set_);
+  const PointsLaw law(instruction_set_, materials_[chunk.material]);
+  for (int i = chunk.begin; i < chunk.elements; ++i) {
+    const StencilBatch batch = stencils_.batch(i);
+    Eight F[9];
+    kernels.deformation_gradient(batch, x.data(), F);
+    function(Octet{law,
+                   i,
+                   batch,
+                   {F, 1 - smoothing_.plain_share, nullptr},
+                   {domain_fibres_, stencils_.index(i), activation}});
+  }
+}
+
+/// The same for the elements of a chunk, with another share of the distortion and the dilatation.
+/// @param pressure  pressure(i, memory): those of batch i, or null
+template <class Pressure, class Function>
+void SmoothedElasticity::for_each_element_octet(const StencilBatches::Chunk& chunk,
+                                                const Positions& x, double share, Pressure pressure,
+                                                double activation, Function function) const {
+  const StencilKernels& kernels = stencil_kernels(instruction_set_);
+  const PointsLaw law(instruction_set_, materials_[chunk.material]);
+  for (int i = chunk.elements; i < chunk.end; ++i) {
+    const StencilBatch batch = stencils_.batch(i);
+    Eight F[9], p;
+    kernels.deformation_gradient(batch, x.data(), F);
+    function(Octet{
+        law, i, batch, {F, share, pressure(i, p)}, {fibres_, stencils_.index(i), activation}});
+  }
+}
+
+/// All domains and elements, chunk after chunk.
+template <class Function>
+void SmoothedElasticity::for_each_octet(const Positions& x, const Eigen::VectorXd& p,
+                                        double activation, Function function) const {
+  assert(x.cols() == num_nodes_ && p.size() == num_pressures());
+  const auto pressure = [&](int i, Eight& memory) { return mean_pressures(i, p, memory); };
+  for (const StencilBatches::Chunk& chunk : stencils_.chunks()) {
+    for_each_domain_octet(chunk, x, activation, function);
+    for_each_element_octet(chunk, x, smoothing_.plain_share, pressure, activation, function);
+  }
+}
+
+const Eight* SmoothedElasticity::mean_pressures(int i, const Eigen::VectorXd& p,
+                                                Eight& memory) const {
+  const EightIndices& elements = stencils_.index(i);
+  for (int lane = 0; lane < kBatchSize; ++lane) {
+    memory.lane[lane] = mean_pressure(elements.lane[lane], p);
+  }
+  return &memory;
+}
+
 double SmoothedElasticity::mean_pressure(int e, const Eigen::VectorXd& p) const {
   double sum = 0;
   for (const int c : pressure_.of_corner().col(e)) sum += p[c];
@@ -163,11 +223,19 @@ double SmoothedElasticity::mean_pressure(int e, const Eigen::VectorXd& p) const 
 }
 
 void SmoothedElasticity::dilatation(const Positions& x, Eigen::VectorXd& b) const {
+  assert(x.cols() == num_nodes_);
   b.setZero(num_pressures());
-  for_each_element(x, 0, [&](const PointLaw& law, int e, const Mat3& F) {
-    const double quarter = volume_[e] / 4 * law.dilatation(F);
-    for (const int c : pressure_.of_corner().col(e)) b[c] += quarter;
-  });
+  for (const StencilBatches::Chunk& chunk : stencils_.chunks()) {
+    for_each_element_octet(chunk, x, 0, unit_pressure, 0, [&](const Octet& octet) {
+      Eight theta;
+      octet.law.energy_density(octet.points, octet.batch.count, octet.fibres, theta);
+      for (int lane = 0; lane < octet.batch.count; ++lane) {
+        const double quarter = octet.batch.volume->lane[lane] / 4 * theta.lane[lane];
+        const int e = stencils_.index(octet.index).lane[lane];
+        for (const int c : pressure_.of_corner().col(e)) b[c] += quarter;
+      }
+    });
+  }
 }
 
 void SmoothedElasticity::pressure(const Positions& x, Eigen::VectorXd& p) const {
@@ -185,26 +253,21 @@ void SmoothedElasticity::predicted_pressure(const Positions& x, const PressureGr
 
 double SmoothedElasticity::energy(const Positions& x, const Eigen::VectorXd& p,
                                   double activation) const {
-  const double share = smoothing_.plain_share;
   double W = 0;
-  for_each_domain(x, activation, [&](const PointLaw& law, int k, const Mat3& F) {
-    W += (1 - share) * domains_.volume[k] * law.distortion_energy_density(F);
-  });
-  for_each_element(x, activation, [&](const PointLaw& law, int e, const Mat3& F) {
-    if (share > 0) W += share * volume_[e] * law.distortion_energy_density(F);
-    W += volume_[e] * mean_pressure(e, p) * law.dilatation(F);
+  for_each_octet(x, p, activation, [&](const Octet& octet) {
+    Eight density;
+    octet.law.energy_density(octet.points, octet.batch.count, octet.fibres, density);
+    for (int lane = 0; lane < octet.batch.count; ++lane) {
+      W += octet.batch.volume->lane[lane] * density.lane[lane];
+    }
   });
   return W;
 }
 
 double SmoothedElasticity::energy(const Positions& x, double activation) const {
   pressure(x, p_work_);
-  // ½ bᵀp instead of bᵀp: the latter is what energy(x, p) holds.
-  double half = 0;
-  for_each_element(x, 0, [&](const PointLaw& law, int e, const Mat3& F) {
-    half += 0.5 * volume_[e] * mean_pressure(e, p_work_) * law.dilatation(F);
-  });
-  return energy(x, p_work_, activation) - half;
+  p_work_ *= 0.5;  // ½ bᵀp instead of bᵀp: the latter is what energy(x, p) holds
+  return energy(x, p_work_, activation);
 }
 
 void SmoothedElasticity::add_internal_force(const Positions& x, Positions& f,
@@ -215,19 +278,12 @@ void SmoothedElasticity::add_internal_force(const Positions& x, Positions& f,
 
 void SmoothedElasticity::add_internal_force(const Positions& x, const Eigen::VectorXd& p,
                                             Positions& f, double activation) const {
-  assert(f.cols() == num_nodes_ && p.size() == num_pressures());
-  const double share = smoothing_.plain_share;
-  for_each_domain(x, activation, [&](const PointLaw& law, int k, const Mat3& F) {
-    const Mat3 P = (1 - share) * domains_.volume[k] * law.distortion_first_piola(F);
-    for (int i = domains_.node_begin[k]; i < domains_.node_begin[k + 1]; ++i) {
-      f.col(domains_.node[i]) += P * domains_.gradient[i];
-    }
-  });
-  for_each_element(x, activation, [&](const PointLaw& law, int e, const Mat3& F) {
-    Mat3 P = mean_pressure(e, p) * law.dilatation_gradient(F);
-    if (share > 0) P += share * law.distortion_first_piola(F);
-    const Mat34 f_e = nodal_force(P, shape_gradients(inverse_edges_[e]), volume_[e]);
-    for (int a = 0; a < 4; ++a) f.col(tets_(a, e)) += f_e.col(a);
+  assert(f.cols() == num_nodes_);
+  const StencilKernels& kernels = stencil_kernels(instruction_set_);
+  for_each_octet(x, p, activation, [&](const Octet& octet) {
+    Eight P[9];
+    octet.law.first_piola(octet.points, octet.batch.count, octet.fibres, P);
+    kernels.add_force(octet.batch, P, f.data());
   });
 }
 
@@ -250,77 +306,63 @@ PressureGradient SmoothedElasticity::make_pressure_gradient() const {
           offsets};
 }
 
-/// K_ab += scale V_k ∂N_a/∂X · C · ∂N_b/∂X
-void SmoothedElasticity::add_domain_stiffness(int k, const Mat9& C, double scale,
-                                              BlockMatrix& K) const {
-  const int n = domains_.num_nodes(k);
-  const Vec3* gradient = domains_.gradient.data() + domains_.node_begin[k];
-  const int* slot = domain_slots_.data() + domain_slot_begin_[k];
-  for (int b = 0; b < n; ++b) {
-    const Vec3 g = scale * domains_.volume[k] * gradient[b];
-    columns_[b].noalias() =
-        C.middleCols<3>(0) * g[0] + C.middleCols<3>(3) * g[1] + C.middleCols<3>(6) * g[2];
-  }
-  for (int b = 0; b < n; ++b) {
-    const Eigen::Matrix<double, 9, 3>& CB = columns_[b];
-    for (int a = b; a < n; ++a) {
-      const Vec3& g = gradient[a];
-      const Mat3 K_ab =
-          CB.middleRows<3>(0) * g[0] + CB.middleRows<3>(3) * g[1] + CB.middleRows<3>(6) * g[2];
-      K.block(*slot++) += K_ab;
-      if (a != b) K.block(*slot) += K_ab.transpose();
-      ++slot;
-    }
-  }
-}
-
-/// K_ab += scale V_e ∂N_a/∂X · C · ∂N_b/∂X
-void SmoothedElasticity::add_element_stiffness(int e, const Mat9& C, double scale,
-                                               std::span<const int> slots, BlockMatrix& K) const {
-  const Mat12 K_e = stiffness(C, shape_gradients(inverse_edges_[e]), scale * volume_[e]);
-  const int* slot = &slots[16 * static_cast<std::size_t>(e)];
-  for (int b = 0; b < 4; ++b) {
-    for (int a = 0; a < 4; ++a) K.block(*slot++) += K_e.block<3, 3>(3 * a, 3 * b);
-  }
+/// Of one octet to the sums of its chunk.
+void SmoothedElasticity::add_stiffness(const Octet& octet, Tangent tangent, double scale,
+                                       const StencilPairs& pairs, const PairSums& sums) const {
+  Eight C[81];
+  octet.law.tangent(octet.points, octet.batch.count, octet.fibres, tangent, C);
+  stencil_kernels(instruction_set_)
+      .add_stiffness(octet.batch, C, scale, pairs.of_batch(octet.index), sums);
 }
 
 void SmoothedElasticity::add_stiffness(const Positions& x, const Eigen::VectorXd& p,
                                        Tangent tangent, double scale, BlockMatrix& K,
                                        double activation) const {
-  assert(K.num_blocks() == num_nodes_ && p.size() == num_pressures());
-  const double share = smoothing_.plain_share;
-  for_each_domain(x, activation, [&](const PointLaw& law, int k, const Mat3& F) {
-    const Mat9 C = law.distortion_tangent(F, tangent);
-    add_domain_stiffness(k, C, (1 - share) * scale, K);
-  });
-  for_each_element(x, activation, [&](const PointLaw& law, int e, const Mat3& F) {
-    Mat9 C = mean_pressure(e, p) * law.dilatation_hessian(F);
-    if (share > 0) C += share * law.distortion_tangent(F, Tangent::Consistent);
-    if (tangent == Tangent::Projected) C = projected(C);
-    add_element_stiffness(e, C, scale, slots_, K);
-  });
+  assert(x.cols() == num_nodes_ && p.size() == num_pressures());
+  assert(K.pattern_id() == pairs_.pattern_id());
+  const StencilKernels& kernels = stencil_kernels(instruction_set_);
+  const auto pressure = [&](int i, Eight& memory) { return mean_pressures(i, p, memory); };
+  int chunk = 0;
+  for (const StencilBatches::Chunk& batches : stencils_.chunks()) {
+    const PairSums sums = pairs_.zero_sums(chunk, kernels);
+    const auto add = [&](const Octet& octet) {
+      add_stiffness(octet, tangent, scale, pairs_, sums);
+    };
+    for_each_domain_octet(batches, x, activation, add);
+    for_each_element_octet(batches, x, smoothing_.plain_share, pressure, activation, add);
+    pairs_.add_sums(chunk++, kernels, K);
+  }
 }
 
 void SmoothedElasticity::add_plain_stiffness(const Positions& x, Tangent tangent, double scale,
                                              BlockMatrix& K, double activation) const {
-  assert(K.num_blocks() == num_nodes_);
-  for_each_element(x, activation, [&](const PointLaw& law, int e, const Mat3& F) {
-    const Mat9 C = law.distortion_tangent(F, tangent);
-    add_element_stiffness(e, C, scale, plain_slots_, K);
-  });
+  assert(x.cols() == num_nodes_);
+  assert(K.pattern_id() == plain_pairs_.pattern_id());
+  const StencilKernels& kernels = stencil_kernels(instruction_set_);
+  int chunk = 0;
+  for (const StencilBatches::Chunk& batches : stencils_.chunks()) {
+    const PairSums sums = plain_pairs_.zero_sums(chunk, kernels);
+    for_each_element_octet(batches, x, 1, no_pressure, activation, [&](const Octet& octet) {
+      add_stiffness(octet, tangent, scale, plain_pairs_, sums);
+    });
+    plain_pairs_.add_sums(chunk++, kernels, K);
+  }
 }
 
 void SmoothedElasticity::set_pressure_gradient(const Positions& x, PressureGradient& G) const {
+  assert(x.cols() == num_nodes_);
   assert(G.num_nodes() == num_nodes_ && G.num_pressures() == num_pressures());
+  const StencilKernels& kernels = stencil_kernels(instruction_set_);
   G.set_zero();
-  for_each_element(x, 0, [&](const PointLaw& law, int e, const Mat3& F) {
-    const Mat34 G_e =
-        nodal_force(law.dilatation_gradient(F), shape_gradients(inverse_edges_[e]), volume_[e] / 4);
-    const int* slot = &gradient_slots_[16 * static_cast<std::size_t>(e)];
-    for (int c = 0; c < 4; ++c) {
-      for (int a = 0; a < 4; ++a) G.block(*slot++) += G_e.col(a);
-    }
-  });
+  const EightIndices* slots = gradient_slots_.data();
+  for (const StencilBatches::Chunk& chunk : stencils_.chunks()) {
+    for_each_element_octet(chunk, x, 0, unit_pressure, 0, [&](const Octet& octet) {
+      Eight gradient[9];
+      octet.law.first_piola(octet.points, octet.batch.count, octet.fibres, gradient);
+      kernels.add_pressure_gradient(octet.batch, gradient, slots, G.values());
+      slots += 16;
+    });
+  }
 }
 
 Eigen::MatrixXd SmoothedElasticity::cauchy_stress(const Positions& x, double activation) const {

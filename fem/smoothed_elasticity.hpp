@@ -1,15 +1,16 @@
 #pragma once
 
-#include <memory>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "fem/any_material.hpp"
 #include "fem/block_matrix.hpp"
 #include "fem/edge_domains.hpp"
 #include "fem/nodal_pressure.hpp"
+#include "fem/points_law.hpp"
 #include "fem/pressure_gradient.hpp"
+#include "fem/stencil_batches.hpp"
+#include "fem/stencil_pairs.hpp"
 #include "fem/tangent.hpp"
 #include "fem/types.hpp"
 
@@ -39,19 +40,25 @@ struct Smoothing {
 /// ever shorter steps. The functions with a p take the pressure as an unknown of its own: see
 /// predicted_pressure().
 ///
+/// Domains and elements go through the laws and the loops of assembly eight at a time
+/// (point_kernels.hpp, stencil_kernels.hpp). Sums have a fixed order: the same bits in every run
+/// with the same instruction set, which should be one that the machine has.
+///
 /// Holds work memory: one object serves one thread at a time.
 class SmoothedElasticity {
  public:
   /// @throws std::invalid_argument as Elasticity does, and where `smoothing` is out of range
   SmoothedElasticity(const Positions& X, const Tetrahedra& tets, const Material& material,
-                     const Smoothing& smoothing = {}, FibreDirections fibres = {});
+                     const Smoothing& smoothing = {}, FibreDirections fibres = {},
+                     InstructionSet instruction_set = best_instruction_set());
   /// @param material_of_element  index into `materials`, one an element
   /// @param fibres               one unit vector an element where a material has fibres. A domain
   ///                             has the mean of its elements' directions: the eigenvector of the
   ///                             mean of a ⊗ a
   SmoothedElasticity(const Positions& X, const Tetrahedra& tets, std::vector<Material> materials,
                      std::vector<int> material_of_element, const Smoothing& smoothing = {},
-                     FibreDirections fibres = {});
+                     FibreDirections fibres = {},
+                     InstructionSet instruction_set = best_instruction_set());
 
   int num_nodes() const { return num_nodes_; }
   int num_elements() const { return static_cast<int>(volume_.size()); }
@@ -113,10 +120,27 @@ class SmoothedElasticity {
   void for_each_element(const Positions& x, double activation, Function function) const;
   Mat3 gradient_of_domain(const Positions& x, int k) const;
   double mean_pressure(int e, const Eigen::VectorXd& p) const;
+  /// Eight domains or elements on their way through a loop.
+  struct Octet {
+    const PointsLaw& law;
+    int index;  // among the batches of stencils_
+    StencilBatch batch;
+    EightPoints points;
+    PointsLaw::Fibres fibres;
+  };
+  template <class Function>
+  void for_each_domain_octet(const StencilBatches::Chunk& chunk, const Positions& x,
+                             double activation, Function function) const;
+  template <class Pressure, class Function>
+  void for_each_element_octet(const StencilBatches::Chunk& chunk, const Positions& x, double share,
+                              Pressure pressure, double activation, Function function) const;
+  template <class Function>
+  void for_each_octet(const Positions& x, const Eigen::VectorXd& p, double activation,
+                      Function function) const;
+  const Eight* mean_pressures(int i, const Eigen::VectorXd& p, Eight& memory) const;
+  void add_stiffness(const Octet& octet, Tangent tangent, double scale, const StencilPairs& pairs,
+                     const PairSums& sums) const;
   void dilatation(const Positions& x, Eigen::VectorXd& b) const;
-  void add_domain_stiffness(int k, const Mat9& C, double scale, BlockMatrix& K) const;
-  void add_element_stiffness(int e, const Mat9& C, double scale, std::span<const int> slots,
-                             BlockMatrix& K) const;
 
   int num_nodes_ = 0;
   Tetrahedra tets_;
@@ -131,12 +155,11 @@ class SmoothedElasticity {
   EdgeDomains domains_;
   NodalPressure pressure_;
 
-  std::vector<int> domain_slots_;  // of the pairs (a, b ≤ a) and (b, a) of each domain
-  std::vector<int> domain_slot_begin_;
-  std::vector<int> slots_, plain_slots_;  // 16 an element, 4b + a, into the two matrices
-  std::vector<int> gradient_slots_;       // 16 an element, 4c + a, into G
+  InstructionSet instruction_set_;
+  StencilBatches stencils_;
+  StencilPairs pairs_, plain_pairs_;          // in the two matrices
+  std::vector<EightIndices> gradient_slots_;  // 16 a batch of elements, 4a + c, into G
   mutable Eigen::VectorXd p_work_;
-  mutable std::vector<Eigen::Matrix<double, 9, 3>> columns_;  // work of add_domain_stiffness
 };
 
 }  // namespace articular::fem

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/batch_law.hpp"
 #include "fem/isochoric.hpp"
 #include "fem/split_material.hpp"
 
@@ -32,6 +33,10 @@ class IsochoricYeoh {
   Mat9 tangent(const Mat3& F) const {
     const Jet I1 = first_isochoric_invariant(F);
     return composed(I1, 0, c10_ + 2 * c20_ * (I1.value - 3), 2 * c20_).hessian;
+  }
+
+  SplitBatchLaw split_batch_law() const {
+    return {.distortion = SplitBatchLaw::Distortion::Polynomial, .c = {c10_, c20_, 0}};
   }
 
  private:
