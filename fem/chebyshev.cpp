@@ -38,8 +38,9 @@ std::array<Coefficients, kMostStages> coefficients(const ChebyshevSmoother& s) {
 /// Rows [begin, end) of r ← r − A d; d_next = previous d + residual r; x ← x + d_next, and where d
 /// was not in x yet, + d.
 template <int N>
-void step(const BlockRows<N>& A, int begin, int end, const Coefficients& c, LevelVectors& v,
-          const std::vector<float>& from, std::vector<float>& to) {
+__attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"))) void step(
+    const BlockRows<N>& A, int begin, int end, const Coefficients& c, LevelVectors& v,
+    const std::vector<float>& from, std::vector<float>& to) {
   const float keep = c.add_d ? 1.0F : 0.0F;
   float* r = v.r.data() + std::ptrdiff_t{N} * begin;
   const float* d = from.data() + std::ptrdiff_t{N} * begin;
@@ -58,8 +59,8 @@ void step(const BlockRows<N>& A, int begin, int end, const Coefficients& c, Leve
 
 /// Rows [begin, end) of r ← r − A d.
 template <int N>
-void subtract_product(const BlockRows<N>& A, int begin, int end, const std::vector<float>& d,
-                      std::vector<float>& r) {
+__attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"))) void subtract_product(
+    const BlockRows<N>& A, int begin, int end, const std::vector<float>& d, std::vector<float>& r) {
   std::array<float, 8> sum;
   for (int i = begin; i < end; ++i) {
     row_product(A, i, d.data(), sum.data());

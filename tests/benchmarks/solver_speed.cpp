@@ -1,6 +1,7 @@
 // Linear solvers on a static problem: a cube of plain tetrahedra, six a cell, clamped on one side.
 //
-//   build/release/bin/solver_speed [statics|nu|threads|pressure] [MOST_CELLS] [RUNS] [SOLVER]
+//   build/release/bin/solver_speed [statics|nu|threads|pressure|choice] [MOST_CELLS] [RUNS]
+//   [SOLVER]
 //                                                                          (statics 32 5 all)
 // `pressure` has smoothed tetrahedra with a nodal pressure, without and with inertia.
 //
@@ -20,6 +21,7 @@
 
 #include "fem/linear_solver.hpp"
 #include "tests/benchmarks/block_minres.hpp"
+#include "tests/benchmarks/solver_choice_table.hpp"
 #include "tests/benchmarks/timing.hpp"
 #include "tests/fem/clamped_box.hpp"
 #include "tests/fem/smoothed_box.hpp"
@@ -250,13 +252,16 @@ int main(int argc, char** argv) {
             runs = argc > 3 ? std::atoi(argv[3]) : 5;
   const std::string only = argc > 4 ? argv[4] : "all";
   if (most_cells < 1 || runs < 1 ||
-      (what != "statics" && what != "nu" && what != "threads" && what != "pressure")) {
+      (what != "statics" && what != "nu" && what != "threads" && what != "pressure" &&
+       what != "choice")) {
     std::fprintf(
-        stderr, "usage: solver_speed [statics|nu|threads|pressure] [MOST_CELLS] [RUNS] [SOLVER]\n");
+        stderr,
+        "usage: solver_speed [statics|nu|threads|pressure|choice] [MOST_CELLS] [RUNS] [SOLVER]\n");
     return 2;
   }
   if (what == "statics") statics(most_cells, runs, only);
   if (what == "nu") nu_sweep(most_cells, runs, only);
   if (what == "threads") threads(most_cells, runs);
+  if (what == "choice") benchmarks::print_solver_choices(most_cells);
   if (what == "pressure") with_pressure(most_cells, runs);
 }

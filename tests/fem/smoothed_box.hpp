@@ -28,6 +28,8 @@ struct SmoothedBox {
   }
 };
 
+constexpr double kModulusOfBox = 1e6;  // Young's modulus [Pa]
+
 /// What SmoothedBox::plain is: the stiffness of the distortion alone, or that of a compressible
 /// material of the same shear modulus, ν = 0.3, which multigrid does better with.
 enum class PlainPart { Distortion, Compressible };
@@ -64,7 +66,7 @@ inline void add_compressible(const TetMesh& mesh, const std::vector<int>& materi
 /// @param inside   Young's modulus of the middle part, relative to that of the others
 inline SmoothedBox smoothed_box(const TetMesh& mesh, double nu, double inertia = 0,
                                 PlainPart plain = PlainPart::Compressible, double inside = 1) {
-  constexpr double kE = 1e6;  // [Pa]
+  constexpr double kE = kModulusOfBox;
   SmoothedBox box;
   const double mu = lame_parameters(kE, nu).mu;
   const Vec3 low = mesh.X.rowwise().minCoeff(), high = mesh.X.rowwise().maxCoeff();
@@ -107,6 +109,21 @@ inline SmoothedBox smoothed_box(const TetMesh& mesh, double nu, double inertia =
     }
   }
   return box;
+}
+
+/// The same system of plain tetrahedra, without pressures.
+inline BlockMatrix plain_box(const TetMesh& mesh, double nu, double inertia) {
+  const Elasticity elasticity(mesh.X, mesh.tets, NeoHookean(kModulusOfBox, nu));
+  BlockMatrix K = elasticity.make_matrix();
+  elasticity.add_stiffness(mesh.X, Tangent::Projected, 1, K);
+  const double length = (mesh.X.rowwise().maxCoeff() - mesh.X.rowwise().minCoeff()).maxCoeff();
+  const Eigen::VectorXd volume = lumped_mass(mesh.X, mesh.tets, 1);
+  const double mu = lame_parameters(kModulusOfBox, nu).mu;
+  for (int i = 0; i < mesh.X.cols(); ++i) {
+    K.block(K.slot(i, i)).diagonal().array() += inertia * mu / (length * length) * volume[i];
+    if (mesh.X(0, i) == 0) hold_node(i, K);
+  }
+  return K;
 }
 
 }  // namespace articular::fem
