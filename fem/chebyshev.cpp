@@ -3,58 +3,98 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 namespace articular::fem {
 namespace {
 
 constexpr int kLanczosSteps = 10;
 
-/// Coefficients of the recurrence d ← previous d + residual r, x ← x + d.
-class Recurrence {
- public:
-  explicit Recurrence(const ChebyshevSmoother& s)
-      : center_(0.5F * (s.high + s.low)), radius_(0.5F * (s.high - s.low)) {
-    rho_ = radius_ / center_;
-    residual_ = 1 / center_;
-  }
-  void advance() {
-    const float rho = 1 / (2 * center_ / radius_ - rho_);
-    previous_ = rho * rho_;
-    residual_ = 2 * rho / radius_;
-    rho_ = rho;
-  }
-  float previous() const { return previous_; }
-  float residual() const { return residual_; }
+constexpr int kMostStages = 8;  // of a sweep: one more than the degree of the polynomial
 
- private:
-  float center_, radius_, rho_ = 0, previous_ = 0, residual_ = 0;
+/// Of one step of the recurrence d ← previous d + residual r, x ← x + d.
+struct Coefficients {
+  float previous = 0, residual = 0;
+  bool add_d = false;  // the d before is not in x yet
 };
 
-/// r ← r − A d; d_next = previous d + residual r; x ← x + d_next, and where d was not in x yet, +
-/// d.
+std::array<Coefficients, kMostStages> coefficients(const ChebyshevSmoother& s) {
+  assert(s.degree < kMostStages);
+  const float center = 0.5F * (s.high + s.low), radius = 0.5F * (s.high - s.low);
+  std::array<Coefficients, kMostStages> c;
+  float rho = radius / center;
+  c[0].residual = 1 / center;
+  for (std::size_t k = 1; k < c.size(); ++k) {
+    const float next = 1 / (2 * center / radius - rho);
+    c[k].previous = next * rho;
+    c[k].residual = 2 * next / radius;
+    rho = next;
+  }
+  return c;
+}
+
+/// Rows [begin, end) of r ← r − A d; d_next = previous d + residual r; x ← x + d_next, and where d
+/// was not in x yet, + d.
 template <int N>
-void step(const BlockRows<N>& A, float previous, float residual, bool add_d, LevelVectors& v,
-          ThreadPool& pool) {
-  const float keep = add_d ? 1.0F : 0.0F;
-  pool.run_pieces(A.num_rows(), kRowsPerPiece<N>, [&](int begin, int end, int) {
-    float* r = v.r.data() + std::ptrdiff_t{N} * begin;
-    const float* d = v.d.data() + std::ptrdiff_t{N} * begin;
-    float* d_next = v.d_next.data() + std::ptrdiff_t{N} * begin;
-    float* x = v.x.data() + std::ptrdiff_t{N} * begin;
-    std::array<float, 8> sum;
-    for (int i = begin; i < end; ++i, r += N, d += N, d_next += N, x += N) {
-      row_product(A, i, v.d.data(), sum.data());
-      for (int c = 0; c < N; ++c) {
-        r[c] -= d[c] + sum[c];
-        d_next[c] = previous * d[c] + residual * r[c];
-        x[c] += d_next[c] + keep * d[c];
+__attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"))) void step(
+    const BlockRows<N>& A, int begin, int end, const Coefficients& c, LevelVectors& v,
+    const std::vector<float>& from, std::vector<float>& to) {
+  const float keep = c.add_d ? 1.0F : 0.0F;
+  float* r = v.r.data() + std::ptrdiff_t{N} * begin;
+  const float* d = from.data() + std::ptrdiff_t{N} * begin;
+  float* d_next = to.data() + std::ptrdiff_t{N} * begin;
+  float* x = v.x.data() + std::ptrdiff_t{N} * begin;
+  std::array<float, 8> sum;
+  for (int i = begin; i < end; ++i, r += N, d += N, d_next += N, x += N) {
+    row_product(A, i, from.data(), sum.data());
+    for (int k = 0; k < N; ++k) {
+      r[k] -= d[k] + sum[k];
+      d_next[k] = c.previous * d[k] + c.residual * r[k];
+      x[k] += d_next[k] + keep * d[k];
+    }
+  }
+}
+
+/// Rows [begin, end) of r ← r − A d.
+template <int N>
+__attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"))) void subtract_product(
+    const BlockRows<N>& A, int begin, int end, const std::vector<float>& d, std::vector<float>& r) {
+  std::array<float, 8> sum;
+  for (int i = begin; i < end; ++i) {
+    row_product(A, i, d.data(), sum.data());
+    const std::ptrdiff_t first = std::ptrdiff_t{N} * i;
+    for (int k = 0; k < N; ++k) r[first + k] -= d[first + k] + sum[k];
+  }
+}
+
+/// stage(s, begin, end) for s = 0 .. num_stages - 1 and all pieces of rows, where stage s of a
+/// piece follows stage s − 1 of all pieces that it is coupled to. By one thread, stages follow each
+/// other from piece to piece; by several, one stage ends before the next begins.
+template <int N, class Stage>
+void run_stages(int num_rows, const std::vector<int>& reach, int num_stages, ThreadPool& pool,
+                const Stage& stage) {
+  constexpr int kPiece = kRowsPerPiece<N>;
+  if (pool.num_threads() > 1) {
+    for (int s = 0; s < num_stages; ++s) {
+      pool.run_pieces(num_rows, kPiece, [&](int begin, int end, int) { stage(s, begin, end); });
+    }
+    return;
+  }
+  const auto num_pieces = static_cast<int>(reach.size());
+  const auto run = [&](int s, int piece) {
+    stage(s, piece * kPiece, std::min(num_rows, (piece + 1) * kPiece));
+  };
+  std::array<int, kMostStages> done{};  // pieces, of each stage
+  while (done[0] < num_pieces) {
+    run(0, done[0]++);
+    for (std::size_t s = 1; s < static_cast<std::size_t>(num_stages); ++s) {
+      while (done[s] < num_pieces && reach[static_cast<std::size_t>(done[s])] < done[s - 1]) {
+        run(static_cast<int>(s), done[s]++);
       }
     }
-  });
-  std::swap(v.d, v.d_next);
+  }
 }
 
 /// Parts of sums over pieces, added in their order.
@@ -166,49 +206,65 @@ LargestEigenvalue largest_eigenvalue(const BlockRows<N>& A, ThreadPool& pool) {
 }
 
 template <int N>
-void smooth_before(const BlockRows<N>& A, const ChebyshevSmoother& smoother, LevelVectors& v,
-                   ThreadPool& pool) {
-  Recurrence recurrence(smoother);
-  const float first = recurrence.residual();
-  pool.run_pieces(A.num_rows(), 4 * kRowsPerPiece<N>, [&](int begin, int end, int) {
-    for (std::ptrdiff_t k = std::ptrdiff_t{N} * begin; k < std::ptrdiff_t{N} * end; ++k) {
-      v.x[k] = v.d[k] = first * v.r[k];
+std::vector<int> reach_of_pieces(const BlockRows<N>& A) {
+  constexpr int kPiece = kRowsPerPiece<N>;
+  std::vector<int> reach;
+  for (int begin = 0; begin < A.num_rows(); begin += kPiece) {
+    int last = begin / kPiece;
+    for (int i = begin; i < std::min(A.num_rows(), begin + kPiece); ++i) {
+      if (A.row_begin[i] < A.row_begin[i + 1]) {
+        last = std::max(last, A.column[A.row_begin[i + 1] - 1] / kPiece);
+      }
     }
-  });
-  for (int k = 1; k < smoother.degree; ++k) {
-    recurrence.advance();
-    step(A, recurrence.previous(), recurrence.residual(), false, v, pool);
+    reach.push_back(last);
   }
-  pool.run_pieces(A.num_rows(), kRowsPerPiece<N>, [&](int begin, int end, int) {
-    std::array<float, 8> sum;
-    for (int i = begin; i < end; ++i) {
-      row_product(A, i, v.d.data(), sum.data());
-      const std::ptrdiff_t first_k = std::ptrdiff_t{N} * i;
-      for (int c = 0; c < N; ++c) v.r[first_k + c] -= v.d[first_k + c] + sum[c];
+  return reach;
+}
+
+// Stage s of a sweep reads d from one vector and writes the next to the other. All readers of what
+// it writes over are coupled to it, and have been there before it.
+
+template <int N>
+void smooth_before(const BlockRows<N>& A, const std::vector<int>& reach,
+                   const ChebyshevSmoother& smoother, LevelVectors& v, ThreadPool& pool) {
+  const std::array<Coefficients, kMostStages> c = coefficients(smoother);
+  const std::array<std::vector<float>*, 2> d{&v.d, &v.d_next};
+  const int last = smoother.degree;
+  run_stages<N>(A.num_rows(), reach, last + 1, pool, [&](int s, int begin, int end) {
+    if (s == 0) {
+      for (std::ptrdiff_t k = std::ptrdiff_t{N} * begin; k < std::ptrdiff_t{N} * end; ++k) {
+        v.x[k] = v.d[k] = c[0].residual * v.r[k];
+      }
+    } else if (s < last) {
+      step(A, begin, end, c[s], v, *d[(s - 1) % 2], *d[s % 2]);
+    } else {
+      subtract_product(A, begin, end, *d[(s - 1) % 2], v.r);
     }
   });
 }
 
 template <int N>
-void smooth_after(const BlockRows<N>& A, const ChebyshevSmoother& smoother, LevelVectors& v,
-                  ThreadPool& pool) {
-  Recurrence recurrence(smoother);
-  step(A, 0.0F, recurrence.residual(), true, v, pool);
-  for (int k = 1; k < smoother.degree; ++k) {
-    recurrence.advance();
-    step(A, recurrence.previous(), recurrence.residual(), false, v, pool);
-  }
+void smooth_after(const BlockRows<N>& A, const std::vector<int>& reach,
+                  const ChebyshevSmoother& smoother, LevelVectors& v, ThreadPool& pool) {
+  std::array<Coefficients, kMostStages> c = coefficients(smoother);
+  c[0].add_d = true;
+  const std::array<std::vector<float>*, 2> d{&v.d, &v.d_next};
+  run_stages<N>(A.num_rows(), reach, smoother.degree, pool, [&](int s, int begin, int end) {
+    step(A, begin, end, c[s], v, *d[s % 2], *d[(s + 1) % 2]);
+  });
 }
 
+template std::vector<int> reach_of_pieces(const BlockRows<3>&);
+template std::vector<int> reach_of_pieces(const BlockRows<6>&);
 template LargestEigenvalue largest_eigenvalue(const BlockRows<3>&, ThreadPool&);
 template LargestEigenvalue largest_eigenvalue(const BlockRows<6>&, ThreadPool&);
-template void smooth_before(const BlockRows<3>&, const ChebyshevSmoother&, LevelVectors&,
-                            ThreadPool&);
-template void smooth_before(const BlockRows<6>&, const ChebyshevSmoother&, LevelVectors&,
-                            ThreadPool&);
-template void smooth_after(const BlockRows<3>&, const ChebyshevSmoother&, LevelVectors&,
-                           ThreadPool&);
-template void smooth_after(const BlockRows<6>&, const ChebyshevSmoother&, LevelVectors&,
-                           ThreadPool&);
+template void smooth_before(const BlockRows<3>&, const std::vector<int>&, const ChebyshevSmoother&,
+                            LevelVectors&, ThreadPool&);
+template void smooth_before(const BlockRows<6>&, const std::vector<int>&, const ChebyshevSmoother&,
+                            LevelVectors&, ThreadPool&);
+template void smooth_after(const BlockRows<3>&, const std::vector<int>&, const ChebyshevSmoother&,
+                           LevelVectors&, ThreadPool&);
+template void smooth_after(const BlockRows<6>&, const std::vector<int>&, const ChebyshevSmoother&,
+                           LevelVectors&, ThreadPool&);
 
 }  // namespace articular::fem

@@ -44,14 +44,20 @@ struct LevelVectors {
   std::vector<float> x, r, d, d_next;
 };
 
-/// From r and x = 0: x, and the residual that it leaves in r.
+/// The last piece of rows that each piece of kRowsPerPiece<N> rows is coupled to.
 template <int N>
-void smooth_before(const BlockRows<N>& A, const ChebyshevSmoother& smoother, LevelVectors& v,
-                   ThreadPool& pool);
+std::vector<int> reach_of_pieces(const BlockRows<N>& A);
+
+/// From r and x = 0: x, and the residual that it leaves in r. With one thread, the products with A
+/// that a sweep consists of follow each other through the rows as closely as `reach` allows, while
+/// these are in the cache, instead of one product reading all of A after the other.
+template <int N>
+void smooth_before(const BlockRows<N>& A, const std::vector<int>& reach,
+                   const ChebyshevSmoother& smoother, LevelVectors& v, ThreadPool& pool);
 
 /// From x, its residual r and a correction of x in d: x corrected and smoothed. r is used up.
 template <int N>
-void smooth_after(const BlockRows<N>& A, const ChebyshevSmoother& smoother, LevelVectors& v,
-                  ThreadPool& pool);
+void smooth_after(const BlockRows<N>& A, const std::vector<int>& reach,
+                  const ChebyshevSmoother& smoother, LevelVectors& v, ThreadPool& pool);
 
 }  // namespace articular::fem

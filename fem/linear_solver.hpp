@@ -22,7 +22,8 @@ struct SolveReport {
 struct PressurePart {
   std::span<const PressureTerm> terms;
   /// A matrix near the one that the terms are added to, with fewer blocks, positive definite: for
-  /// preconditioners. Without it they take that matrix itself.
+  /// preconditioners. Without it they take that matrix itself. Multigrid takes half the iterations
+  /// where this one resists changes of volume, too, like a material with ν = 0.3.
   const BlockMatrix* plain = nullptr;
 };
 
@@ -63,13 +64,15 @@ std::unique_ptr<LinearSolver> make_saddle_point_solver(double tolerance, int max
 /// Conjugate gradients with smoothed aggregation multigrid as preconditioner (multigrid.hpp): the
 /// number of iterations hardly depends on the size of the mesh. While the pattern stays, so does
 /// the preconditioner, turned with the nodes; it is built anew once the additional iterations that
-/// its age has cost add up to the price of that.
+/// its age has cost add up to the price of that. With the terms of a nodal pressure it is flexible
+/// GMRES on the mixed system (mixed_multigrid.hpp), whose iterations do not depend on ν either.
 /// @param tolerance  on |r| / |b|
 /// @param threads    the answer has the same bits with any number
 std::unique_ptr<LinearSolver> make_multigrid(double tolerance, int max_iterations, int threads = 1);
 
 /// Another solver, started from the best combination of its last solutions in the energy norm
-/// instead of the value given. Costs a product for each of them in prepare(); pays where one system
+/// instead of the value given. Costs a product for each of them in prepare(), with a solution of C
+/// where there is a nodal pressure; pays where one system
 /// follows from the last, as step by step in time.
 std::unique_ptr<LinearSolver> make_projected_start(std::unique_ptr<LinearSolver> solver,
                                                    int num_kept = 5);

@@ -59,6 +59,7 @@ Aggregation find_aggregates(const BlockRows<N>& A, float strong, const std::vect
 
 template <int N>
 void resize_vectors(MultigridLevel<N>& level) {
+  level.reach = reach_of_pieces(level.A);
   const auto size = static_cast<std::size_t>(N) * static_cast<std::size_t>(level.A.num_rows());
   LevelVectors& v = level.vectors;
   for (std::vector<float>* vector : {&v.x, &v.r, &v.d, &v.d_next}) *vector = padded(size);
@@ -179,13 +180,13 @@ void Multigrid::cycle(std::size_t level, ThreadPool& pool) {
       Eigen::Map<Eigen::VectorXf>(v.x.data(), n) = dense_x_.cast<float>();
       return;
     }
-    smooth_before(fine.A, fine.smoother, v, pool);
+    smooth_before(fine.A, fine.reach, fine.smoother, v, pool);
     if (level == coarse_.size()) return;
     LevelVectors& below = coarse_[level].vectors;
     restrict_to_coarse(fine.P, v.r, below.r, pool);
     cycle(level + 1, pool);
     prolong(fine.P, below.x, v.d, pool);
-    smooth_after(fine.A, fine.smoother, v, pool);
+    smooth_after(fine.A, fine.reach, fine.smoother, v, pool);
   };
   if (level == 0) {
     visit(finest_);

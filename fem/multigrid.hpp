@@ -19,6 +19,7 @@ struct MultigridLevel {
   BlockRows<N> A;
   LargestEigenvalue largest;
   ChebyshevSmoother smoother;
+  std::vector<int> reach;  // reach_of_pieces(A)
   LevelVectors vectors;
   std::vector<char> unsmoothed;  // rows that the prolongator keeps as they are; empty: none
   Aggregation aggregation;

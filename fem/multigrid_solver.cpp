@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -6,44 +5,13 @@
 #include <stdexcept>
 #include <vector>
 
+#include "fem/ageing.hpp"
 #include "fem/linear_solver.hpp"
+#include "fem/mixed_multigrid.hpp"
 #include "fem/multigrid_preconditioner.hpp"
 
 namespace articular::fem {
 namespace {
-
-// What it costs to build the preconditioner anew on the same pattern, in iterations.
-constexpr double kPriceOfBuilding = 10;
-// Relative residuals do not tell much over less than this part of a decade.
-constexpr double kFewestDecades = 0.5;
-
-/// What an old preconditioner costs. It is replaced when the iterations more than it took when it
-/// was new have added up to the price of a new one: at most twice what the best choice of these
-/// moments would have cost (the ski rental problem). Counts iterations, not time, so that every run
-/// does the same.
-class Ageing {
- public:
-  void restart() { *this = {}; }
-  bool is_new() const { return per_decade_ == 0; }
-  bool is_too_old() const { return excess_ > kPriceOfBuilding; }
-  /// After `iterations` have divided the residual by `fall`.
-  void add(int iterations, double fall) {
-    const double decades = std::max(kFewestDecades, std::log10(fall));
-    if (is_new()) {
-      per_decade_ = std::max(1, iterations) / decades;
-    } else {
-      excess_ += std::max(0.0, iterations - per_decade_ * decades - 1);
-    }
-  }
-  /// Iterations after which a solve that shall divide the residual by `fall` has used up the rest.
-  int patience(double fall) const {
-    const double decades = std::max(kFewestDecades, std::log10(fall));
-    return static_cast<int>(per_decade_ * decades + 1 + kPriceOfBuilding - excess_) + 1;
-  }
-
- private:
-  double per_decade_ = 0, excess_ = 0;  // iterations
-};
 
 /// Conjugate gradients in double precision, preconditioned by multigrid in single precision: the
 /// flexible variant, whose β makes the new direction conjugate to the last one even where the
@@ -53,12 +21,15 @@ class Ageing {
 class MultigridSolver final : public LinearSolver {
  public:
   MultigridSolver(double tolerance, int max_iterations, int threads)
-      : tolerance_(tolerance), max_iterations_(max_iterations), pool_(threads) {}
+      : tolerance_(tolerance),
+        max_iterations_(max_iterations),
+        pool_(threads),
+        mixed_(tolerance, max_iterations) {}
 
   using LinearSolver::prepare;
   FactorStatus prepare(const BlockMatrix& A, const Positions& x) override {
     assert(x.cols() <= A.num_blocks());
-    ready_ = false;
+    ready_ = with_pressure_ = false;
     if (!A_.has_pattern_of(A)) {
       A_.take_pattern(A);
       has_pattern_ = built_ = false;
@@ -81,8 +52,18 @@ class MultigridSolver final : public LinearSolver {
     return FactorStatus::Ready;
   }
 
+  using LinearSolver::prepare_with_pressure;
+  FactorStatus prepare_with_pressure(const BlockMatrix& A, const Positions& x,
+                                     const PressurePart& part) override {
+    if (part.terms.empty()) return prepare(A, x);
+    const FactorStatus status = mixed_.prepare(A, x, part, pool_);
+    ready_ = with_pressure_ = status == FactorStatus::Ready;
+    return status;
+  }
+
   SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) override {
     assert(ready_);
+    if (with_pressure_) return mixed_.solve(b, x, pool_);
     assert(b.size() == r_.size());
     SolveReport report;
     const double b_norm = b.norm();
@@ -222,12 +203,14 @@ class MultigridSolver final : public LinearSolver {
   double tolerance_;
   int max_iterations_;
   ThreadPool pool_;
+  MixedMultigrid mixed_;
   MirroredMatrix A_;
   Positions x_;  // of the nodes, as of the last prepare()
   MultigridPreconditioner preconditioner_;
   Ageing age_;
   bool ready_ = false;
-  bool has_pattern_ = false;  // of A, has the preconditioner
+  bool with_pressure_ = false;  // the last prepare was
+  bool has_pattern_ = false;    // of A, has the preconditioner
   bool built_ = false;
   bool is_current_ = false;   // the preconditioner is that of the values of A
   bool sure_bounds_ = false;  // its eigenvalues are bounded by norms

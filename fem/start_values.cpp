@@ -1,6 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <cassert>
 #include <cmath>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -26,13 +27,15 @@ class ProjectedStart final : public LinearSolver {
 
   using LinearSolver::prepare;
   FactorStatus prepare(const BlockMatrix& A, const Positions& x) override {
-    if (A.pattern_id() != pattern_id_) {
-      kept_.clear();
-      oldest_ = 0;
-    }
-    pattern_id_ = A.pattern_id();
-    for (Kept& kept : kept_) A.multiply(kept.x, kept.A_x);
+    update_kept(A, {});
     return solver_->prepare(A, x);
+  }
+
+  using LinearSolver::prepare_with_pressure;
+  FactorStatus prepare_with_pressure(const BlockMatrix& A, const Positions& x,
+                                     const PressurePart& part) override {
+    update_kept(A, part.terms);
+    return solver_->prepare_with_pressure(A, x, part);
   }
 
   SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) override {
@@ -46,6 +49,19 @@ class ProjectedStart final : public LinearSolver {
   struct Kept {
     Eigen::VectorXd x, A_x;
   };
+
+  void update_kept(const BlockMatrix& A, std::span<const PressureTerm> terms) {
+    if (A.pattern_id() != pattern_id_) {
+      kept_.clear();
+      oldest_ = 0;
+    }
+    pattern_id_ = A.pattern_id();
+    pressure_.set(terms);
+    for (Kept& kept : kept_) {
+      A.multiply(kept.x, kept.A_x);
+      pressure_.add_product(kept.x, kept.A_x);
+    }
+  }
 
   void find_start(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     x.setZero(b.size());
@@ -87,6 +103,7 @@ class ProjectedStart final : public LinearSolver {
   std::size_t num_kept_, oldest_ = 0;
   std::uint64_t pattern_id_ = 0;
   std::vector<Kept> kept_;
+  PressureOperator pressure_;
 };
 
 }  // namespace

@@ -1,7 +1,9 @@
 // Linear solvers on a static problem: a cube of plain tetrahedra, six a cell, clamped on one side.
 //
-//   build/release/bin/solver_speed [statics|nu|threads] [MOST_CELLS] [RUNS] [SOLVER]    (statics 32
-//   5 all)
+//   build/release/bin/solver_speed [statics|nu|threads|pressure|choice] [MOST_CELLS] [RUNS]
+//   [SOLVER]
+//                                                                          (statics 32 5 all)
+// `pressure` has smoothed tetrahedra with a nodal pressure, without and with inertia.
 //
 // Times are medians of processor time of runs in which the solvers take turns; `threads` prints
 // wall time, which means something on an idle machine only.
@@ -18,8 +20,11 @@
 #include <vector>
 
 #include "fem/linear_solver.hpp"
+#include "tests/benchmarks/block_minres.hpp"
+#include "tests/benchmarks/solver_choice_table.hpp"
 #include "tests/benchmarks/timing.hpp"
 #include "tests/fem/clamped_box.hpp"
+#include "tests/fem/smoothed_box.hpp"
 
 namespace {
 
@@ -174,6 +179,71 @@ void threads(int most_cells, int runs) {
   }
 }
 
+/// One solver of a cube of smoothed tetrahedra: prints ms of set-up + solve and the iterations.
+template <class Prepare, class Solve>
+void print_with_pressure(int runs, const Prepare& prepare, const Solve& solve) {
+  std::vector<double> set_up, solution;
+  SolveReport report;
+  for (int k = 0; k < runs; ++k) {
+    Eigen::VectorXd x;
+    const double start = cpu_seconds();
+    auto solver = prepare();
+    const double prepared = cpu_seconds();
+    report = solve(*solver, x);
+    set_up.push_back(prepared - start);
+    solution.push_back(cpu_seconds() - prepared);
+  }
+  std::printf(" %.1f + %.1f (%d%s) |", 1e3 * median(set_up), 1e3 * median(solution),
+              report.iterations, report.converged ? "" : ", not converged");
+  std::fflush(stdout);
+}
+
+void with_pressure(int most_cells, int runs) {
+  std::printf(
+      "| tets | inertia | nu | GMRES, plain nu 0.3 | GMRES, plain distortion | MINRES, plain nu "
+      "0.3 "
+      "| block Jacobi | factor |\n|---|---|---|---|---|---|---|---|\n");
+  for (const int cells : {8, 15, 24}) {
+    if (cells > most_cells) break;
+    const TetMesh mesh = box_mesh({cells, cells, cells}, Vec3::Constant(kSize));
+    for (const double inertia : {0.0, 100.0}) {
+      for (const double nu : {0.3, 0.49, 0.499, 0.4999, 0.49999}) {
+        SmoothedBox box = smoothed_box(mesh, nu, inertia);
+        SmoothedBox distortion = smoothed_box(mesh, nu, inertia, PlainPart::Distortion);
+        const auto row = [&](SmoothedBox& system, std::unique_ptr<LinearSolver> (*make)()) {
+          const auto prepare = [&] {
+            auto solver = make();
+            if (solver->prepare_with_pressure(system.K, system.x, system.part()) !=
+                FactorStatus::Ready)
+              std::exit(EXIT_FAILURE);
+            return solver;
+          };
+          print_with_pressure(runs, prepare, [&](LinearSolver& solver, Eigen::VectorXd& x) {
+            return solver.solve(system.b, x);
+          });
+        };
+        const auto multigrid = [] { return make_multigrid(kTolerance, kMostIterations); };
+        std::printf("| %d | %g | %g |", 6 * cells * cells * cells, inertia, nu);
+        row(box, multigrid);
+        row(distortion, multigrid);
+        print_with_pressure(
+            runs,
+            [&] {
+              auto solver = std::make_unique<benchmarks::BlockMinres>();
+              if (!solver->prepare(box.K, box.x, box.part())) std::exit(EXIT_FAILURE);
+              return solver;
+            },
+            [&](benchmarks::BlockMinres& solver, Eigen::VectorXd& x) {
+              return solver.solve(kTolerance, kMostIterations, box.b, x);
+            });
+        row(distortion, [] { return make_conjugate_gradients(kTolerance, kMostIterations); });
+        if (cells < 24) row(distortion, [] { return make_saddle_point_solver(kTolerance, 500); });
+        std::printf("\n");
+      }
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -181,11 +251,17 @@ int main(int argc, char** argv) {
   const int most_cells = argc > 2 ? std::atoi(argv[2]) : 32,
             runs = argc > 3 ? std::atoi(argv[3]) : 5;
   const std::string only = argc > 4 ? argv[4] : "all";
-  if (most_cells < 1 || runs < 1 || (what != "statics" && what != "nu" && what != "threads")) {
-    std::fprintf(stderr, "usage: solver_speed [statics|nu|threads] [MOST_CELLS] [RUNS] [SOLVER]\n");
+  if (most_cells < 1 || runs < 1 ||
+      (what != "statics" && what != "nu" && what != "threads" && what != "pressure" &&
+       what != "choice")) {
+    std::fprintf(
+        stderr,
+        "usage: solver_speed [statics|nu|threads|pressure|choice] [MOST_CELLS] [RUNS] [SOLVER]\n");
     return 2;
   }
   if (what == "statics") statics(most_cells, runs, only);
   if (what == "nu") nu_sweep(most_cells, runs, only);
   if (what == "threads") threads(most_cells, runs);
+  if (what == "choice") benchmarks::print_solver_choices(most_cells);
+  if (what == "pressure") with_pressure(most_cells, runs);
 }
