@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "fem/point_law.hpp"
+#include "fem/projected_tangent.hpp"
 
 namespace articular::fem {
 namespace {

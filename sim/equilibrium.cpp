@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/newton_system.hpp"
+#include "sim/linear_solver.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/sundials.hpp"

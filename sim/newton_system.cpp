@@ -9,10 +9,6 @@
 namespace articular::sim {
 namespace {
 
-/// Conjugate gradients stop here: Newton's iteration corrects the rest.
-constexpr double kLinearTolerance = 1e-6;
-constexpr int kMostLinearIterations = 2000;
-
 /// A residual that falls by less than this asks for a new matrix.
 constexpr double kSlowFall = 0.1;
 
@@ -40,28 +36,6 @@ double lengthening(const Line& line, const Configuration& now, const Eigen::Vect
 }
 
 }  // namespace
-
-std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model) {
-  using Solver = Integrator::Solver;
-  const bool smoothed =
-      std::any_of(model.tissues.begin(), model.tissues.end(),
-                  [](const Tissue& tissue) { return tissue.elements.smoothed() != nullptr; });
-  const Solver solver = model.scenario.integrator.solver;
-  if (solver == Solver::Cholesky || solver == Solver::Auto) {
-    if (smoothed) return fem::make_saddle_point_solver(kLinearTolerance, kMostLinearIterations);
-    return fem::make_cholesky();
-  }
-  if (solver == Solver::Multigrid && !smoothed)
-    return fem::make_multigrid(kLinearTolerance, kMostLinearIterations);
-  return fem::make_conjugate_gradients(kLinearTolerance, kMostLinearIterations);
-}
-
-bool prepare_linear(fem::LinearSolver& solver, const fem::BlockMatrix& A, const Positions& x,
-                    const fem::PressurePart& pressure) {
-  const fem::FactorStatus status =
-      pressure.terms.empty() ? solver.prepare(A, x) : solver.prepare_with_pressure(A, x, pressure);
-  return status == fem::FactorStatus::Ready;
-}
 
 NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
     : model_(model), dynamics_(dynamics), solver_(make_linear_solver(model)) {}

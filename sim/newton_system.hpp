@@ -1,18 +1,10 @@
 #pragma once
 
-#include "fem/linear_solver.hpp"
 #include "sim/dynamics.hpp"
+#include "sim/linear_solver.hpp"
 #include "sim/state.hpp"
 
 namespace articular::sim {
-
-/// The linear solver that the scenario asks for.
-std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model);
-
-/// Takes a matrix, where its free nodes are, and what couples all nodes through pressures.
-/// @return whether it can be solved
-bool prepare_linear(fem::LinearSolver& solver, const fem::BlockMatrix& A, const Positions& x,
-                    const fem::PressurePart& pressure);
 
 /// The linear solves of Newton's iteration for y' = rate(t, y), reduced to block velocities: with
 /// δx = b_x + γ δv for the kinematic rows (rotations: δθ in place of quaternions) and

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "sim/linear_solver.hpp"
 #include "sim/version.hpp"
 
 namespace articular::sim {
@@ -27,6 +28,14 @@ Json sizes(const Model& model) {
           {"muscles", model.muscles.size()},
           {"ligaments", model.ligaments.size()},
           {"contact_pairs", model.contacts.size()}};
+}
+
+Json linear_solver(const Model& model) {
+  if (model.scenario.integrator.scheme == Integrator::Scheme::Explicit &&
+      model.scenario.analysis == Scenario::Analysis::Dynamic)
+    return nullptr;
+  const fem::SolverChoice choice = choose_linear_solver(model);
+  return {{"name", name_of(choice.kind)}, {"reason", choice.reason}};
 }
 
 Json counts(const Counts& c) {
@@ -79,6 +88,7 @@ std::string summary_json(const Model& model, const State& state, const Stepper& 
       {"simulated_time_s", state.t},
       {"settings", Json::parse(model.scenario.settings_json)},
       {"size", sizes(model)},
+      {"linear_solver", linear_solver(model)},
       {"counts", counts(state.counts)},
       {"frames", state.frames},
       {"max_penetration_m", state.max_penetration},

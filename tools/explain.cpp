@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "sim/linear_solver.hpp"
 #include "sim/model.hpp"
 #include "tools/commands.hpp"
 
@@ -20,8 +21,9 @@ Json explain_body(const sim::Model& model, const sim::BodyModel& body) {
     const auto free = std::count_if(tissue.nodes.begin(), tissue.nodes.end(),
                                     [](const sim::NodeRef& node) { return node.bone < 0; });
     const bool smoothed = tissue.elements.smoothed() != nullptr;
-    json["modelled_as"] = fmt::format("tissue, {}{}", smoothed ? "smoothed" : "plain",
-                                      tissue.fibres.cols() > 0 ? ", fibres" : "");
+    json["modelled_as"] = fmt::format("tissue, {}{}{}", smoothed ? "smoothed" : "plain",
+                                      tissue.fibres.cols() > 0 ? ", fibres" : "",
+                                      tissue.relaxation ? ", relaxing" : "");
     json["tetrahedra"] = tissue.elements.num_elements();
     json["nodes"] = tissue.nodes.size();
     json["unknowns"] = 3 * free;
@@ -81,6 +83,7 @@ Json explain(const sim::Model& model) {
   left_out.push_back("wrapping of muscles over bone (straight between via points)");
   left_out.push_back("deformation of bone");
   left_out.push_back("friction");
+  const fem::SolverChoice solver = sim::choose_linear_solver(model);
   return {{"title", model.scenario.title},
           {"bodies", bodies},
           {"contact_pairs", pairs},
@@ -88,6 +91,7 @@ Json explain(const sim::Model& model) {
           {"ligaments", model.ligaments.size()},
           {"unknown_velocities", 3 * model.layout.num_unknown_blocks()},
           {"muscle_activations", model.layout.num_muscles},
+          {"linear_solver", {{"name", sim::name_of(solver.kind)}, {"reason", solver.reason}}},
           {"estimated_memory_MB", memory_estimate(model) / 1e6},
           {"settings", Json::parse(model.scenario.settings_json)},
           {"left_out", left_out},
@@ -112,6 +116,9 @@ void print(const Json& json) {
   fmt::print("\n{} unknown velocities, {} muscle activations; about {:.0f} MB\n",
              json["unknown_velocities"].get<int>(), json["muscle_activations"].get<int>(),
              json["estimated_memory_MB"].get<double>());
+  const Json& solver = json["linear_solver"];
+  fmt::print("Linear solver: {} ({})\n", solver["name"].get<std::string>(),
+             solver["reason"].get<std::string>());
   fmt::print("Settings: {}\n", json["settings"].dump());
   for (const Json& warning : json["warnings"])
     fmt::print("warning: {}\n", warning.get<std::string>());
