@@ -26,6 +26,7 @@ class Bdf final : public TimeIntegrator {
   Bdf(const Model& model, Dynamics& dynamics);
   std::optional<double> advance(Eigen::VectorXd& y, double t, double h) override;
   void restart(double next_step) override {
+    newton_.restart();
     next_step_ = next_step;
     t_last_ = std::nullopt;
     keep_matrix_ = false;

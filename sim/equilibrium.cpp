@@ -50,6 +50,7 @@ class Equilibrium::Solver {
  public:
   Solver(const Model& model, Dynamics& dynamics);
   bool solve(Eigen::VectorXd& y, double t, double damping);
+  void restart() { linear_ = make_linear_solver(model_); }
   /// The largest force, or moment by the bone's size, of a vector of block forces [N].
   double largest(const Eigen::VectorXd& f) const;
   double residual() const { return largest(dynamics_.forces()); }
@@ -314,6 +315,7 @@ Equilibrium::~Equilibrium() = default;
 bool Equilibrium::solve(Eigen::VectorXd& y, double t, double damping) {
   return solver_->solve(y, t, damping);
 }
+void Equilibrium::restart() { solver_->restart(); }
 double Equilibrium::residual() const { return solver_->residual(); }
 double Equilibrium::largest_acceleration() const { return solver_->largest_acceleration(); }
 const std::vector<NewtonIteration>& Equilibrium::iterations() const { return solver_->iterations; }

@@ -38,6 +38,8 @@ class Equilibrium {
   /// @param damping  d [1/s²]
   /// @return false when the iteration did not converge; y is as before
   [[nodiscard]] bool solve(Eigen::VectorXd& y, double t, double damping);
+  /// Drops what the linear solver knows of earlier ones.
+  void restart();
 
   /// Largest force, or moment by the bone's size, that is not balanced at the last
   /// Dynamics::evaluate() [N].

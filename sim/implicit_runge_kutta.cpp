@@ -31,7 +31,10 @@ class ImplicitRungeKutta final : public TimeIntegrator {
  public:
   ImplicitRungeKutta(const Model& model, Dynamics& dynamics);
   std::optional<double> advance(Eigen::VectorXd& y, double t, double h) override;
-  void restart(double) override { keep_matrix_ = false; }
+  void restart(double) override {
+    newton_.restart();
+    keep_matrix_ = false;
+  }
   const SolverCounts& counts() const override { return counts_; }
   double solve_seconds() const override { return newton_.solve_seconds(); }
 

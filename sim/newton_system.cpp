@@ -40,6 +40,11 @@ double lengthening(const Line& line, const Configuration& now, const Eigen::Vect
 NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
     : model_(model), dynamics_(dynamics), solver_(make_linear_solver(model)) {}
 
+void NewtonSystem::restart() {
+  solver_ = make_linear_solver(model_);
+  gamma_ = 0;
+}
+
 void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
   iteration_ = 0;
   first_ = tangent;

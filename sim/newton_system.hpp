@@ -19,6 +19,8 @@ class NewtonSystem {
  public:
   NewtonSystem(const Model& model, Dynamics& dynamics);
 
+  /// Drops what the linear solver knows of earlier steps.
+  void restart();
   /// A new step begins; with `keep_matrix` the last one's matrix may serve its first iteration.
   /// @param tangent  Projected: does without the consistent one
   void begin_step(bool keep_matrix, fem::Tangent tangent);

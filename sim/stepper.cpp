@@ -43,6 +43,7 @@ State Stepper::initial() {
 void Stepper::restart(const State& state) {
   dynamics_->forget();
   if (integrator_) integrator_->restart(state.next_step);
+  if (equilibrium_) equilibrium_->restart();
   Configuration now;
   read_state(model_, state.y.data(), state.t, now);
   find_contacts(now, state.next_margin);

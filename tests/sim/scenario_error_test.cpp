@@ -117,13 +117,15 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"RelaxationOfALinearLaw",
                 material("young_modulus = \"1 Pa\", poisson_ratio = 0.3, @relaxation = "
                          "[{ weight = 0.3, time = \"1 s\" }]"),
-                "`relaxation` does not belong here: the law is \"linear\", whose stress does not "
+                "material: `relaxation` does not belong here: the law is \"linear\", whose stress "
+                "does not "
                 "turn with rotations"},
         Mistake{"RelaxationOfAllStress",
                 tissue("density = \"1 t/m^3\"\nmaterial = { law = \"corotated\", young_modulus = "
                        "\"1 Pa\", poisson_ratio = 0.3, relaxation = @[{ weight = 0.3, time = "
                        "\"1 s\" }, { weight = 0.8, time = \"2 s\" }] }\n"),
-                "`relaxation`: the weights sum up to 1.1, which must be below 1"},
+                "`relaxation`: the weights sum up to 1.1, which must be below 1: nothing would "
+                "be left of the stress"},
         Mistake{"PoissonRatioText", material("young_modulus = \"1 Pa\", poisson_ratio = @\"0.3\""),
                 "`poisson_ratio`: expected a number without unit or quotes, found \"0.3\""},
         Mistake{"UnknownLaw",
