@@ -349,6 +349,29 @@ void SmoothedElasticity::add_plain_stiffness(const Positions& x, Tangent tangent
   }
 }
 
+void SmoothedElasticity::add_compressible_stiffness(const Positions& x, double scale,
+                                                    BlockMatrix& K) const {
+  assert(x.cols() == num_nodes_);
+  assert(K.pattern_id() == plain_pairs_.pattern_id());
+  const StencilKernels& kernels = stencil_kernels(instruction_set_);
+  int chunk = 0;
+  for (const StencilBatches::Chunk& batches : stencils_.chunks()) {
+    const Material& material = materials_[static_cast<std::size_t>(batches.material)];
+    const double kappa = std::min(bulk_modulus(material), 13.0 / 6 * shear_modulus(material));
+    const PairSums sums = plain_pairs_.zero_sums(chunk, kernels);
+    for_each_element_octet(batches, x, 0, unit_pressure, 0, [&](const Octet& octet) {
+      Eight gradient[9], C[81];
+      octet.law.first_piola(octet.points, octet.batch.count, octet.fibres, gradient);
+      for (int n = 0; n < 9; ++n)
+        for (int m = 0; m < 9; ++m)
+          for (int lane = 0; lane < kBatchSize; ++lane)
+            C[m + 9 * n].lane[lane] = kappa * gradient[m].lane[lane] * gradient[n].lane[lane];
+      kernels.add_stiffness(octet.batch, C, scale, plain_pairs_.of_batch(octet.index), sums);
+    });
+    plain_pairs_.add_sums(chunk++, kernels, K);
+  }
+}
+
 void SmoothedElasticity::set_pressure_gradient(const Positions& x, PressureGradient& G) const {
   assert(x.cols() == num_nodes_);
   assert(G.num_nodes() == num_nodes_ && G.num_pressures() == num_pressures());

@@ -101,6 +101,10 @@ class SmoothedElasticity {
   BlockMatrix make_plain_matrix() const;
   void add_plain_stiffness(const Positions& x, Tangent tangent, double scale, BlockMatrix& K,
                            double activation = 0) const;
+  /// For preconditioners that do not know the pressure, such as multigrid: K gains the resistance
+  /// to changes of volume of a material with ν = 0.3, or of this one if it has less,
+  /// κ' ∂Θ/∂F ⊗ ∂Θ/∂F with κ' = min(κ, 13/6 μ).
+  void add_compressible_stiffness(const Positions& x, double scale, BlockMatrix& K) const;
   /// The pattern of G, and G(x) itself.
   PressureGradient make_pressure_gradient() const;
   void set_pressure_gradient(const Positions& x, PressureGradient& G) const;

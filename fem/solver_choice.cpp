@@ -17,6 +17,24 @@ constexpr double kCompressible = 0.4;
 constexpr int kFewForMultigrid = 300, kFewWithPressure = 500, kFewCompressible = 6'000;
 constexpr int kStartFrom = 5;  // solutions
 
+// With contact the pattern changes again and again, and multigrid is set up anew each time. A
+// factorization then costs less up to so many blocks; beyond, so do conjugate gradients, whose
+// iterations grow with the way of waves in a step.
+constexpr int kMostFactoredInContact = 2'500;
+constexpr double kShortWay = 40;
+
+SolverChoice choose_with_contact(const SolverProblem& problem) {
+  if (problem.num_blocks <= kMostFactoredInContact) {
+    return {problem.has_pressure ? SolverKind::SaddlePoint : SolverKind::Cholesky, 0,
+            "contact changes the matrix, and so few unknowns are soon factored"};
+  }
+  if (problem.in_time && problem.elements_a_step < kShortWay) {
+    return {SolverKind::ConjugateGradients, 0,
+            "contact changes the matrix, and steps are short: nothing needs to be set up"};
+  }
+  return {SolverKind::Multigrid, 0, "multigrid: iterations do not depend on the size"};
+}
+
 bool is_for_block_jacobi(const SolverProblem& problem) {
   if (!problem.has_pressure) {
     return problem.largest_nu < kCompressible && problem.num_blocks < kFewForMultigrid;
@@ -40,6 +58,7 @@ SolverChoice choose_solver(const SolverProblem& problem) {
   if (problem.num_blocks <= kFewBlocks && !problem.has_pressure) {
     return {SolverKind::Cholesky, 0, "few unknowns: a factorization costs next to nothing"};
   }
+  if (problem.has_contact) return choose_with_contact(problem);
   if (2 * problem.num_nodes < problem.num_blocks) {
     return {SolverKind::ConjugateGradients, kept,
             "most unknowns are no nodes of tissue, and multigrid coarsens those"};

@@ -8,11 +8,13 @@ namespace articular::fem {
 
 /// What is known of the linear systems of a simulation before the first one.
 struct SolverProblem {
-  int num_blocks = 0;         // of the matrix
-  int num_nodes = 0;          // of these, nodes of tissue: the others are bones, say
-  bool in_time = false;       // each system follows from the last, with a mass in it
-  bool has_pressure = false;  // terms of a nodal pressure: prepare_with_pressure()
-  double largest_nu = 0;      // Poisson's ratio [-] of the least compressible tissue
+  int num_blocks = 0;          // of the matrix
+  int num_nodes = 0;           // of these, nodes of tissue: the others are bones, say
+  bool in_time = false;        // each system follows from the last, with a mass in it
+  bool has_pressure = false;   // terms of a nodal pressure: prepare_with_pressure()
+  bool has_contact = false;    // couplings come and go, and with them the pattern
+  double largest_nu = 0;       // Poisson's ratio [-] of the least compressible tissue
+  double elements_a_step = 0;  // in time: how far waves of pressure travel, in elements [-]
 };
 
 enum class SolverKind { Cholesky, SaddlePoint, ConjugateGradients, Multigrid };

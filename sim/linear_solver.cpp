@@ -1,8 +1,10 @@
 #include "sim/linear_solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fem/point_law.hpp"
+#include "sim/tissue.hpp"
 
 namespace articular::sim {
 namespace {
@@ -20,11 +22,15 @@ fem::SolverProblem problem_of(const Model& model) {
   fem::SolverProblem problem;
   problem.num_blocks = model.layout.num_unknown_blocks();
   problem.num_nodes = model.layout.num_free_nodes;
+  problem.has_contact = !model.contacts.empty();
   problem.in_time = model.scenario.analysis == Scenario::Analysis::Dynamic;
   for (const Tissue& tissue : model.tissues) {
     problem.has_pressure |= tissue.elements.smoothed() != nullptr;
     const Body& body = model.scenario.bodies[static_cast<std::size_t>(tissue.body)];
     problem.largest_nu = std::max(problem.largest_nu, poisson_ratio(*body.material->law));
+    const double speed = std::sqrt(constrained_modulus(*body.material) / *body.density);
+    problem.elements_a_step = std::max(
+        problem.elements_a_step, model.scenario.integrator.step * speed / element_size(tissue));
   }
   return problem;
 }

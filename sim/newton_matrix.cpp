@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fem/smoothed_elasticity.hpp"
+#include "sim/linear_solver.hpp"
 
 namespace articular::sim {
 namespace {
@@ -58,7 +59,10 @@ fem::BlockMatrix matrix_of(const Model& model, Stencils stencils, const Stencils
 
 }  // namespace
 
-NewtonMatrix::NewtonMatrix(const Model& model) : model_(model), tissues_(model.tissues.size()) {
+NewtonMatrix::NewtonMatrix(const Model& model)
+    : model_(model),
+      for_multigrid_(choose_linear_solver(model).kind == fem::SolverKind::Multigrid),
+      tissues_(model.tissues.size()) {
   for (std::size_t t = 0; t < tissues_.size(); ++t) {
     const Tissue& tissue = model.tissues[t];
     if (!adds_directly(tissue)) tissues_[t].own.K = tissue.elements.make_matrix();
@@ -253,6 +257,8 @@ void NewtonMatrix::add_smoothed(std::size_t t, const Moment& now, const SystemSc
   work.plain.K.set_zero();
   smoothed->add_plain_stiffness(now.tissues[t].x, fem::Tangent::Projected, scale.stiffness,
                                 work.plain.K, activation);
+  if (for_multigrid_)
+    smoothed->add_compressible_stiffness(now.tissues[t].x, scale.stiffness, work.plain.K);
   add(work.plain, tissue, now.configuration, plain_);
   set_pressure_gradient(t, now);
   pressure_terms_.push_back({&work.G, &smoothed->nodal_pressure(), scale.stiffness});

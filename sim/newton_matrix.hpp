@@ -76,7 +76,8 @@ class NewtonMatrix {
   void add_masses(const Configuration& now, const SystemScale& scale, fem::BlockMatrix& A) const;
 
   const Model& model_;
-  bool smoothed_ = false;  // some tissue is
+  bool smoothed_ = false;       // some tissue is
+  bool for_multigrid_ = false;  // what the plain matrix is for
   std::vector<TissueWork> tissues_;
   Stencils base_, plain_base_, contacts_;
   fem::BlockMatrix A_;

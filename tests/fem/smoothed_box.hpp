@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <numeric>
 #include <vector>
 
 #include "fem/elasticity.hpp"
@@ -30,8 +29,8 @@ struct SmoothedBox {
 
 constexpr double kModulusOfBox = 1e6;  // Young's modulus [Pa]
 
-/// What SmoothedBox::plain is: the stiffness of the distortion alone, or that of a compressible
-/// material of the same shear modulus, ν = 0.3, which multigrid does better with.
+/// What SmoothedBox::plain is: the stiffness of the distortion alone, or with the resistance to
+/// changes of volume that multigrid does better with.
 enum class PlainPart { Distortion, Compressible };
 
 inline void hold_node(int node, BlockMatrix& K) {
@@ -43,22 +42,6 @@ inline void hold_node(int node, BlockMatrix& K) {
       K.block(s).setZero();
       K.block(K.slot(j, node)).setZero();
     }
-  }
-}
-
-inline void add_compressible(const TetMesh& mesh, const std::vector<int>& material, double E,
-                             double inside, BlockMatrix& K) {
-  std::vector<int> block_of_node(static_cast<std::size_t>(mesh.X.cols()));
-  std::iota(block_of_node.begin(), block_of_node.end(), 0);
-  for (const int m : {0, 1}) {
-    std::vector<int> elements;
-    for (int e = 0; e < mesh.tets.cols(); ++e) {
-      if (material[static_cast<std::size_t>(e)] == m) elements.push_back(e);
-    }
-    if (elements.empty()) continue;
-    const Elasticity part(mesh.X, mesh.tets(Eigen::all, elements),
-                          NeoHookean(m == 0 ? E : inside * E, 0.3));
-    part.add_stiffness(mesh.X, Tangent::Projected, 1, part.slots_in(K, block_of_node), K);
   }
 }
 
@@ -88,11 +71,9 @@ inline SmoothedBox smoothed_box(const TetMesh& mesh, double nu, double inertia =
   box.elasticity->pressure(box.x, p);
   box.elasticity->add_stiffness(box.x, p, Tangent::Projected, 1, box.K);
   box.elasticity->set_pressure_gradient(box.x, box.G);
-  if (plain == PlainPart::Distortion) {
-    box.elasticity->add_plain_stiffness(box.x, Tangent::Projected, 1, box.plain);
-  } else {
-    add_compressible(mesh, material, 2 * mu * 1.3, inside, box.plain);
-  }
+  box.elasticity->add_plain_stiffness(box.x, Tangent::Projected, 1, box.plain);
+  if (plain == PlainPart::Compressible)
+    box.elasticity->add_compressible_stiffness(box.x, 1, box.plain);
   const double length = (high - low).maxCoeff();
   const Eigen::VectorXd volume = lumped_mass(mesh.X, mesh.tets, 1);
   box.b.setZero(mesh.X.size());

@@ -62,7 +62,7 @@ struct Assembled {
   double W = 0, W_size = 0;
   Positions f;
   double f_size = 0;
-  Eigen::MatrixXd K, K_projected, K_plain, K_plain_projected, G;
+  Eigen::MatrixXd K, K_projected, K_plain, K_plain_projected, K_compressible, G;
   double K_size = 0, G_size = 0;
   Eigen::VectorXd b;
 
@@ -72,6 +72,7 @@ struct Assembled {
         K_projected(K),
         K_plain(K),
         K_plain_projected(K),
+        K_compressible(K),
         G(Eigen::MatrixXd::Zero(3 * nodes, pressures)),
         b(Eigen::VectorXd::Zero(pressures)) {}
 
@@ -155,6 +156,10 @@ Assembled point_by_point(const Problem& problem, const SmoothedElasticity& elast
     Assembled::add_stiffness(V, distortion.hessian, nodes, gradients, sum.K_plain);
     Assembled::add_stiffness(V, positive_part(distortion.hessian), nodes, gradients,
                              sum.K_plain_projected);
+    const double kappa = std::min(law.bulk_modulus, 13.0 / 6 * law.shear_modulus);
+    const Vec9 theta_gradient = theta.gradient.reshaped();
+    Assembled::add_stiffness(V, kappa * theta_gradient * theta_gradient.transpose(), nodes,
+                             gradients, sum.K_compressible);
     for (int c = 0; c < 4; ++c) {
       const int pressure_c = elasticity.nodal_pressure().of_corner()(c, e);
       sum.b[pressure_c] += V / 4 * theta.value;
@@ -208,6 +213,10 @@ void expect_point_by_point(const Problem& problem, InstructionSet set, double to
             tolerance * expected.K_size);
   EXPECT_LE((plain_stiffness(Tangent::Projected) - expected.K_plain_projected).norm(),
             tolerance * expected.K_size);
+
+  BlockMatrix compressible = elasticity.make_plain_matrix();
+  elasticity.add_compressible_stiffness(x, kScale, compressible);
+  EXPECT_LE((dense(compressible) - expected.K_compressible).norm(), tolerance * expected.K_size);
 
   PressureGradient G = elasticity.make_pressure_gradient();
   elasticity.set_pressure_gradient(x, G);

@@ -24,6 +24,23 @@ TEST(SolverChoice, FollowsTheSizeAndTheTissue) {
   EXPECT_EQ(choose_solver(bones).kind, SolverKind::ConjugateGradients);
 }
 
+// A pattern that changes makes set-ups dear: factors, then nothing to set up where steps are short.
+TEST(SolverChoice, ContactAsksForLittleSetUp) {
+  SolverProblem problem = tissue(1'500, 0.45);
+  problem.in_time = problem.has_contact = true;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::Cholesky);
+  problem.has_pressure = true;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::SaddlePoint);
+  problem.num_blocks = problem.num_nodes = 20'000;
+  problem.elements_a_step = 10;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::ConjugateGradients);
+  problem.elements_a_step = 100;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::Multigrid);
+  problem.elements_a_step = 10;
+  problem.in_time = false;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::Multigrid);
+}
+
 TEST(SolverChoice, KeepsSolutionsInTimeOnlyAndSaysWhy) {
   for (const int size : {10, 1'000, 100'000}) {
     for (const bool pressure : {false, true}) {
