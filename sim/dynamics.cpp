@@ -62,10 +62,23 @@ void Dynamics::predict_pressures(const Eigen::VectorXd& dx) {
   }
 }
 
+bool Dynamics::has_pressures() const {
+  return std::any_of(model_.tissues.begin(), model_.tissues.end(),
+                     [](const Tissue& tissue) { return tissue.elements.smoothed() != nullptr; });
+}
+
+void Dynamics::predict_for_matrix(double part) {
+  for (std::size_t t = 0; t < tissues_.size(); ++t)
+    if (model_.tissues[t].elements.smoothed() != nullptr) tissues_[t].pressure = predicted(t, part);
+}
+
+Eigen::VectorXd Dynamics::predicted(std::size_t t, double part) const {
+  return predicted_[t].before + part * (predicted_[t].after - predicted_[t].before);
+}
+
 void Dynamics::find_pressure(std::size_t t) {
   if (prediction_part_ && model_.tissues[t].elements.smoothed() != nullptr) {
-    const auto& [before, after] = predicted_[t];
-    tissues_[t].pressure = before + *prediction_part_ * (after - before);
+    tissues_[t].pressure = predicted(t, *prediction_part_);
     return;
   }
   model_.tissues[t].elements.pressure(tissues_[t].x, tissues_[t].pressure);

@@ -53,6 +53,9 @@ class Dynamics {
   void take_prediction(double part) { prediction_part_ = part; }
   /// From now on, evaluate() takes those of the positions.
   void drop_prediction() { prediction_part_.reset(); }
+  /// The next matrix() takes the pressures this part of the way.
+  void predict_for_matrix(double part);
+  bool has_pressures() const;
 
   /// Newton's iteration for the lags of relaxing stress. Their rows (1 + γ/τ) δL = b_L + γ/τ δS0
   /// leave known parts b_L/(1 + γ/τ), whose force is added:
@@ -95,6 +98,7 @@ class Dynamics {
  private:
   /// Displacements of a tissue's nodes by small ones of the blocks.
   void displacements_of(std::size_t t, const Eigen::VectorXd& dx, Positions& u) const;
+  Eigen::VectorXd predicted(std::size_t t, double part) const;
   void find_pressure(std::size_t t);
   void read_lags(std::size_t t, const double* y);
   double activation_of(std::size_t tissue) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sim/linear_solver.hpp"
 #include "sim/newton_weights.hpp"
@@ -74,6 +75,7 @@ class Equilibrium::Solver {
     return std::isfinite(dynamics_.trusted_motion()) ? dynamics_.trusted_motion() : 1;
   }
   double largest_displacement(const Eigen::VectorXd& u) const;
+  const Eigen::VectorXd& searched_residual(double part);
   double line_search(const Eigen::VectorXd& direction);
 
   const Model& model_;
@@ -81,7 +83,8 @@ class Equilibrium::Solver {
   std::unique_ptr<fem::LinearSolver> linear_;
   Eigen::VectorXd start_, y_, u_, r_, before_, r_before_, trial_, rhs_, correction_, inertia_;
   double t_ = 0, damping_ = 0;
-  bool known_ = false;  // r_ belongs to u_
+  bool known_ = false;                    // r_ belongs to u_
+  std::optional<double> predicted_part_;  // of the pressures that the last correction took
   std::exception_ptr error_;
   sundials::Context context_;
   sundials::Vector solution_, u_scale_, r_scale_;
@@ -155,7 +158,20 @@ int Equilibrium::Solver::residual(N_Vector u, N_Vector r, void* data) {
   });
 }
 
+/// What the line search looks at, at trial_: the pressures go along with the displacements, as both
+/// are unknowns of Newton's method. Those of the positions alone are steep where ν is near 0.5, and
+/// would stop every search.
+const Eigen::VectorXd& Equilibrium::Solver::searched_residual(double part) {
+  if (!dynamics_.has_pressures()) return residual_at(trial_);
+  dynamics_.take_prediction(part);
+  const Eigen::VectorXd& r = residual_at(trial_);
+  dynamics_.drop_prediction();
+  known_ = false;
+  return r;
+}
+
 bool Equilibrium::Solver::prepare(fem::Tangent tangent) {
+  if (predicted_part_) dynamics_.predict_for_matrix(*predicted_part_);
   const fem::BlockMatrix& A = dynamics_.matrix({damping_, 0, 1}, tangent);
   const Stopwatch watch(seconds);
   ++counts.factorizations;
@@ -193,8 +209,7 @@ double Equilibrium::Solver::line_search(const Eigen::VectorXd& direction) {
   if (!(slope < 0)) return s;  // not downhill: nothing to search for
   for (int trial = 0; trial < kMostTrials; ++trial) {
     trial_ = before_ + s * direction;
-    dynamics_.take_prediction(s);
-    const double there = direction.dot(residual_at(trial_));
+    const double there = direction.dot(searched_residual(s));
     if (there <= -kSlopeFall * slope) return s;  // false for NaN
     const double secant = std::isfinite(there) ? slope / (slope - there) : 0.25;
     s *= std::clamp(secant, 0.1, 0.5);
@@ -226,7 +241,7 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
     self.r_before_ = self.r_;
     const double residual = self.largest(self.r_) / self.dynamics_.largest_force();
     const double s = self.line_search(self.correction_);
-    self.dynamics_.take_prediction(s);
+    self.predicted_part_ = s;
     view(x) = s * self.correction_;
     self.iterations.push_back({residual, s * self.largest_displacement(self.correction_), s});
     return 0;
@@ -274,7 +289,7 @@ int Equilibrium::Solver::run(double tolerance) {
 }
 
 bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
-  dynamics_.drop_prediction();
+  predicted_part_.reset();
   start_ = y;
   t_ = t;
   damping_ = damping;
@@ -290,14 +305,12 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
   for (int round = 0; round < kMostRounds; ++round) {
     if (!(dynamics_.largest_force() > 0)) break;  // nothing acts
     const int flag = run(kBalanced * dynamics_.largest_force());
-    dynamics_.drop_prediction();
-    known_ = false;
     const bool stuck = flag == KIN_STEP_LT_STPTOL && iterations.back().fraction < 1;
-    residual_at(view(solution_));  // with the pressures of these positions
     if (flag < 0 || stuck || !r_.allFinite()) {
       ++counts.rejected_newton;
       return false;
     }
+    residual_at(view(solution_));
     if (flag == KIN_STEP_LT_STPTOL) break;
     if (largest(r_) <= 2 * kBalanced * dynamics_.largest_force()) break;
   }
