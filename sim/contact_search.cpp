@@ -75,6 +75,7 @@ void drop_far_faces(const std::vector<collision::Penetration>& faces_in_triangle
 ContactSearch::ContactSearch(const Model& model)
     : model_(model), moving_of_body_(model.bodies.size(), -1) {
   options_.narrow = model.scenario.detection.narrow_test;
+  options_.threads = model.scenario.threads;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const ContactModel& contact = model.contacts[c];
     for (const int body : {contact.a, contact.b}) {

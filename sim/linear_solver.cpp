@@ -70,7 +70,8 @@ std::string name_of(fem::SolverKind kind) {
 }
 
 std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model) {
-  return fem::make_linear_solver(choose_linear_solver(model), kTolerance, kMostIterations);
+  return fem::make_linear_solver(choose_linear_solver(model), kTolerance, kMostIterations,
+                                 model.scenario.threads);
 }
 
 bool prepare_linear(fem::LinearSolver& solver, const fem::BlockMatrix& A, const Positions& x,

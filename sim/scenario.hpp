@@ -269,6 +269,7 @@ struct Scenario {
   enum class Accuracy { Fast, Balanced, Accurate } accuracy = Accuracy::Balanced;
   Integrator integrator;
   Detection detection;
+  int threads = 1;  // of the run, not of the file: results have the same bits with any number
   std::vector<Body> bodies;
   std::vector<Attachment> attachments;
   std::vector<Muscle> muscles;

@@ -89,6 +89,7 @@ std::string summary_json(const Model& model, const State& state, const Stepper& 
       {"settings", Json::parse(model.scenario.settings_json)},
       {"size", sizes(model)},
       {"linear_solver", linear_solver(model)},
+      {"threads", model.scenario.threads},
       {"counts", counts(state.counts)},
       {"frames", state.frames},
       {"max_penetration_m", state.max_penetration},

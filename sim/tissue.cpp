@@ -61,10 +61,11 @@ FibreDirections make_fibres(const Model& model, const std::vector<BodyGeometry>&
 }
 
 TissueElements make_elements(const Material& material, const MeshData& mesh,
-                             const FibreDirections& fibres) {
+                             const FibreDirections& fibres, int threads) {
   if (material.element == Material::Element::Smoothed)
     return TissueElements(fem::SmoothedElasticity(mesh.X, mesh.tets, *material.law, {}, fibres));
-  return TissueElements(fem::Elasticity(mesh.X, mesh.tets, *material.law, fibres));
+  return TissueElements(
+      fem::Elasticity(mesh.X, mesh.tets, *material.law, fibres, {.threads = threads}));
 }
 
 /// Bulk and shear modulus at small strain.
@@ -102,7 +103,7 @@ Tissue make_tissue(const Model& model, const std::vector<BodyGeometry>& geometry
   }
   try {
     Tissue tissue{.body = index,
-                  .elements = make_elements(material, mesh, fibres),
+                  .elements = make_elements(material, mesh, fibres, model.scenario.threads),
                   .dashpots = {},
                   .relaxation = {},
                   .lumped_mass = fem::lumped_mass(mesh.X, mesh.tets, *body.density),

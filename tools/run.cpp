@@ -14,17 +14,20 @@ namespace articular::tools {
 namespace {
 
 constexpr int kInterrupted = 130;
+constexpr int kMostThreads = 256;
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 struct RunArguments {
   std::filesystem::path scenario, out;
   std::vector<std::string> overrides;
+  int threads = 1;
   bool resume = false, quiet = false;
 };
 
 int run_scenario(const RunArguments& arguments) {
-  const sim::Scenario scenario = sim::read_scenario(arguments.scenario, arguments.overrides);
+  sim::Scenario scenario = sim::read_scenario(arguments.scenario, arguments.overrides);
+  scenario.threads = arguments.threads;
   const sim::Model model = sim::build_model(scenario);
   for (const std::string& warning : model.warnings)
     fmt::print(stderr, "articular: warning: {}\n", warning);
@@ -71,6 +74,12 @@ void add_run_command(CLI::App& app, int& exit_code) {
                    "Override a value by its path, e.g. --set duration='0.1 s' "
                    "--set body.disc_left.material.young_modulus='3 MPa'")
       ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--threads", arguments->threads,
+          "Of element loops, multigrid and contact search; results have the same bits with "
+          "any number [1]")
+      ->check(CLI::Range(1, kMostThreads));
   command->add_flag("--resume", arguments->resume,
                     "Go on from the folder's last checkpoint, if there is one");
   command->add_flag("--quiet", arguments->quiet, "No progress on stderr");

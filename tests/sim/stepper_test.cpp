@@ -316,5 +316,31 @@ TEST(Stepper, ASceneWithoutUnknownsJustGoesOn) {
   EXPECT_NEAR(run.now().poses[0].p.x(), 1, 1e-12);
 }
 
+// Element loops, multigrid and the search for contacts share their work among threads in pieces
+// that do not depend on the number of threads.
+TEST(Threads, ChangeNoBitOfAResult) {
+  const auto state_of = [](int threads, Material::Element element) {
+    Scenario s = scene(2e-3);
+    s.threads = threads;
+    s.integrator.solver = Integrator::Solver::Multigrid;
+    s.integrator.position_tolerance = 1e-7;
+    s.contact = true;
+    s.bodies = {box_body("floor", Body::Kind::Fixed, {0.2, 0.2, 0.02}, {0, 0, -0.01}),
+                box_body("block", Body::Kind::Tissue, {0.1, 0.1, 0.1}, {0, 0, 0.0501}, {12, 12, 12})};
+    s.bodies[1].material->element = element;
+    s.bodies[1].velocity = {0.1, 0, -0.3};
+    s.loads = {gravity({0, 0, -9.81})};
+    Simulation run(s);
+    run.advance(6e-3);
+    EXPECT_GT(run.state.counts.reported_pairs, 0);
+    return run.state.y;
+  };
+  for (const auto element : {Material::Element::Plain, Material::Element::Smoothed}) {
+    const Eigen::VectorXd one = state_of(1, element);
+    EXPECT_EQ(one, state_of(2, element));
+    EXPECT_EQ(one, state_of(3, element));
+  }
+}
+
 }  // namespace
 }  // namespace articular::sim
