@@ -51,5 +51,6 @@ void print_newton();
 void print_modes();
 void print_cost();
 void print_curves();
+void print_fibres();
 
 }  // namespace articular::fem
