@@ -121,6 +121,39 @@ TEST(Tissue, ASmoothedBarSwingsWithTheBeamsPeriod) {
   EXPECT_LT(std::abs(run.loss() - early_loss), 0.01 * run.state.energy.start);
 }
 
+// A bar 1024 times longer or shorter, of the same tissue, that falls in as much longer or shorter a
+// time under as much less or more of gravity: the same motion, in the same iterations.
+TEST(Tissue, MotionDoesNotDependOnTheUnit) {
+  for (const auto element : {Material::Element::Plain, Material::Element::Smoothed}) {
+    const auto result = [&](double scale) {
+      Material material = material_of(fem::MooneyRivlin<>(2.5e3, 0, 50e3));
+      material.element = element;
+      material.relaxation = {{.weight = 0.3, .time = 20e-3 * scale}};
+      Scenario s = scene(1e-3 * scale, Integrator::Scheme::TrBdf2);
+      s.integrator.position_tolerance.reset();
+      s.integrator.min_step *= scale;
+      s.duration = scale;
+      s.bodies = {box_body("bar", Body::Kind::Tissue, scale * Vec3(0.01, 0.01, 0.06),
+                           scale * Vec3(0, 0, 0.03), {2, 2, 6}),
+                  stand("wall")};
+      s.bodies[0].material = material;
+      s.attachments = {
+          attach("bar", "wall", scale * Vec3(-1, -1, -1e-6), scale * Vec3(1, 1, 1e-6))};
+      s.loads = {gravity({1 / scale, 0, 0})};
+      Simulation run(s);
+      run.advance(20e-3 * scale);
+      return std::pair(run.now().x(0, run.now().x.cols() - 1) / scale,
+                       run.state.counts.newton_iterations);
+    };
+    const auto [x, iterations] = result(1);
+    for (const double scale : {1.0 / 1024, 1024.0}) {
+      const auto [x_scaled, iterations_scaled] = result(scale);
+      EXPECT_NEAR(x_scaled, x, 1e-12 * std::abs(x)) << scale;
+      EXPECT_EQ(iterations_scaled, iterations) << scale;
+    }
+  }
+}
+
 // Rayleigh: an oscillation decays by exp(−ζ ω t), ζ = α/(2ω) + β ω/2, and what the dampers take is
 // in the balance.
 TEST(Tissue, DampingTakesTheEnergyThatItsRatioSays) {
