@@ -27,9 +27,10 @@ function(articular_library name)
   target_link_libraries(articular_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
 endfunction()
 
-# articular_test(name SOURCES ... LIBRARIES ... [LABELS ...]): one GoogleTest program, each of its tests a ctest.
+# articular_test(name SOURCES ... LIBRARIES ... [LABELS ...] [IN_ONE_PROCESS]): one GoogleTest program, each of its tests
+# a ctest, or all of them one.
 function(articular_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "IN_ONE_PROCESS" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   articular_settings(${name})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
@@ -39,7 +40,12 @@ function(articular_test name)
   if(arg_LABELS)
     list(APPEND properties LABELS "${arg_LABELS}")
   endif()
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+  if(arg_IN_ONE_PROCESS)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES ${properties})
+  else()
+    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+  endif()
 endfunction()
 
 # articular_install(name): the library and the headers of this folder, as component and package of their
