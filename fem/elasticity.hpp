@@ -7,8 +7,8 @@
 #include "fem/block_matrix.hpp"
 #include "fem/element_batches.hpp"
 #include "fem/element_kernels.hpp"
-#include "fem/tangent.hpp"
 #include "fem/stiffness_slots.hpp"
+#include "fem/tangent.hpp"
 #include "fem/types.hpp"
 
 namespace articular::fem {

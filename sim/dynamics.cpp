@@ -29,8 +29,7 @@ Dynamics::Dynamics(const Model& model) : model_(model), matrix_(model) {
 }
 
 double Dynamics::activation_of(std::size_t tissue) const {
-  const int muscle = model_.tissues[tissue].muscle;
-  return muscle < 0 ? 0 : configuration_.activation[muscle];
+  return sim::activation_of(model_.tissues[tissue], configuration_);
 }
 
 void Dynamics::set_candidates(const std::vector<CandidateList>& candidates) {
@@ -60,11 +59,6 @@ void Dynamics::predict_pressures(const Eigen::VectorXd& dx) {
     smoothed->predicted_pressure(tissues_[t].x, matrix_.pressure_gradient(t), v_,
                                  predicted_[t].after);
   }
-}
-
-bool Dynamics::has_pressures() const {
-  return std::any_of(model_.tissues.begin(), model_.tissues.end(),
-                     [](const Tissue& tissue) { return tissue.elements.smoothed() != nullptr; });
 }
 
 void Dynamics::predict_for_matrix(double part) {
@@ -309,16 +303,11 @@ void Dynamics::add_damping_product(const Eigen::VectorXd& u, double scale,
     const Tissue& tissue = model_.tissues[t];
     if (!tissue.dashpots && tissue.mass_damping == 0) continue;
     const auto count = static_cast<Eigen::Index>(tissue.nodes.size());
-    v_.resize(3, count);
+    displacements_of(t, u, v_);
     damping_.setZero(3, count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const NodeRef& node = tissue.nodes[static_cast<std::size_t>(i)];
-      v_.col(i) = u.segment<3>(3 * node.block);
-      if (node.bone >= 0)
-        v_.col(i) += u.segment<3>(3 * node.block + 3).cross(configuration_.lever(node));
-      else
+    for (Eigen::Index i = 0; i < count; ++i)
+      if (tissue.nodes[static_cast<std::size_t>(i)].bone < 0)
         damping_.col(i) = tissue.mass_damping * tissue.lumped_mass[i] * v_.col(i);
-    }
     if (tissue.dashpots) tissue.dashpots->add_force(tissues_[t].x, v_, damping_);
     for (Eigen::Index i = 0; i < count; ++i)
       add_force(configuration_, tissue.nodes[static_cast<std::size_t>(i)], scale * damping_.col(i),

@@ -55,7 +55,7 @@ class Dynamics {
   void drop_prediction() { prediction_part_.reset(); }
   /// The next matrix() takes the pressures this part of the way.
   void predict_for_matrix(double part);
-  bool has_pressures() const;
+  bool has_pressures() const { return matrix_.has_pressures(); }
 
   /// Newton's iteration for the lags of relaxing stress. Their rows (1 + γ/τ) δL = b_L + γ/τ δS0
   /// leave known parts b_L/(1 + γ/τ), whose force is added:

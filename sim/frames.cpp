@@ -40,7 +40,7 @@ std::vector<Field> tissue_point_fields(const Model& model, const Tissue& tissue,
 std::vector<Field> tissue_cell_fields(const Tissue& tissue, const Positions& x,
                                       const Configuration& now, const Eigen::VectorXd& lags) {
   const TissueElements& e = tissue.elements;
-  const double activation = tissue.muscle < 0 ? 0 : now.activation[tissue.muscle];
+  const double activation = activation_of(tissue, now);
   Eigen::MatrixXd stress = e.cauchy_stress(x, activation);
   if (tissue.relaxation) tissue.relaxation->add_cauchy_stress(x, lags, stress);
   std::vector<Field> fields = {

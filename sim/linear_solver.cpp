@@ -56,6 +56,11 @@ fem::SolverChoice choose_linear_solver(const Model& model) {
   return choice;
 }
 
+bool needs_linear_solver(const Model& model) {
+  return model.scenario.analysis == Scenario::Analysis::Static ||
+         model.scenario.integrator.scheme != Integrator::Scheme::Explicit;
+}
+
 std::string name_of(fem::SolverKind kind) {
   switch (kind) {
     case fem::SolverKind::Cholesky:

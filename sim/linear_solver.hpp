@@ -9,6 +9,9 @@ namespace articular::sim {
 /// elements and its analysis, with the reason.
 fem::SolverChoice choose_linear_solver(const Model& model);
 
+/// The explicit scheme does without.
+bool needs_linear_solver(const Model& model);
+
 /// As scenario files call it: "cholesky", "conjugate-gradients", "multigrid".
 std::string name_of(fem::SolverKind kind);
 

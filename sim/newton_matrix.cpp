@@ -44,10 +44,6 @@ std::vector<int> slots_in(const fem::BlockMatrix& A, const fem::BlockMatrix& par
   return slots;
 }
 
-double activation_of(const Tissue& tissue, const Configuration& now) {
-  return tissue.muscle < 0 ? 0 : now.activation[tissue.muscle];
-}
-
 fem::BlockMatrix matrix_of(const Model& model, Stencils stencils, const Stencils& more) {
   for (std::size_t s = 0; s + 1 < more.offsets.size(); ++s) {
     stencils.blocks.insert(stencils.blocks.end(), more.blocks.begin() + more.offsets[s],
@@ -58,6 +54,10 @@ fem::BlockMatrix matrix_of(const Model& model, Stencils stencils, const Stencils
 }
 
 }  // namespace
+
+double activation_of(const Tissue& tissue, const Configuration& now) {
+  return tissue.muscle < 0 ? 0 : now.activation[tissue.muscle];
+}
 
 NewtonMatrix::NewtonMatrix(const Model& model)
     : model_(model),

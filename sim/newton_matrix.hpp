@@ -18,6 +18,9 @@ struct TissueMoment {
   Eigen::VectorXd stress, lags;  // of relaxing tissue, see fem::Relaxation [Pa]
 };
 
+/// Of a tissue's fibres, in [0, 1]; 0 where no muscle activates them.
+double activation_of(const Tissue& tissue, const Configuration& now);
+
 /// The matrix of Newton's iteration over the unknown blocks: mass, damping and stiffness of
 /// everything in the scene.
 class NewtonMatrix {
@@ -42,6 +45,8 @@ class NewtonMatrix {
   /// What smoothed tissues add to that matrix: pressures that couple all of their nodes. Refers to
   /// this object.
   fem::PressurePart pressure_part() const;
+  /// Whether there are any.
+  bool has_pressures() const { return smoothed_; }
   /// ∂b/∂xᵀ of a smoothed tissue, by its nodes, where the last matrix was taken.
   const fem::PressureGradient& pressure_gradient(std::size_t tissue) const {
     return tissues_[tissue].node_G;

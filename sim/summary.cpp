@@ -31,9 +31,7 @@ Json sizes(const Model& model) {
 }
 
 Json linear_solver(const Model& model) {
-  if (model.scenario.integrator.scheme == Integrator::Scheme::Explicit &&
-      model.scenario.analysis == Scenario::Analysis::Dynamic)
-    return nullptr;
+  if (!needs_linear_solver(model)) return nullptr;
   const fem::SolverChoice choice = choose_linear_solver(model);
   return {{"name", name_of(choice.kind)}, {"reason", choice.reason}};
 }

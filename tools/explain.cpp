@@ -59,6 +59,12 @@ double memory_estimate(const sim::Model& model) {
   return bytes;
 }
 
+Json linear_solver(const sim::Model& model) {
+  if (!sim::needs_linear_solver(model)) return nullptr;
+  const fem::SolverChoice choice = sim::choose_linear_solver(model);
+  return {{"name", sim::name_of(choice.kind)}, {"reason", choice.reason}};
+}
+
 Json explain(const sim::Model& model) {
   Json bodies = Json::array(), pairs = Json::array(), left_out = Json::array();
   for (const sim::BodyModel& body : model.bodies) bodies.push_back(explain_body(model, body));
@@ -83,7 +89,6 @@ Json explain(const sim::Model& model) {
   left_out.push_back("wrapping of muscles over bone (straight between via points)");
   left_out.push_back("deformation of bone");
   left_out.push_back("friction");
-  const fem::SolverChoice solver = sim::choose_linear_solver(model);
   return {{"title", model.scenario.title},
           {"bodies", bodies},
           {"contact_pairs", pairs},
@@ -91,7 +96,7 @@ Json explain(const sim::Model& model) {
           {"ligaments", model.ligaments.size()},
           {"unknown_velocities", 3 * model.layout.num_unknown_blocks()},
           {"muscle_activations", model.layout.num_muscles},
-          {"linear_solver", {{"name", sim::name_of(solver.kind)}, {"reason", solver.reason}}},
+          {"linear_solver", linear_solver(model)},
           {"estimated_memory_MB", memory_estimate(model) / 1e6},
           {"settings", Json::parse(model.scenario.settings_json)},
           {"left_out", left_out},
@@ -116,9 +121,9 @@ void print(const Json& json) {
   fmt::print("\n{} unknown velocities, {} muscle activations; about {:.0f} MB\n",
              json["unknown_velocities"].get<int>(), json["muscle_activations"].get<int>(),
              json["estimated_memory_MB"].get<double>());
-  const Json& solver = json["linear_solver"];
-  fmt::print("Linear solver: {} ({})\n", solver["name"].get<std::string>(),
-             solver["reason"].get<std::string>());
+  if (const Json& solver = json["linear_solver"]; !solver.is_null())
+    fmt::print("Linear solver: {} ({})\n", solver["name"].get<std::string>(),
+               solver["reason"].get<std::string>());
   fmt::print("Settings: {}\n", json["settings"].dump());
   for (const Json& warning : json["warnings"])
     fmt::print("warning: {}\n", warning.get<std::string>());

@@ -1,7 +1,8 @@
 // tests/benchmarks/locking_study [accuracy | meshes | newton | modes | fibres | cost]...
 //
 // Which linear tetrahedron neither locks nor softens: the tables of fem/README.md, in markdown.
-// Without arguments all but fibres (a few minutes; fibres alone five). Problems: tests/fem/loaded_body.hpp.
+// Without arguments all but fibres (a few minutes; fibres alone five). Problems:
+// tests/fem/loaded_body.hpp.
 //
 //     Cook's membrane        block under local pressure        slender beam, bent by 6/10 of its
 //     length

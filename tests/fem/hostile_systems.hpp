@@ -105,22 +105,25 @@ inline ClampedBox uneven_box(int cells, double inside) {
   return box;
 }
 
-/// Springs a thousand times as stiff as an edge, across, between random nodes: four each, as a node
-/// in a face.
-inline ClampedBox box_with_contacts(int cells, int num_contacts) {
-  ClampedBox box = clamped_box(box_mesh({cells, cells, cells}, Vec3::Ones(), 0.2), 0.3);
+/// Springs a thousand times as stiff as an edge of K, across, between random nodes: four each, as a
+/// node in a face.
+inline std::vector<Spring> random_contacts(const BlockMatrix& K, int num_contacts) {
   Random random;
-  std::vector<Spring> springs(num_contacts);
-  const int n = box.K.num_blocks();
+  std::vector<Spring> springs(static_cast<std::size_t>(num_contacts));
   for (Spring& spring : springs) {
-    spring.stiffness = 1e3 * box.K.block(0)(0, 0);
+    spring.stiffness = 1e3 * K.block(0)(0, 0);
     const Vec3 normal = random.rotation().col(0);
     for (const double weight : {1.0, -0.5, -0.3, -0.2}) {
-      spring.blocks.push_back(static_cast<int>(random.uniform(0, 0.999) * n));
+      spring.blocks.push_back(static_cast<int>(random.uniform(0, 0.999) * K.num_blocks()));
       spring.arms.push_back(weight * normal);
     }
   }
-  box.K = with_springs(box.K, springs, n);
+  return springs;
+}
+
+inline ClampedBox box_with_contacts(int cells, int num_contacts) {
+  ClampedBox box = clamped_box(box_mesh({cells, cells, cells}, Vec3::Ones(), 0.2), 0.3);
+  box.K = with_springs(box.K, random_contacts(box.K, num_contacts), box.K.num_blocks());
   return box;
 }
 

@@ -103,18 +103,7 @@ void add_springs(const std::vector<Spring>& springs, int num_blocks, SmoothedBox
 
 SmoothedBox box_with_springs(int num_springs) {
   SmoothedBox box = smoothed_box(box_mesh({12, 12, 12}, Vec3::Ones(), 0.2), 0.499);
-  Random random;
-  std::vector<Spring> springs(static_cast<std::size_t>(num_springs));
-  const int n = box.K.num_blocks();
-  for (Spring& spring : springs) {
-    spring.stiffness = 1e3 * box.K.block(0)(0, 0);
-    const Vec3 normal = random.rotation().col(0);
-    for (const double weight : {1.0, -0.5, -0.3, -0.2}) {
-      spring.blocks.push_back(static_cast<int>(random.uniform(0, 0.999) * n));
-      spring.arms.push_back(weight * normal);
-    }
-  }
-  add_springs(springs, n, box);
+  add_springs(random_contacts(box.K, num_springs), box.K.num_blocks(), box);
   return box;
 }
 

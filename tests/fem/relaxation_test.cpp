@@ -36,26 +36,21 @@ struct Relaxing {
   Relaxation relaxation;
 };
 
-Relaxing plain() {
+template <class Elements>
+Relaxing relaxing() {
   const TetMesh mesh = box_mesh({2, 1, 1}, kSize, 0.1);
-  const Elasticity elements(mesh.X, mesh.tets, law());
-  BlockMatrix K = elements.make_matrix();
-  Relaxation relaxation(kTerms, law(), distortion_points(mesh.X, elements), K);
-  return {mesh, std::move(K), std::move(relaxation)};
-}
-
-Relaxing smoothed() {
-  const TetMesh mesh = box_mesh({2, 1, 1}, kSize, 0.1);
-  const SmoothedElasticity elements(mesh.X, mesh.tets, law());
+  const Elements elements(mesh.X, mesh.tets, law());
   BlockMatrix K = elements.make_matrix();
   Relaxation relaxation(kTerms, law(), distortion_points(mesh.X, elements), K);
   return {mesh, std::move(K), std::move(relaxation)};
 }
 
 class EachElement : public testing::TestWithParam<Relaxing (*)()> {};
-INSTANTIATE_TEST_SUITE_P(Relaxation, EachElement, testing::Values(&plain, &smoothed),
+INSTANTIATE_TEST_SUITE_P(Relaxation, EachElement,
+                         testing::Values(&relaxing<Elasticity>, &relaxing<SmoothedElasticity>),
                          [](const auto& instance) {
-                           return std::string(instance.param == &plain ? "Plain" : "Smoothed");
+                           return std::string(instance.param == &relaxing<Elasticity> ? "Plain"
+                                                                                      : "Smoothed");
                          });
 
 Positions deformed(const TetMesh& mesh, Random& random) {

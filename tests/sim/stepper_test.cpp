@@ -325,8 +325,9 @@ TEST(Threads, ChangeNoBitOfAResult) {
     s.integrator.solver = Integrator::Solver::Multigrid;
     s.integrator.position_tolerance = 1e-7;
     s.contact = true;
-    s.bodies = {box_body("floor", Body::Kind::Fixed, {0.2, 0.2, 0.02}, {0, 0, -0.01}),
-                box_body("block", Body::Kind::Tissue, {0.1, 0.1, 0.1}, {0, 0, 0.0501}, {12, 12, 12})};
+    s.bodies = {
+        box_body("floor", Body::Kind::Fixed, {0.2, 0.2, 0.02}, {0, 0, -0.01}),
+        box_body("block", Body::Kind::Tissue, {0.1, 0.1, 0.1}, {0, 0, 0.0501}, {12, 12, 12})};
     s.bodies[1].material->element = element;
     s.bodies[1].velocity = {0.1, 0, -0.3};
     s.loads = {gravity({0, 0, -9.81})};
