@@ -153,19 +153,25 @@ void complete_collider(Collider& collider, const std::vector<char>& is_outer) {
   }
 
   // Mean height of the elements that have a face on the surface, over that face.
+  collider.height.setZero(num_nodes);
+  Eigen::VectorXd faces_here = Eigen::VectorXd::Zero(num_nodes);
   double height_sum = 0;
-  int heights = 0;
   std::vector<std::vector<int>> faces_of_node(static_cast<std::size_t>(num_nodes));
   for (std::size_t f = 0; f < num_faces; ++f) {
-    for (int k = 0; k < 3; ++k)
-      faces_of_node[static_cast<std::size_t>(faces(k, static_cast<Eigen::Index>(f)))].push_back(
-          static_cast<int>(f));
     const double volume =
         six_volumes(collider.X, collider.tets.col(collider.surface.face_tet[f])) / 6;
-    height_sum += 3 * std::abs(volume) / collider.face_area[f];
-    ++heights;
+    const double height = 3 * std::abs(volume) / collider.face_area[f];
+    height_sum += height;
+    for (int k = 0; k < 3; ++k) {
+      const int node = faces(k, static_cast<Eigen::Index>(f));
+      faces_of_node[static_cast<std::size_t>(node)].push_back(static_cast<int>(f));
+      collider.height[node] += height;
+      ++faces_here[node];
+    }
   }
-  collider.size = heights > 0 ? height_sum / heights : 0;
+  collider.size = num_faces > 0 ? height_sum / static_cast<double>(num_faces) : 0;
+  for (Eigen::Index i = 0; i < num_nodes; ++i)
+    if (faces_here[i] > 0) collider.height[i] /= faces_here[i];
 
   // Faces that share a node with a tetrahedron; deeper ones inherit from their neighbours.
   const auto num_tets = static_cast<std::size_t>(collider.tets.cols());

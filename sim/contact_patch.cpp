@@ -68,10 +68,10 @@ double integrate(const Polygon& polygon, Mat3& Q) {
   return total;
 }
 
-/// ∫ d N Nᵀ / |∇β_m| dl over the polygon's edges on β_m = 0, in units of the triangle's area.
-void integrate_edges(const Polygon& polygon, ContactPatch& patch) {
-  for (Mat3& edge : patch.edge) edge.setZero();
-  for (int k = 0; k < polygon.count; ++k) {
+/// The polygon's edges on β_m = 0, in units of the triangle's area.
+void find_edges(const Polygon& polygon, ContactPatch& patch) {
+  patch.num_edges = 0;
+  for (int k = 0; k < polygon.count && patch.num_edges < 3; ++k) {
     const int m = polygon.side[static_cast<std::size_t>(k)];
     if (m == kOwnSide || m == kDepthSide) continue;
     const Vec3& a = polygon.corner[static_cast<std::size_t>(k)];
@@ -82,13 +82,16 @@ void integrate_edges(const Polygon& polygon, ContactPatch& patch) {
     if (!(beta > 0)) continue;
     const Vec3 along = b - a, off = Vec3::Unit(far) - a;
     const double length = 2 * std::abs(along[1] * off[2] - along[2] * off[1]) / beta;
-    // Cubic in the edge's parameter: Simpson's rule is exact.
-    const Vec3 middle = 0.5 * (a + b);
-    patch.edge[static_cast<std::size_t>(m)] +=
-        length / 6 *
-        (patch.depth.dot(a) * a * a.transpose() + patch.depth.dot(b) * b * b.transpose() +
-         4 * patch.depth.dot(middle) * middle * middle.transpose());
+    patch.edge[static_cast<std::size_t>(patch.num_edges++)] = {m, a, b, length};
   }
+}
+
+/// ∫ p N Nᵀ dl / |∇β_m| along an edge, for p affine: cubic, so that Simpson's rule is exact.
+Mat3 edge_integral(const PatchEdge& edge, const Vec3& p) {
+  const Vec3 &a = edge.a, &b = edge.b, middle = 0.5 * (a + b);
+  return edge.length / 6 *
+         (p.dot(a) * a * a.transpose() + p.dot(b) * b * b.transpose() +
+          4 * p.dot(middle) * middle * middle.transpose());
 }
 
 struct Facing {
@@ -105,32 +108,37 @@ Facing facing_weight(double opposing) {
 
 }  // namespace
 
-bool contact_patch(const Mat3& s, const Mat3& f, double rest_area, double reach,
-                   ContactPatch& patch) {
-  const Vec3 s1 = s.col(1) - s.col(0), s2 = s.col(2) - s.col(0);
-  const Vec3 area_vector = s1.cross(s2);
+FlatTriangle flat_triangle(const Mat3& x) {
+  FlatTriangle triangle;
+  triangle.x = x;
+  const Vec3 area_vector = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0));
   const double twice_area = area_vector.norm();
-  const Vec3 face_vector = (f.col(1) - f.col(0)).cross(f.col(2) - f.col(0));
-  const double twice_face_area = face_vector.norm();
-  if (!(twice_area > 0) || !(twice_face_area > 0)) return false;
-  const Vec3 n = area_vector / twice_area;
-  const Vec3 n_F = face_vector / twice_face_area;
+  if (!(twice_area > 0)) return triangle;
+  triangle.twice_area = twice_area;
+  triangle.normal = area_vector / twice_area;
+  return triangle;
+}
+
+bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_area,
+                   const DepthRange& range, ContactPatch& patch) {
+  const Vec3 &n = s.normal, &n_F = f.normal;
   const double cosine = n_F.dot(n);
   const Facing facing = facing_weight(-cosine);
   if (!(facing.weight > 0)) return false;
 
   patch.c = n_F / cosine;
-  for (int i = 0; i < 3; ++i) patch.depth[i] = patch.c.dot(s.col(i) - f.col(0));
-  if (patch.depth.maxCoeff() <= 0 || patch.depth.minCoeff() > reach) return false;
+  patch.depth = patch.c.transpose() * (s.x.colwise() - f.x.col(0));
+  if (!(patch.depth.maxCoeff() > -range.open && patch.depth.minCoeff() <= range.reach))
+    return false;
 
   // Weights of the face's nodes at each node of s: signed areas of the projected triangles (the
-  // projected face turns the other way round, twice_projected < 0).
-  const double twice_projected = face_vector.dot(n);
-  for (int i = 0; i < 3; ++i)
-    for (int m = 0; m < 3; ++m) {
-      const Vec3 a = f.col((m + 1) % 3) - s.col(i), b = f.col((m + 2) % 3) - s.col(i);
-      patch.beta(m, i) = a.cross(b).dot(n) / twice_projected;
-    }
+  // projected face turns the other way round, its area is negative).
+  for (int m = 0; m < 3; ++m) {
+    const Vec3 edge = f.x.col((m + 2) % 3) - f.x.col((m + 1) % 3);
+    const Vec3 across = n.cross(edge) / (f.twice_area * cosine);
+    patch.beta.row(m) = across.transpose() * (s.x.colwise() - f.x.col((m + 1) % 3));
+    if (!(patch.beta.row(m).maxCoeff() > 0)) return false;
+  }
 
   Polygon polygon, scratch;
   polygon.count = 3;
@@ -142,77 +150,51 @@ bool contact_patch(const Mat3& s, const Mat3& f, double rest_area, double reach,
     clip(patch.beta.row(m), m, polygon, scratch);
     if (polygon.count < 3) return false;
   }
-  clip(patch.depth, kDepthSide, polygon, scratch);
+  clip(patch.depth.array() + range.open, kDepthSide, polygon, scratch);
   if (polygon.count < 3) return false;
   const double fraction = integrate(polygon, patch.Q);
   if (!(fraction > 0)) return false;
-  patch.depth_max = 0;
+  patch.depth_max = -range.open;
   for (int i = 0; i < polygon.count; ++i)
     patch.depth_max =
         std::max(patch.depth_max, patch.depth.dot(polygon.corner[static_cast<std::size_t>(i)]));
-  if (patch.depth_max > reach) return false;
+  if (patch.depth_max > range.reach) return false;
 
-  integrate_edges(polygon, patch);
-  for (Mat3& edge : patch.edge) edge *= facing.weight * rest_area;
+  find_edges(polygon, patch);
+  for (PatchEdge& edge : patch.edge) edge.length *= facing.weight * rest_area;
   patch.Q *= facing.weight * rest_area;
   patch.area = facing.weight * fraction * rest_area;
   patch.normal = n;
   patch.cosine = cosine;
-  patch.turning = -0.5 * facing.slope / facing.weight;
+  patch.turning = -facing.slope / facing.weight;
   // In-plane gradients of the barycentric coordinates.
-  const Vec3 g1 = s2.cross(n) / twice_area, g2 = n.cross(s1) / twice_area;
+  const Vec3 s1 = s.x.col(1) - s.x.col(0), s2 = s.x.col(2) - s.x.col(0);
+  const Vec3 g1 = s2.cross(n) / s.twice_area, g2 = n.cross(s1) / s.twice_area;
   patch.g << -g1 - g2, g1, g2;
   patch.e = patch.g.transpose() * patch.c;
   for (int m = 0; m < 3; ++m) {
-    const Vec3 in_face = n_F.cross(f.col((m + 2) % 3) - f.col((m + 1) % 3)) / twice_face_area;
+    const Vec3 in_face = n_F.cross(f.x.col((m + 2) % 3) - f.x.col((m + 1) % 3)) / f.twice_area;
     patch.face_e[m] = in_face.dot(n);
     patch.face_g.col(m) = in_face - patch.face_e[m] * patch.c;
   }
   return true;
 }
 
-double contact_energy(const ContactPatch& patch, double k) {
-  return 0.5 * k * patch.depth.dot(patch.Q * patch.depth);
-}
-
 // δd at N: Σ_i (N_i c + d e_i n)·δx_i − Σ_m β_m c·δf_m, from d = c·(x − Σ β_m f_m) with the
 // triangle's normal turning by δn = −Σ ∇N_i (n·δx_i). With it w changes by
 // δ(n_F·n) = −Σ (n_F·∇N_i) n·δx_i − Σ (n·∇β_m) n_F·δf_m.
 
-Vec18 contact_gradient(const ContactPatch& patch, double k) {
-  const Vec3 q = patch.Q * patch.depth;
-  const double square = patch.depth.dot(q);
+Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p) {
+  const Vec3 q = patch.Q * p;
+  const double tilting = q.dot(patch.depth);
   const Vec3 reaction = patch.beta * q;
-  const double turning = patch.turning * square * patch.cosine;
+  const double turning = patch.turning * tilting * patch.cosine;
   Vec18 g;
   for (int i = 0; i < 3; ++i) {
-    g.segment<3>(3 * i) = k * (q[i] * patch.c + (square - turning) * patch.e[i] * patch.normal);
-    g.segment<3>(9 + 3 * i) = -k * (reaction[i] + turning * patch.face_e[i]) * patch.c;
+    g.segment<3>(3 * i) = q[i] * patch.c + (tilting - turning) * patch.e[i] * patch.normal;
+    g.segment<3>(9 + 3 * i) = -(reaction[i] + turning * patch.face_e[i]) * patch.c;
   }
   return g;
-}
-
-Mat18 contact_hessian(const ContactPatch& patch, double k) {
-  const Vec3 q = patch.Q * patch.depth;
-  const double square = patch.depth.dot(q);
-  const Vec3 reaction = patch.beta * q;
-  const Mat3 Q_beta = patch.Q * patch.beta.transpose();
-  const Mat3 beta_Q_beta = patch.beta * Q_beta;
-  const Mat3 cc = k * patch.c * patch.c.transpose();
-  const Mat3 cn = k * patch.c * patch.normal.transpose();
-  const Mat3 nc = cn.transpose();
-  const Mat3 nn = k * patch.normal * patch.normal.transpose();
-  Mat18 H;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      H.block<3, 3>(3 * i, 3 * j) = patch.Q(i, j) * cc + q[i] * patch.e[j] * cn +
-                                    patch.e[i] * q[j] * nc + square * patch.e[i] * patch.e[j] * nn;
-      const Mat3 mixed = -Q_beta(i, j) * cc - patch.e[i] * reaction[j] * nc;
-      H.block<3, 3>(3 * i, 9 + 3 * j) = mixed;
-      H.block<3, 3>(9 + 3 * j, 3 * i) = mixed.transpose();
-      H.block<3, 3>(9 + 3 * i, 9 + 3 * j) = beta_Q_beta(i, j) * cc;
-    }
-  return H;
 }
 
 // With u = Σ N_i u_i, u_i = δx_i − d_i δn − Σ β_mi δf_m, how far the point of the triangle moves
@@ -221,11 +203,11 @@ Mat18 contact_hessian(const ContactPatch& patch, double k) {
 //
 //   δ²d = −2 δd c·δn − 2 Σ δβ_m c·δf_m − d c·δ²n,   −c·δ²n = |δn|² + 2 Σ e_j δn·δx_j.
 
-Mat18 contact_tangent(const ContactPatch& patch, double k) {
+Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p) {
   using Mat18x3 = Eigen::Matrix<double, 18, 3>;
-  const Vec3 q = patch.Q * patch.depth;
-  const double square = patch.depth.dot(q);
-  // a_i, b_mi: what c·u_i and ĝ_m·u_i are of the 18 displacements.
+  const Vec3 q = patch.Q * p;
+  const double tilting = q.dot(patch.depth);
+  // What direction·u_i is of the 18 displacements.
   const auto opposite = [&patch](int i, const Vec3& direction) {
     Vec18 row;
     for (int j = 0; j < 3; ++j) {
@@ -235,28 +217,31 @@ Mat18 contact_tangent(const ContactPatch& patch, double k) {
     row.segment<3>(3 * i) += direction;
     return row;
   };
-  Mat18x3 a;
-  for (int i = 0; i < 3; ++i) a.col(i) = opposite(i, patch.c);
+  const auto opposite_all = [&opposite](const Vec3& direction) {
+    Mat18x3 rows;
+    for (int i = 0; i < 3; ++i) rows.col(i) = opposite(i, direction);
+    return rows;
+  };
   Vec18 tilt = Vec18::Zero();  // −c·δn
   for (int j = 0; j < 3; ++j) tilt.segment<3>(3 * j) = patch.e[j] * patch.normal;
 
   Mat18 H = Mat18::Zero();
   // ½ of each pair: the transpose is added below.
-  Mat18x3 y = 0.5 * a * patch.Q + tilt * q.transpose();
-  for (int m = 0; m < 3; ++m) {
-    Mat18x3 b;
-    for (int i = 0; i < 3; ++i) b.col(i) = opposite(i, patch.face_g.col(m));
-    y += 0.5 * b * patch.edge[static_cast<std::size_t>(m)];
-    H.block<18, 3>(0, 9 + 3 * m) -= b * q * patch.c.transpose();
+  Mat18x3 y = tilt * q.transpose();
+  for (int m = 0; m < 3; ++m)
+    H.block<18, 3>(0, 9 + 3 * m) -= opposite_all(patch.face_g.col(m)) * q * patch.c.transpose();
+  for (int k = 0; k < patch.num_edges; ++k) {
+    const PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
+    y += 0.5 * opposite_all(patch.face_g.col(edge.m)) * edge_integral(edge, p);
   }
-  H += a * y.transpose();
+  H += opposite_all(patch.c) * y.transpose();
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       H.block<3, 3>(3 * i, 3 * j) +=
-          square *
+          tilting *
           (0.5 * patch.g.col(i).dot(patch.g.col(j)) * patch.normal - patch.e[i] * patch.g.col(j)) *
           patch.normal.transpose();
-  return k * (H + H.transpose());
+  return H + H.transpose();
 }
 
 }  // namespace articular::sim

@@ -4,30 +4,39 @@
 
 #include "fem/types.hpp"
 
-/// The part of a surface triangle that lies under a facing face of the other body, and the penalty
-/// energy on it.
+/// The part of a surface triangle that lies opposite a facing face of the other body, and the gap
+/// on it.
 ///
 /// The face F is projected along the triangle's own normal n onto the triangle s; on the polygon
-/// that both share, the depth d(N) = n_F·(x − f0) / (n_F·n) > 0 of the triangle's point x = Σ N_i
-/// x_i behind the face is affine in the barycentric coordinates N. With the rest area of the
-/// triangle as measure and Q = ∫ N Nᵀ dA over the part of the polygon with d > 0,
+/// that both share, the depth d(N) = n_F·(x − f0) / (n_F·n) of the triangle's point x = Σ N_i x_i
+/// behind the face (negative: in front of it) is affine in the barycentric coordinates N. With the
+/// rest area of the triangle as measure, each node a of s gets from this patch
 ///
-///   E = ½ k w ∫ d² dA = ½ k w dᵀ Q d,  d_i the depth at node i of s.
+///   W_a = w ∫ N_a dA,   G_a = w ∫ N_a d dA.
+///
+/// Sums of G_a over the patches around a node give its mean depth (contact_response.hpp).
 ///
 /// w(n_F·n) is 1 for faces that oppose the triangle and falls smoothly to 0 where they stand
 /// oblique to it: along an oblique normal a shallow overlap reads deep, and a hard limit would make
 /// forces jump.
 ///
-/// The reaction goes to the face's nodes with the weights β_m(N) of the point opposite, so that the
-/// forces are equal and opposite and make no net moment. Everything is integrated exactly. At the
-/// rim of a sheet the motion of the polygon's edge with d > 0 is left out of the gradient.
+/// Nodes of the face move G_a with the weights β_m(N) of the point opposite, so that forces derived
+/// from G_a are equal and opposite and make no net moment. Everything is integrated exactly. Where
+/// the polygon ends at the rim of a sheet, the motion of that edge is left out of the gradients.
 namespace articular::sim {
 
 using Vec18 = Eigen::Matrix<double, 18, 1>;
 using Mat18 = Eigen::Matrix<double, 18, 18>;
 
+/// An edge of the polygon on β_m = 0: ∫ f dl / |∇β_m| along it is `length` times the mean of f.
+struct PatchEdge {
+  int m = 0;
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // its ends, in barycentric coordinates of s
+  double length = 0;                        // times w [m²]
+};
+
 struct ContactPatch {
-  double area = 0;             // [m²] rest area with d > 0, times w
+  double area = 0;             // [m²] rest area of the polygon, times w
   double depth_max = 0;        // [m]
   Mat3 Q = Mat3::Zero();       // w ∫ N Nᵀ dA [m²]
   Mat3 beta = Mat3::Zero();    // beta(m, i): weight of face node m opposite node i of s
@@ -36,39 +45,48 @@ struct ContactPatch {
   Vec3 e = Vec3::Zero();       // e_i = c·∇N_i [1/m]
   Vec3 normal = Vec3::Zero();  // n, unit
   double cosine = 0;           // n_F·n
-  double turning = 0;          // ½ w'/w, by the cosine
+  double turning = 0;          // w'/w, by the cosine
   Vec3 face_e = Vec3::Zero();  // n·∇β_m on the face [1/m]
   Mat3 g = Mat3::Zero();       // ∇N_i, one a column [1/m]
   Mat3 face_g = Mat3::Zero();  // ∇β_m for motion that keeps the depth, one a column [1/m]
-  // w ∫ d N Nᵀ / |∇β_m| dl along the polygon's edges where β_m = 0 [m³]
-  std::array<Mat3, 3> edge = {Mat3::Zero(), Mat3::Zero(), Mat3::Zero()};
+  std::array<PatchEdge, 3> edge;
+  int num_edges = 0;
 };
 
 /// Of −n_F·n: below the first the face does not face the triangle (w = 0), above the second it does
 /// (w = 1). 60 and 37 degrees: facets of smooth bodies that touch are nearer to parallel.
 inline constexpr double kFacingNone = 0.5, kFacingFull = 0.8;
 
-/// @param s, f   corners of the triangle and the face, one a column, counter-clockwise from outside
-/// [m]
-/// @param rest_area  of the triangle [m²]
-/// @param reach  depth beyond which the face is not taken to be the one that was crossed [m]
-/// @return false when nothing of s is behind f
-bool contact_patch(const Mat3& s, const Mat3& f, double rest_area, double reach,
-                   ContactPatch& patch);
+/// Depths that count [m].
+struct DepthRange {
+  double open;   // in front of the face up to here
+  double reach;  // a patch with a larger depth anywhere did not come in through this face
+};
 
-/// E [J] for a stiffness k [Pa/m].
-double contact_energy(const ContactPatch& patch, double k);
+/// A triangle where it is now; without an area its normal is zero.
+struct FlatTriangle {
+  Mat3 x = Mat3::Zero();       // corners, one a column, counter-clockwise from outside [m]
+  Vec3 normal = Vec3::Zero();  // unit, outward
+  double twice_area = 0;       // [m²]
+};
+FlatTriangle flat_triangle(const Mat3& x);
 
-/// ∂E/∂(x0 x1 x2 f0 f1 f2) [N].
-Vec18 contact_gradient(const ContactPatch& patch, double k);
+/// @param rest_area  of the triangle s [m²]
+/// @return false when nothing of s is opposite f within the range
+bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_area,
+                   const DepthRange& range, ContactPatch& patch);
 
-/// Gauss–Newton part of the Hessian, k ∫ ∇d ∇dᵀ dA [N/m]: positive semidefinite.
-Mat18 contact_hessian(const ContactPatch& patch, double k);
+/// W_a [m²] and G_a [m³] of the triangle's nodes.
+inline Vec3 nodal_areas(const ContactPatch& patch) { return patch.Q.rowwise().sum(); }
+inline Vec3 depth_integrals(const ContactPatch& patch) { return patch.Q * patch.depth; }
 
-/// All of it [N/m]: with k ∫ d ∇²d dA, and with what the polygon's edges sweep as the face's edges
-/// move over the triangle, k ∮ d ∇d ∇β_mᵀ/|∇β_m| dl, made symmetric: summed over the two faces at
-/// an edge that is exact. Indefinite. Left out: the turning of w, and the gradient's missing part
-/// at a rim.
-Mat18 contact_tangent(const ContactPatch& patch, double k);
+/// ∂/∂(x0 x1 x2 f0 f1 f2) of Σ p_a G_a for numbers p that stay as they are.
+Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p);
+
+/// Second derivative of Σ p_a G_a for numbers p that stay as they are: of the depth, and of what
+/// the face's edges sweep as they move over the triangle, made symmetric: summed over the two faces
+/// at an edge that is exact. Indefinite. Left out: the turning of w, and the gradient's missing
+/// part at a rim.
+Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p);
 
 }  // namespace articular::sim

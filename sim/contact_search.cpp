@@ -26,12 +26,14 @@ bool apart(const Extent& a, const Extent& b, double distance) {
   return a.low - b.high > distance || b.low - a.high > distance;
 }
 
-/// The face F can't come to lie opposite the triangle s within a distance: it is too far in front
-/// of it, deeper behind it than `reach`, or beside it when seen along the triangle's normal.
-bool cannot_meet(const FacePlace& s, const FacePlace& F, double reach, double distance) {
+/// The face F can't come to lie opposite the triangle s by motion over a distance: it is farther
+/// than `open` in front of it, deeper behind it than `reach`, or beside it when seen along the
+/// triangle's normal.
+bool cannot_meet(const FacePlace& s, const FacePlace& F, double open, double reach,
+                 double distance) {
   const double plane = s.normal.dot(s.corners.col(0));
   const Extent height = extent(F.corners, s.normal);
-  if (height.low - plane > distance || plane - height.high > reach + distance) return true;
+  if (height.low - plane > open + distance || plane - height.high > reach + distance) return true;
   for (int k = 0; k < 3; ++k)
     if (apart(s.along[static_cast<std::size_t>(k)], extent(F.corners, s.sides.col(k)), distance))
       return true;
@@ -90,8 +92,12 @@ ContactSearch::ContactSearch(const Model& model)
       moving_.push_back(std::move(moving));
       seen_.resize(std::max(seen_.size(), collider.face_area.size()));
     }
-    candidates_.push_back({static_cast<int>(c), false, {}});
-    if (contact.a != contact.b) candidates_.push_back({static_cast<int>(c), true, {}});
+    for (const bool reversed : {false, true}) {
+      if ((reversed ? contact.stiffness_b : contact.stiffness_a).size() == 0) continue;
+      candidates_.push_back({static_cast<int>(c), reversed, {}});
+      const auto side = static_cast<std::size_t>(reversed ? contact.b : contact.a);
+      open_depth_ = std::max(open_depth_, model.bodies[side].collider->open_depth);
+    }
   }
 }
 
@@ -132,49 +138,53 @@ void ContactSearch::update(Moving& moving, const Configuration& configuration, d
 
 void ContactSearch::find(const Configuration& configuration, double margin) {
   const auto start = Clock::now();
-  for (Moving& moving : moving_) update(moving, configuration, margin);
+  for (Moving& moving : moving_) update(moving, configuration, margin + open_depth_);
   counts_.update_seconds += seconds_since(start);
 
   const auto query_start = Clock::now();
   collision::BlockQueryCounts query;
   for (CandidateList& list : candidates_) list.pairs.clear();
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    CandidateList& list = candidates_[i];
+  int searched = -1;  // the contact that what was found belongs to
+  for (CandidateList& list : candidates_) {
     const ContactModel& contact = model_.contacts[static_cast<std::size_t>(list.contact)];
     Moving& a =
         moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(contact.a)])];
     Moving& b =
         moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(contact.b)])];
-    const auto num_faces = [&](const Moving& moving) {
-      return model_.bodies[static_cast<std::size_t>(moving.body)].collider->face_area.size();
-    };
     if (contact.a == contact.b) {
       fit(a);
       collision::faces_in_own_body(*a.tree, faces_of_a_, query, scratch_, options_);
       collision::sort_pairs(faces_of_a_, *a.tree, *a.tree, sort_scratch_);
-      collect(faces_of_a_, a, a, margin, list.pairs);
-      drop_far_faces(faces_of_a_, num_faces(a), list.pairs);
+      fill(list, faces_of_a_, faces_of_a_, a, a, margin);
       continue;
     }
-    if (overlap(a.tree->bounds(), b.tree->bounds())) {
+    if (!overlap(a.tree->bounds(), b.tree->bounds())) continue;
+    if (searched != list.contact) {
       fit(a);
       fit(b);
       collision::faces_in_body(*a.tree, *b.tree, faces_of_a_, query, scratch_, options_);
       collision::faces_in_body(*b.tree, *a.tree, faces_of_b_, query, scratch_, options_);
       collision::sort_pairs(faces_of_a_, *a.tree, *b.tree, sort_scratch_);
       collision::sort_pairs(faces_of_b_, *b.tree, *a.tree, sort_scratch_);
-      collect(faces_of_a_, a, b, margin, list.pairs);
-      drop_far_faces(faces_of_b_, num_faces(b), list.pairs);
-      CandidateList& reverse = candidates_[i + 1];
-      collect(faces_of_b_, b, a, margin, reverse.pairs);
-      drop_far_faces(faces_of_a_, num_faces(a), reverse.pairs);
+      searched = list.contact;
     }
-    ++i;  // the reverse list is done too
+    if (list.reversed)
+      fill(list, faces_of_b_, faces_of_a_, b, a, margin);
+    else
+      fill(list, faces_of_a_, faces_of_b_, a, b, margin);
   }
   counts_.narrow_tests += query.candidates;
   counts_.reported_pairs += query.pairs;
   counts_.narrow_seconds += query.narrow_seconds;
   counts_.traversal_seconds += seconds_since(query_start) - query.narrow_seconds;
+}
+
+void ContactSearch::fill(CandidateList& list, const std::vector<collision::Penetration>& found,
+                         const std::vector<collision::Penetration>& reverse, const Moving& a,
+                         const Moving& b, double margin) {
+  collect(found, a, b, margin, list.pairs);
+  const auto& faces = model_.bodies[static_cast<std::size_t>(b.body)].collider->face_area;
+  drop_far_faces(reverse, faces.size(), list.pairs);
 }
 
 void ContactSearch::collect(const std::vector<collision::Penetration>& found, const Moving& a,
@@ -193,7 +203,7 @@ void ContactSearch::collect(const std::vector<collision::Penetration>& found, co
       const FacePlace& face = b.faces[static_cast<std::size_t>(f)];
       // Not yet facing, but it may turn until the step's end.
       if (s.normal.dot(face.normal) > -0.5 * kFacingNone) continue;
-      if (cannot_meet(s, face, B.reach, margin)) continue;
+      if (cannot_meet(s, face, A.open_depth, B.reach, margin)) continue;
       if (tied(A, p.face, B, f)) continue;
       pairs.push_back({p.face, f});
     }

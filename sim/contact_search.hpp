@@ -49,7 +49,8 @@ class ContactSearch {
 
   /// The first three lines of Listing 1.5.1's loop body: all bodies where they are now, tissues
   /// against each other, then each against itself where the scene asks for it.
-  /// @param margin  [m] pairs nearer than this are found
+  /// @param margin  [m] how much nearer than now things may come: pairs are found that are nearer
+  ///                than this and the depth in front of a face at which surfaces count
   void find(const Configuration& configuration, double margin);
 
   const std::vector<CandidateList>& candidates() const { return candidates_; }
@@ -70,6 +71,10 @@ class ContactSearch {
   /// What a body needs that may touch another: done once a detection, if at all.
   void fit(Moving& moving);
   bool needs_update(const Moving& moving, double margin) const;
+  /// The candidates of a list among triangles of a in tetrahedra of b; `reverse`: of b in a.
+  void fill(CandidateList& list, const std::vector<collision::Penetration>& found,
+            const std::vector<collision::Penetration>& reverse, const Moving& a, const Moving& b,
+            double margin);
   void collect(const std::vector<collision::Penetration>& found, const Moving& a, const Moving& b,
                double margin, std::vector<ContactCandidate>& pairs);
 
@@ -77,6 +82,7 @@ class ContactSearch {
   std::vector<Moving> moving_;       // one a collider
   std::vector<int> moving_of_body_;  // -1: none
   std::vector<CandidateList> candidates_;
+  double open_depth_ = 0;  // [m] largest of all sides that are averaged over
   std::vector<collision::Penetration> faces_of_a_, faces_of_b_;
   collision::BlockQueryScratch scratch_;
   collision::BlockQueryOptions options_;

@@ -24,13 +24,22 @@ class Dynamics {
 
   /// Reads y and computes all forces there. Block forces: 3 entries a block, reactions included.
   void evaluate(const double* y, double t);
+  /// The last evaluate() was at y and t, but for round-off: a line search was there before.
+  bool is_known(const double* y, double t) const;
   const Configuration& configuration() const { return configuration_; }
   const Eigen::VectorXd& forces() const { return f_; }
   /// Force [N] on a bone of the tissue that is tied to it, and its moment [N m] about the bone's
   /// reference point.
   std::pair<Vec3, Vec3> attachment_force(int tissue, int bone) const;
   const std::vector<LineState>& lines() const { return lines_; }
-  const std::vector<ContactSummary>& contacts() const { return contacts_; }
+  /// Whether any contact candidates are there.
+  bool touches() const { return candidates_ != nullptr && contact_.has_patches(); }
+  const ContactResponse& contact() const { return contact_; }
+  /// One a contact of the model.
+  std::vector<ContactSummary> contacts() const {
+    return candidates_ != nullptr ? contact_.summaries(configuration_)
+                                  : std::vector<ContactSummary>(model_.contacts.size());
+  }
 
   /// ẏ from the forces of the last evaluate().
   void rate(const double* y, double* y_dot) const;
@@ -108,12 +117,12 @@ class Dynamics {
   const Model& model_;
   const std::vector<CandidateList>* candidates_ = nullptr;
   Configuration configuration_;
+  Eigen::VectorXd y_;  // of the last evaluate()
   Eigen::VectorXd f_;
   mutable Positions v_, damping_;                    // at the nodes of a tissue
   mutable Eigen::VectorXd lag_part_, stress_there_;  // of a tissue
   double largest_force_ = 0;
   std::vector<LineState> lines_;
-  std::vector<ContactSummary> contacts_;
   std::vector<TissueMoment> tissues_;
   std::vector<Positions> tissue_force_;  // needed to hold the shape, of each node [N]
   struct PressurePrediction {
@@ -122,6 +131,7 @@ class Dynamics {
   std::vector<PressurePrediction> predicted_;
   std::optional<double> prediction_part_;        // way from `before` to `after`
   std::vector<std::pair<int, int>> mass_nodes_;  // tissue, node of each free block
+  ContactResponse contact_;
   NewtonMatrix matrix_;
   double trusted_motion_ = std::numeric_limits<double>::infinity();
   DynamicsTimes times_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "sim/body_geometry.hpp"
 #include "sim/collider.hpp"
@@ -18,8 +19,11 @@ namespace articular::sim {
 namespace {
 
 /// Contact stiffness of a side is this times constrained modulus / element height: the mean
-/// penetration is then about a tenth of the element's own compression.
-constexpr double kContactFactor = 10;
+/// penetration is then a thousandth of the element's own compression.
+constexpr double kContactFactor = 1000;
+/// How far in front of a face a triangle's depth counts in the averages, in heights of the elements
+/// at its surface: more than a facet's sagitta under a round bone.
+constexpr double kOpenDepth = 0.25;
 /// A tissue's face counts as crossed up to this part of an element's height. Contact keeps depths
 /// far below it; what lies deeper is seen from beyond an edge, and was not entered through that
 /// face.
@@ -220,8 +224,11 @@ class Builder {
     collider.tets = tissue.elements.tets();
     collider.nodes = tissue.nodes;
     complete_collider(collider, {});
-    collider.stiffness = kContactFactor * constrained_modulus(material) / collider.size;
+    const double compliance = 1 / (kContactFactor * constrained_modulus(material));
+    collider.compliance = compliance * collider.height;
+    collider.mean_compliance = compliance * collider.size;
     collider.reach = kTissueReach * collider.size;
+    collider.open_depth = kOpenDepth * collider.size;
     return collider;
   }
 
@@ -253,13 +260,14 @@ class Builder {
     for (Eigen::Index i = 0; i < collider.X.cols(); ++i)
       collider.nodes.push_back(
           {bone.block, model_.bodies[b].bone, collider.X.col(i) - bone.rest.p});
-    collider.stiffness = kContactFactor * constrained_modulus(kBoneModulus, kBonePoisson) / depth;
-    if (body.layer) {
-      const double layer_stiffness =
-          constrained_modulus(body.layer->young_modulus, body.layer->poisson_ratio) /
-          body.layer->thickness;
-      collider.stiffness = 1 / (1 / collider.stiffness + 1 / layer_stiffness);
-    }
+    collider.open_depth = kOpenDepth * depth;
+    collider.mean_compliance =
+        depth / (kContactFactor * constrained_modulus(kBoneModulus, kBonePoisson));
+    if (body.layer)
+      collider.mean_compliance +=
+          body.layer->thickness /
+          constrained_modulus(body.layer->young_modulus, body.layer->poisson_ratio);
+    collider.compliance.setConstant(collider.X.cols(), collider.mean_compliance);
     return collider;
   }
 
@@ -422,12 +430,46 @@ class Builder {
     return point;
   }
 
+  /// Whose nodes depths are averaged at: of tissue where it meets bone, of the softer or, much
+  /// alike, the finer of two tissues, of the finer of two bones. Both sides at once would hold the
+  /// bodies apart at more nodes than the coarser one has to give way with.
+  bool averages_first(int a, int b, const Collider& A, const Collider& B) const {
+    constexpr double kMuchSofter = 3;
+    const auto modulus = [this](int body) {
+      return constrained_modulus(*scenario().bodies[static_cast<std::size_t>(body)].material);
+    };
+    const bool soft_a = model_.bodies[static_cast<std::size_t>(a)].tissue >= 0;
+    const bool soft_b = model_.bodies[static_cast<std::size_t>(b)].tissue >= 0;
+    if (soft_a != soft_b) return soft_a;
+    if (soft_a && modulus(a) > kMuchSofter * modulus(b)) return false;
+    if (soft_a && modulus(b) > kMuchSofter * modulus(a)) return true;
+    return mean_face_area(A) <= mean_face_area(B);
+  }
+
   void add_contact(int a, int b, std::optional<double> stiffness) {
     const auto& A = model_.bodies[static_cast<std::size_t>(a)].collider;
     const auto& B = model_.bodies[static_cast<std::size_t>(b)].collider;
     if (!A || !B) return;
-    const double chosen = 1 / (1 / A->stiffness + 1 / B->stiffness);
-    model_.contacts.push_back({a, b, stiffness.value_or(chosen)});
+    ContactModel contact;
+    contact.a = a;
+    contact.b = b;
+    contact.share = a == b ? 0.5 : 1;
+    contact.mean_stiffness = stiffness.value_or(1 / (A->mean_compliance + B->mean_compliance));
+    const auto at_nodes = [&](const Collider& side, const Collider& other) {
+      if (stiffness)
+        return Eigen::VectorXd::Constant(side.X.cols(), contact.share * *stiffness).eval();
+      return (contact.share / (side.compliance.array() + other.mean_compliance)).matrix().eval();
+    };
+    if (a == b || averages_first(a, b, *A, *B))
+      contact.stiffness_a = at_nodes(*A, *B);
+    else
+      contact.stiffness_b = at_nodes(*B, *A);
+    model_.contacts.push_back(std::move(contact));
+  }
+
+  static double mean_face_area(const Collider& collider) {
+    return std::accumulate(collider.face_area.begin(), collider.face_area.end(), 0.0) /
+           static_cast<double>(std::max<std::size_t>(1, collider.face_area.size()));
   }
 
   void make_contacts() {

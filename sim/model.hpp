@@ -45,9 +45,12 @@ struct Collider {
   std::vector<NodeRef> nodes;             // what moves each node
   std::vector<double> face_area;          // at the start [m²]
   std::vector<int> nearby_begin, nearby;  // per tetrahedron: faces around it
-  double stiffness = 0;                   // contact stiffness of this side [Pa/m]
+  Eigen::VectorXd compliance;             // of this side in contact, at each node [m/Pa]
+  double mean_compliance = 0;             // of its surface [m/Pa]
   double reach = 0;                       // [m] depth up to which a crossed face is found
-  double size = 0;                        // [m] mean height of the elements at the surface
+  double open_depth = 0;   // [m] how far in front of a face this side's surface counts
+  double size = 0;         // [m] mean height of the elements at the surface
+  Eigen::VectorXd height;  // [m] the same around each node of the surface
 };
 
 struct Tissue {
@@ -107,8 +110,11 @@ struct ForceModel {
 };
 
 struct ContactModel {
-  int a = 0, b = 0;      // bodies; a == b: with itself
-  double stiffness = 0;  // [Pa/m]
+  int a = 0, b = 0;  // bodies; a == b: with itself
+  // At the nodes of the side whose nodes depths are averaged at, times `share` [Pa/m]; else empty.
+  Eigen::VectorXd stiffness_a, stiffness_b;
+  double mean_stiffness = 0;  // of the two sides in series [Pa/m]
+  double share = 1;           // ½ for a body with itself: each of two folds meets the other
 };
 
 struct ProbeModel {

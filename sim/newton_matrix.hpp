@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fem/linear_solver.hpp"
-#include "sim/contact_force.hpp"
+#include "sim/contact_response.hpp"
 #include "sim/line_force.hpp"
 #include "sim/system_matrix.hpp"
 
@@ -38,7 +38,7 @@ class NewtonMatrix {
     const Configuration& configuration;
     const std::vector<LineState>& lines;
     const std::vector<TissueMoment>& tissues;
-    const std::vector<CandidateList>* candidates;  // null: nothing touches
+    ContactResponse* contact;  // null: nothing touches
   };
   const fem::BlockMatrix& assemble(const Moment& now, const SystemScale& scale,
                                    fem::Tangent tangent);

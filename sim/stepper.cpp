@@ -266,7 +266,7 @@ StoredEnergy Stepper::stored_energy() const {
 
 std::vector<Positions> Stepper::contact_forces() const {
   if (!search_) return std::vector<Positions>(model_.bodies.size());
-  return nodal_contact_forces(model_, dynamics_->configuration(), search_->candidates());
+  return dynamics_->contact().nodal_forces();
 }
 
 PhaseTimes Stepper::times() {

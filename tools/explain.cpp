@@ -73,7 +73,7 @@ Json explain(const sim::Model& model) {
     any_self = any_self || contact.a == contact.b;
     pairs.push_back({{"a", model.bodies[static_cast<std::size_t>(contact.a)].name},
                      {"b", model.bodies[static_cast<std::size_t>(contact.b)].name},
-                     {"stiffness_Pa_per_m", contact.stiffness}});
+                     {"stiffness_Pa_per_m", contact.mean_stiffness}});
   }
   if (model.contacts.empty())
     left_out.push_back("contact: no pair of bodies can meet, so no tree is built");

@@ -156,7 +156,7 @@ TEST(Contact, TheLegsOfAClosingVMeetAndDoNotPassThroughEachOther) {
   const double element = 0.002;
   run.advance(0.2);
   EXPECT_GT(run.state.counts.reported_pairs, 0);
-  const ContactSummary& contact = run.stepper.dynamics().contacts()[0];
+  const ContactSummary contact = run.stepper.dynamics().contacts()[0];
   EXPECT_GT(contact.area, 1e-6);  // [m²]
   EXPECT_LT(run.state.max_penetration, 0.25 * element);
   EXPECT_LT(Vec3(run.stepper.contact_forces()[0].rowwise().sum()).norm(), 1e-14);  // on itself

@@ -1,0 +1,340 @@
+#include "sim/contact_response.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace articular::sim {
+
+/// The side whose triangles are averaged over, and the side whose faces they meet.
+struct ContactResponse::Sides {
+  const Collider& triangles;
+  const Collider& faces;
+  int triangle_body, face_body;
+  const Eigen::VectorXd& stiffness;  // at the nodes of the triangles' side [Pa/m]
+};
+
+namespace {
+
+/// The six nodes of a patch: the triangle's, then the face's.
+std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider& faces,
+                                       int triangle, int face) {
+  std::array<const NodeRef*, 6> nodes{};
+  for (int i = 0; i < 3; ++i) {
+    nodes[static_cast<std::size_t>(i)] =
+        &triangles.nodes[static_cast<std::size_t>(triangles.surface.faces(i, triangle))];
+    nodes[static_cast<std::size_t>(3 + i)] =
+        &faces.nodes[static_cast<std::size_t>(faces.surface.faces(i, face))];
+  }
+  return nodes;
+}
+
+Mat3 corners(const Configuration& configuration, const Collider& collider, int face) {
+  Mat3 x;
+  for (int i = 0; i < 3; ++i)
+    x.col(i) = configuration.position(
+        collider.nodes[static_cast<std::size_t>(collider.surface.faces(i, face))]);
+  return x;
+}
+
+/// ∂E over a patch's six nodes.
+Vec18 energy_gradient(const DirectionMoment& direction, const DirectionMoment::Patch& entry,
+                      const Eigen::Matrix3Xi& faces) {
+  Vec3 p;
+  for (int i = 0; i < 3; ++i) p[i] = direction.pressure[faces(i, entry.triangle)];
+  return patch_gradient(entry.patch, p);
+}
+
+bool carries(const DirectionMoment& direction, int triangle, const Eigen::Matrix3Xi& faces) {
+  return direction.pressure[faces(0, triangle)] > 0 || direction.pressure[faces(1, triangle)] > 0 ||
+         direction.pressure[faces(2, triangle)] > 0;
+}
+
+}  // namespace
+
+ContactResponse::ContactResponse(const Model& model) : model_(model) {
+  gradient_.setZero(3, model.num_blocks);
+  has_gradient_.assign(static_cast<std::size_t>(model.num_blocks), 0);
+}
+
+ContactResponse::Sides ContactResponse::sides(std::size_t direction) const {
+  const CandidateList& list = (*candidates_)[direction];
+  const ContactModel& contact = model_.contacts[static_cast<std::size_t>(list.contact)];
+  const Collider& a = *model_.bodies[static_cast<std::size_t>(contact.a)].collider;
+  const Collider& b = *model_.bodies[static_cast<std::size_t>(contact.b)].collider;
+  if (list.reversed) return {b, a, contact.b, contact.a, contact.stiffness_b};
+  return {a, b, contact.a, contact.b, contact.stiffness_a};
+}
+
+void ContactResponse::evaluate(const Configuration& configuration,
+                               const std::vector<CandidateList>& candidates) {
+  candidates_ = &candidates;
+  directions_.resize(candidates.size());
+  for (std::size_t d = 0; d < candidates.size(); ++d) {
+    DirectionMoment& direction = directions_[d];
+    const Eigen::Index num_nodes = sides(d).triangles.X.cols();
+    for (Eigen::VectorXd* values :
+         {&direction.area, &direction.measure, &direction.depth, &direction.pressure}) {
+      if (values->size() == 0) values->setZero(num_nodes);
+      for (const int node : direction.nodes) (*values)[node] = 0;
+    }
+    direction.nodes.clear();
+    find_patches(d, configuration);
+    const Eigen::VectorXd& stiffness = sides(d).stiffness;
+    for (const int node : direction.nodes) {
+      direction.depth[node] /= direction.measure[node];
+      direction.pressure[node] = stiffness[node] * std::max(0.0, direction.depth[node]);
+    }
+  }
+}
+
+const FlatTriangle& ContactResponse::face_now(const Configuration& configuration,
+                                              const Collider& faces, int face) {
+  const auto f = static_cast<std::size_t>(face);
+  if (met_[f] != now_) {
+    met_[f] = now_;
+    faces_[f] = flat_triangle(corners(configuration, faces, face));
+  }
+  return faces_[f];
+}
+
+/// Patches of a direction, and what they sum to at nodes: W, A and (in place of g) G.
+void ContactResponse::find_patches(std::size_t d, const Configuration& configuration) {
+  const Sides side = sides(d);
+  DirectionMoment& direction = directions_[d];
+  direction.num_patches = 0;
+  ++now_;
+  if (faces_.size() < side.faces.face_area.size()) {
+    faces_.resize(side.faces.face_area.size());
+    met_.resize(side.faces.face_area.size(), 0);
+  }
+  const DepthRange range{side.triangles.open_depth, side.faces.reach};
+  const std::vector<ContactCandidate>& pairs = (*candidates_)[d].pairs;
+  for (std::size_t first = 0; first < pairs.size();) {  // they come sorted by triangle
+    const int triangle = pairs[first].triangle;
+    const FlatTriangle s = flat_triangle(corners(configuration, side.triangles, triangle));
+    const double rest_area = side.triangles.face_area[static_cast<std::size_t>(triangle)];
+    Vec3 covered = Vec3::Zero(), integrals = Vec3::Zero();
+    for (; first < pairs.size() && pairs[first].triangle == triangle; ++first) {
+      const int face = pairs[first].face;
+      if (direction.num_patches == direction.stored.size()) direction.stored.emplace_back();
+      DirectionMoment::Patch& entry = direction.stored[direction.num_patches];
+      if (!contact_patch(s, face_now(configuration, side.faces, face), rest_area, range,
+                         entry.patch))
+        continue;
+      ++direction.num_patches;
+      entry.triangle = triangle;
+      entry.face = face;
+      covered += nodal_areas(entry.patch);
+      integrals += depth_integrals(entry.patch);
+    }
+    for (int i = 0; i < 3; ++i) {
+      if (!(covered[i] > 0)) continue;
+      const int node = side.triangles.surface.faces(i, triangle);
+      if (direction.measure[node] == 0) direction.nodes.push_back(node);
+      direction.measure[node] += std::sqrt(covered[i] * rest_area / 3);
+      direction.area[node] += covered[i];
+      direction.depth[node] += integrals[i];
+    }
+  }
+}
+
+void ContactResponse::add_force(const Configuration& configuration, Eigen::VectorXd& f) const {
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    const Sides side = sides(d);
+    for (const DirectionMoment::Patch& entry : directions_[d].patches()) {
+      if (!carries(directions_[d], entry.triangle, side.triangles.surface.faces)) continue;
+      const Vec18 g = energy_gradient(directions_[d], entry, side.triangles.surface.faces);
+      const auto nodes = nodes_of(side.triangles, side.faces, entry.triangle, entry.face);
+      for (std::size_t i = 0; i < 6; ++i)
+        sim::add_force(configuration, *nodes[i], -g.segment<3>(3 * static_cast<Eigen::Index>(i)),
+                       f);
+    }
+  }
+}
+
+bool ContactResponse::has_patches() const {
+  return std::any_of(directions_.begin(), directions_.end(),
+                     [](const DirectionMoment& direction) { return direction.num_patches > 0; });
+}
+
+double ContactResponse::largest_force() const {
+  double largest = 0;
+  for (const DirectionMoment& direction : directions_)
+    for (const int node : direction.nodes)
+      largest = std::max(largest, direction.pressure[node] * direction.area[node]);
+  return largest;
+}
+
+std::vector<Positions> ContactResponse::nodal_forces() const {
+  std::vector<Positions> forces(model_.bodies.size());
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b)
+    if (model_.bodies[b].collider)
+      forces[b] = Positions::Zero(3, model_.bodies[b].collider->X.cols());
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    const Sides side = sides(d);
+    const auto &triangles = side.triangles.surface.faces, &faces = side.faces.surface.faces;
+    for (const DirectionMoment::Patch& entry : directions_[d].patches()) {
+      if (!carries(directions_[d], entry.triangle, triangles)) continue;
+      const Vec18 g = energy_gradient(directions_[d], entry, triangles);
+      for (int i = 0; i < 3; ++i) {
+        forces[static_cast<std::size_t>(side.triangle_body)].col(triangles(i, entry.triangle)) -=
+            g.segment<3>(3 * i);
+        forces[static_cast<std::size_t>(side.face_body)].col(faces(i, entry.face)) -=
+            g.segment<3>(9 + 3 * i);
+      }
+    }
+  }
+  return forces;
+}
+
+std::vector<ContactSummary> ContactResponse::summaries(const Configuration& configuration) const {
+  std::vector<ContactSummary> result(model_.contacts.size());
+  std::vector<double> weight(result.size(), 0);           // Σ p W
+  std::vector<Vec3> moment(result.size(), Vec3::Zero());  // about the origin
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    const DirectionMoment& direction = directions_[d];
+    const CandidateList& list = (*candidates_)[d];
+    const auto c = static_cast<std::size_t>(list.contact);
+    const Sides side = sides(d);
+    ContactSummary& sum = result[c];
+    for (const int node : direction.nodes) {
+      if (!(direction.pressure[node] > 0)) continue;
+      const Vec3 x = configuration.position(side.triangles.nodes[static_cast<std::size_t>(node)]);
+      const double p = direction.pressure[node], W = direction.area[node];
+      weight[c] += p * W;
+      sum.center += p * W * x;
+      sum.area += W * model_.contacts[c].share;
+      sum.max_pressure = std::max(sum.max_pressure, p / model_.contacts[c].share);
+      sum.energy += 0.5 * p * direction.depth[node] * direction.measure[node];
+      if (direction.depth[node] > sum.max_depth) {
+        sum.max_depth = direction.depth[node];
+        sum.deepest = x;
+      }
+    }
+    for (const DirectionMoment::Patch& entry : direction.patches()) {
+      const auto& triangles = side.triangles.surface.faces;
+      if (!carries(direction, entry.triangle, triangles)) continue;
+      sum.max_point_depth = std::max(sum.max_point_depth, entry.patch.depth_max);
+      if (side.triangle_body == side.face_body) continue;
+      const Vec18 g = energy_gradient(direction, entry, triangles);
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 force = list.reversed ? Vec3(g.segment<3>(3 * i)) : Vec3(-g.segment<3>(3 * i));
+        const int node = triangles(i, entry.triangle);
+        const Vec3 x = configuration.position(side.triangles.nodes[static_cast<std::size_t>(node)]);
+        sum.force += force;
+        moment[c] += x.cross(force);
+      }
+    }
+  }
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    if (weight[c] > 0) result[c].center /= weight[c];
+    result[c].moment = moment[c] - result[c].center.cross(result[c].force);
+  }
+  return result;
+}
+
+void ContactResponse::add_stiffness(const Configuration& configuration, fem::Tangent tangent,
+                                    double scale, fem::BlockMatrix& A) {
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    add_node_stiffness(d, configuration, scale, A);
+    if (tangent != fem::Tangent::Consistent) continue;
+    const Sides side = sides(d);
+    const auto& triangles = side.triangles.surface.faces;
+    for (const DirectionMoment::Patch& entry : directions_[d].patches()) {
+      if (!carries(directions_[d], entry.triangle, triangles)) continue;
+      Vec3 p;
+      for (int i = 0; i < 3; ++i)
+        p[i] = scale * directions_[d].pressure[triangles(i, entry.triangle)];
+      sim::add_stiffness(model_, configuration,
+                         nodes_of(side.triangles, side.faces, entry.triangle, entry.face),
+                         patch_curvature(entry.patch, p), A);
+    }
+  }
+}
+
+/// Σ k_a/A_a ∇G_a ∇G_aᵀ.
+void ContactResponse::add_node_stiffness(std::size_t d, const Configuration& configuration,
+                                         double scale, fem::BlockMatrix& A) {
+  const DirectionMoment& direction = directions_[d];
+  const Sides side = sides(d);
+  const auto& triangles = side.triangles.surface.faces;
+  // The patches around node i: patch_of_node_[patch_begin_[i] .. patch_begin_[i + 1]).
+  patch_begin_.assign(static_cast<std::size_t>(side.triangles.X.cols()) + 2, 0);
+  for (const DirectionMoment::Patch& entry : direction.patches())
+    for (const int node : triangles.col(entry.triangle))
+      ++patch_begin_[static_cast<std::size_t>(node) + 2];
+  for (std::size_t i = 1; i < patch_begin_.size(); ++i) patch_begin_[i] += patch_begin_[i - 1];
+  patch_of_node_.resize(3 * direction.num_patches);
+  for (std::size_t e = 0; e < direction.num_patches; ++e)
+    for (const int node : triangles.col(direction.stored[e].triangle))
+      patch_of_node_[static_cast<std::size_t>(patch_begin_[static_cast<std::size_t>(node) + 1]++)] =
+          static_cast<int>(e);
+  const auto add = [&](const NodeRef& node, const Vec3& g) {
+    if (node.bone >= model_.layout.num_rigid) return;
+    const auto put = [&](int block, const Vec3& part) {
+      if (has_gradient_[static_cast<std::size_t>(block)] == 0) {
+        has_gradient_[static_cast<std::size_t>(block)] = 1;
+        blocks_.push_back(block);
+      }
+      gradient_.col(block) += part;
+    };
+    put(node.block, g);
+    if (node.bone >= 0) put(node.block + 1, configuration.lever(node).cross(g));
+  };
+  for (const int a : direction.nodes) {
+    if (!(direction.pressure[a] > 0)) continue;
+    for (int k = patch_begin_[static_cast<std::size_t>(a)];
+         k < patch_begin_[static_cast<std::size_t>(a) + 1]; ++k) {
+      const DirectionMoment::Patch& entry =
+          direction.stored[static_cast<std::size_t>(patch_of_node_[static_cast<std::size_t>(k)])];
+      int local = 0;
+      while (triangles(local, entry.triangle) != a) ++local;
+      const Vec18 g = patch_gradient(entry.patch, Vec3::Unit(local));
+      const auto nodes = nodes_of(side.triangles, side.faces, entry.triangle, entry.face);
+      for (std::size_t i = 0; i < 6; ++i)
+        add(*nodes[i], g.segment<3>(3 * static_cast<Eigen::Index>(i)));
+    }
+    const double factor = scale * side.stiffness[a] / direction.measure[a];
+    for (const int i : blocks_)
+      for (const int j : blocks_)
+        A.block(A.slot(i, j)) += factor * gradient_.col(i) * gradient_.col(j).transpose();
+    for (const int block : blocks_) {
+      gradient_.col(block).setZero();
+      has_gradient_[static_cast<std::size_t>(block)] = 0;
+    }
+    blocks_.clear();
+  }
+}
+
+void append_missing_stencils(const Model& model, const std::vector<CandidateList>& candidates,
+                             const fem::BlockMatrix& A, Stencils& stencils) {
+  std::vector<std::vector<int>> blocks_of_node;
+  for (const CandidateList& list : candidates) {
+    const ContactModel& contact = model.contacts[static_cast<std::size_t>(list.contact)];
+    const auto body = [&](bool second) {
+      return static_cast<std::size_t>(second ? contact.b : contact.a);
+    };
+    const Collider& triangles = *model.bodies[body(list.reversed)].collider;
+    const Collider& faces = *model.bodies[body(!list.reversed)].collider;
+    blocks_of_node.assign(static_cast<std::size_t>(triangles.X.cols()), {});
+    for (const ContactCandidate& candidate : list.pairs)
+      for (const int a : triangles.surface.faces.col(candidate.triangle))
+        for (const NodeRef* node : nodes_of(triangles, faces, candidate.triangle, candidate.face))
+          append_blocks(model, *node, blocks_of_node[static_cast<std::size_t>(a)]);
+    for (std::vector<int>& blocks : blocks_of_node) {
+      if (blocks.empty()) continue;
+      std::sort(blocks.begin(), blocks.end());
+      blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+      const bool missing = std::any_of(blocks.begin(), blocks.end(), [&](int i) {
+        return std::any_of(blocks.begin(), blocks.end(), [&](int j) { return A.slot(i, j) < 0; });
+      });
+      if (!missing) continue;
+      stencils.blocks.insert(stencils.blocks.end(), blocks.begin(), blocks.end());
+      stencils.close();
+    }
+  }
+}
+
+}  // namespace articular::sim

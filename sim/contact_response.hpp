@@ -1,0 +1,105 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/contact_patch.hpp"
+#include "sim/contact_search.hpp"
+#include "sim/system_matrix.hpp"
+
+/// The penalty response on contact candidates. In each direction of a pair that its ContactModel
+/// names, the depth of side s behind the other side's faces is averaged at the nodes a of s,
+///
+///   g_a = G_a / W_a,   E = ½ Σ k_a W_a <g_a>²,   p_a = k_a <g_a>,
+///
+/// with G_a and W_a summed over the patches around a (contact_patch.hpp). An averaged depth lets a
+/// faceted soft surface rest on a round bone where a pointwise one would carry on a few spots only,
+/// so that k may be large: a mortar method with the multipliers p_a eliminated by the penalty
+/// [Puso 2004].
+///
+/// [Puso 2004] Puso, Laursen. A mortar segment-to-segment contact method for large deformation
+/// solid mechanics. Comput Methods Appl Mech Eng 193:601.
+namespace articular::sim {
+
+/// One direction of a contact pair in a configuration.
+struct DirectionMoment {
+  struct Patch {
+    ContactPatch patch;
+    int triangle = 0, face = 0;
+  };
+  std::vector<Patch> stored;  // never shrinks: the patches are the first ones
+  std::size_t num_patches = 0;
+  std::span<const Patch> patches() const { return {stored.data(), num_patches}; }
+  // By node of the side whose triangles these are; zero where it meets nothing:
+  Eigen::VectorXd area;      // W [m²]
+  Eigen::VectorXd measure;   // A [m²]
+  Eigen::VectorXd depth;     // g [m]
+  Eigen::VectorXd pressure;  // p [Pa]
+  std::vector<int> nodes;    // that have an area
+};
+
+/// What one contact pair carries; force and moment on body a, of a body with itself none.
+struct ContactSummary {
+  Vec3 force = Vec3::Zero();    // [N]
+  Vec3 center = Vec3::Zero();   // centre of pressure [m]; where nothing touches, the origin
+  Vec3 moment = Vec3::Zero();   // about that centre [N m]
+  double area = 0;              // [m²] rest area of the nodes that carry
+  double max_pressure = 0;      // [Pa] at a node
+  double max_depth = 0;         // [m] mean depth at a node
+  Vec3 deepest = Vec3::Zero();  // that node [m]
+  double max_point_depth = 0;   // [m] of any point: facets can't follow a curve
+  double energy = 0;            // [J]
+};
+
+class ContactResponse {
+ public:
+  explicit ContactResponse(const Model& model);
+
+  /// Depths and pressures of the candidates in a configuration; what follows is about it.
+  void evaluate(const Configuration& configuration, const std::vector<CandidateList>& candidates);
+
+  /// f += contact forces (block forces).
+  void add_force(const Configuration& configuration, Eigen::VectorXd& f) const;
+  /// A += scale times the contact stiffness: all of it, or (projected) the positive semidefinite
+  /// part Σ k_a W_a ∇g_a ∇g_aᵀ.
+  void add_stiffness(const Configuration& configuration, fem::Tangent tangent, double scale,
+                     fem::BlockMatrix& A);
+
+  /// Something lies opposite a face within the depths that count.
+  bool has_patches() const;
+  /// On one node [N]: what a residual is small against.
+  double largest_force() const;
+
+  /// One a contact of the model.
+  std::vector<ContactSummary> summaries(const Configuration& configuration) const;
+  /// Contact force at each node of each collider [N] (by body), for output.
+  std::vector<Positions> nodal_forces() const;
+
+ private:
+  struct Sides;
+  Sides sides(std::size_t direction) const;
+  void find_patches(std::size_t direction, const Configuration& configuration);
+  const FlatTriangle& face_now(const Configuration& configuration, const Collider& faces, int face);
+  void add_node_stiffness(std::size_t direction, const Configuration& configuration, double scale,
+                          fem::BlockMatrix& A);
+
+  const Model& model_;
+  const std::vector<CandidateList>* candidates_ = nullptr;
+  std::vector<DirectionMoment> directions_;  // one a candidate list
+
+  // Scratch of find_patches: the faces met so far.
+  std::vector<FlatTriangle> faces_;
+  std::vector<int> met_;  // by face: when it was computed last
+  int now_ = 0;
+  // Scratch of add_node_stiffness: the patches around each node, and ∇g_a by blocks.
+  std::vector<int> patch_begin_, patch_of_node_;
+  Positions gradient_;
+  std::vector<int> blocks_;
+  std::vector<char> has_gradient_;
+};
+
+/// Couplings between the nodes of candidates that `A` does not have yet.
+void append_missing_stencils(const Model& model, const std::vector<CandidateList>& candidates,
+                             const fem::BlockMatrix& A, Stencils& stencils);
+
+}  // namespace articular::sim
