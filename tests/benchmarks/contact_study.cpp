@@ -31,7 +31,9 @@ struct Study {
   const char* name;
   void (*run)(const StudyOptions&);
 };
-constexpr Study kStudies[] = {{"patch", study_patch}, {"drag", study_drag}, {"lines", study_lines}};
+constexpr Study kStudies[] = {{"patch", study_patch}, {"drag", study_drag},
+                              {"hertz", study_hertz}, {"cylinders", study_cylinders},
+                              {"layer", study_layer}, {"lines", study_lines}};
 
 const Study* find_study(const std::string& name) {
   for (const Study& study : kStudies)
