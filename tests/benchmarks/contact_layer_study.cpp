@@ -14,11 +14,11 @@ namespace articular::sim {
 namespace {
 
 constexpr double kThickness = 2e-3;          // t [m]
-constexpr double kRadius = 20 * kThickness;  // of the sphere
+constexpr double kRadius = 10 * kThickness;  // of the sphere
 constexpr double kIndentation = 0.1 * kThickness;
-constexpr double kHalfWidth = 6 * kThickness;
-/// Half width of the finest cells; the contact radius is near √(2 R δ) = 2 t.
-constexpr double kFine = 2.5 * kThickness;
+constexpr double kHalfWidth = 5 * kThickness;
+/// Half width of the finest cells; the contact radius is near √(2 R δ) = 1.4 t.
+constexpr double kFine = 2 * kThickness;
 constexpr double kGrowth = 1.3;  // of the cells beyond
 constexpr double kYoung = 1e6;   // [Pa]
 constexpr int kSteps = 4;
@@ -40,7 +40,7 @@ LayerResult press(int elements, double nu, const StudyOptions& options) {
   bone.kind = Body::Kind::Fixed;
   scene.add(bone);
   scene.tie("layer", "bone", -1.001 * kThickness, -0.999 * kThickness);
-  // Facets of t/12: their sagitta is 0.04 % of the indentation.
+  // Facets of t/12: their sagitta is 0.09 % of the indentation.
   scene.rigid("sphere", sphere_cap(kRadius, 1.4 * kFine, kFine, kThickness / 12), kThickness / 2);
   scene.touch("sphere", "layer");
   scene.drive("sphere", {Vec3::Zero(), Vec3(0, 0, -kIndentation)});
@@ -67,7 +67,7 @@ void print_row(int elements, double nu, const LayerResult& result,
 
 void study_layer(const StudyOptions& options) {
   std::printf(
-      "\n## Layer on bone, indented by a tenth of its thickness t; R = 20 t; against %d elements "
+      "\n## Layer on bone, indented by a tenth of its thickness t; R = 10 t; against %d elements "
       "through t\n\n"
       "| elements through t | ν | force [N] | [%%] | peak pressure [Pa] | [%%] | "
       "penetration/indentation [%%] | %s\n|---|---|---|---|---|---|---|%s\n",
