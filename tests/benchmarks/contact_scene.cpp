@@ -201,7 +201,7 @@ Costs ContactRun::costs() const {
           static_cast<int>(since.rejected_newton), seconds_ / steps_};
 }
 
-ContactValues ContactRun::contact() {
+ContactValues ContactRun::contact() const {
   History history(model_);
   history.record(state_, stepper_);
   const auto value = [&](const std::string& start) {

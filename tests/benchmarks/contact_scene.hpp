@@ -96,7 +96,7 @@ class ContactRun {
   void reset_costs();
   Costs costs() const;
 
-  ContactValues contact();
+  ContactValues contact() const;
   /// Of the surface of a body whose outward normal at the start is within 60 degrees of `outward`.
   std::vector<NodalContact> nodal_contacts(const std::string& body, const Vec3& outward) const;
   /// Cauchy's stress σ_zz of every element of a tissue [Pa].
