@@ -64,7 +64,7 @@ void run_studies(const std::vector<std::string>& arguments) {
     } else if (i + 1 < arguments.size() && set_option(arguments[i], arguments[i + 1], options)) {
       ++i;
     } else {
-      throw std::invalid_argument("no study or option `" + arguments[i] +
+      throw std::invalid_argument("no study, and no option with such a value: `" + arguments[i] +
                                   "`; see the top of contact_study.cpp");
     }
   }
