@@ -1,0 +1,121 @@
+// Bodies that fall on others and come to rest.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact_scene.hpp"
+
+namespace articular::sim {
+namespace {
+
+constexpr double kGravity = 9.81;  // [m/s²]
+
+/// A soft cube that falls onto a larger one; both meshes are symmetric (even numbers of cells).
+struct Drop {
+  int upper_cells, lower_cells;
+  double step, duration;  // [s]
+};
+constexpr double kUpper = 0.1, kLower = 0.2, kFall = 0.01;  // [m]
+
+Scenario dropped_block(const Drop& drop) {
+  Scenario s = contact_scene(drop.step);
+  s.bodies = {box_body("lower", Body::Kind::Tissue, Vec3::Constant(kLower), {0, 0, -kLower / 2},
+                       Eigen::Vector3i::Constant(drop.lower_cells)),
+              box_body("upper", Body::Kind::Tissue, Vec3::Constant(kUpper),
+                       {0, 0, kFall + kUpper / 2}, Eigen::Vector3i::Constant(drop.upper_cells)),
+              stand("floor")};
+  for (std::size_t b : {0U, 1U}) s.bodies[b].material = material_of(fem::NeoHookean(1e5, 0.45));
+  s.attachments = {attach("lower", "floor", {-1, -1, -1}, {1, 1, -kLower + 1e-6})};
+  s.loads = {gravity({0, 0, -kGravity})};
+  return s;
+}
+
+class DroppedBlock : public testing::TestWithParam<Drop> {};
+
+// Without friction and without anything that turns it, the upper block keeps its place and its
+// corners level: what rocks or slides would come from the contact.
+TEST_P(DroppedBlock, ComesToRestLevelWhereItFell) {
+  Simulation run(dropped_block(GetParam()));
+  double most_kinetic = 0;
+  run.advance(GetParam().duration,
+              [&] { most_kinetic = std::max(most_kinetic, kinetic_energy(run)); });
+  EXPECT_GT(most_kinetic, 0.9 * kGravity * kFall);  // [J], of 1 kg
+  EXPECT_LT(kinetic_energy(run), 1e-8 * most_kinetic);
+
+  const Tissue& upper = run.model.tissues[1];
+  const Positions x = nodes_of(run, 1);
+  double lowest = 1, highest = -1;
+  Vec3 center = Vec3::Zero();
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    const Vec3 X = upper.X.col(i);
+    center += upper.lumped_mass[i] / upper.lumped_mass.sum() * x.col(i);
+    const bool corner = std::min(std::abs(X.x()), std::abs(X.y())) > 0.499 * kUpper &&
+                        X.z() > kFall + 0.99 * kUpper;
+    if (!corner) continue;
+    lowest = std::min(lowest, x(2, i));
+    highest = std::max(highest, x(2, i));
+  }
+  EXPECT_GT(highest, kUpper - kFall);  // there are corners, and they are above the lower block
+  EXPECT_LT(highest - lowest, 1e-6);
+  EXPECT_LT(std::hypot(center.x(), center.y()), 1e-6);
+
+  const double weight = upper.lumped_mass.sum() * kGravity;
+  EXPECT_NEAR(run.stepper.dynamics().contacts()[0].force.norm(), weight, 1e-3 * weight);
+  double deepest = 0;  // now, not at the impact
+  for (const ContactSummary& contact : run.stepper.dynamics().contacts())
+    deepest = std::max(deepest, contact.max_depth);
+  EXPECT_LT(deepest, 0.01 * kUpper / GetParam().upper_cells);
+  EXPECT_GT(least_volume_ratio(run), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, DroppedBlock,
+                         testing::Values(Drop{4, 6, 5e-3, 2}, Drop{8, 10, 5e-3, 1}),
+                         [](const auto& drop) {
+                           return std::to_string(drop.param.upper_cells) + "And" +
+                                  std::to_string(drop.param.lower_cells) + "Cells";
+                         });
+
+// A rigid block of 1e5 times the mass of the pad that it lies on, which is squeezed by 4 MPa. The
+// pad is tied to the floor: without friction a light pad between a floor and a heavy block is
+// shot out sideways by the slightest tilt (rate F / √(K m), K the pad's stiffness against tilt).
+TEST(ContactAtRest, AHeavyBlockOnAPadComesToRestWithItsWeight) {
+  constexpr double kPad = 0.02, kHeight = 0.004, kRatio = 1e5;  // [m], [m], [-]
+  Scenario s = contact_scene(5e-3);
+  s.bodies = {
+      box_body("floor", Body::Kind::Fixed, {2 * kPad, 2 * kPad, kPad}, {0, 0, -kPad / 2},
+               {4, 4, 2}),
+      box_body("pad", Body::Kind::Tissue, {kPad, kPad, kHeight}, {0, 0, kHeight / 2}, {10, 10, 2}),
+      box_body("block", Body::Kind::Rigid, {1.5 * kPad, 1.5 * kPad, kPad},
+               {0, 0, kHeight + kPad / 2}, {4, 4, 2})};
+  s.bodies[1].material = material_of(fem::NeoHookean(40e6, 0.4));
+  const double pad_mass = 1000 * kPad * kPad * kHeight;
+  s.bodies[2].mass = kRatio * pad_mass;
+  s.attachments = {attach("pad", "floor", {-1, -1, -1}, {1, 1, 1e-9})};
+  s.loads = {gravity({0, 0, -kGravity})};
+  Simulation run(s);
+  double most_kinetic = 0;
+  run.advance(0.6, [&] { most_kinetic = std::max(most_kinetic, kinetic_energy(run)); });
+  EXPECT_LT(kinetic_energy(run), 1e-8 * most_kinetic);
+  const double weight = (kRatio + 1) * pad_mass * kGravity;
+  EXPECT_NEAR(run.force_on(bone_of(run, "floor")).z(), -weight, 1e-4 * weight);
+  EXPECT_LT(run.force_on(bone_of(run, "block")).norm(), 1e-4 * weight);  // its own weight included
+  EXPECT_GT(least_volume_ratio(run), 0.7);
+
+  // How far the pad is in the block's underside on average.
+  const Positions x = nodes_of(run, 0);
+  const Pose& block = run.now().poses[static_cast<std::size_t>(bone_of(run, "block"))];
+  const double underside = block.p.z() - kPad / 2;
+  double penetration = 0;
+  int nodes = 0;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    if (run.model.tissues[0].X(2, i) < kHeight - 1e-9) continue;
+    penetration += x(2, i) - underside;
+    ++nodes;
+  }
+  const double element = kHeight / 2;
+  EXPECT_GT(penetration, 0);  // they touch
+  EXPECT_LT(penetration / nodes, 0.01 * element);
+}
+
+}  // namespace
+}  // namespace articular::sim
