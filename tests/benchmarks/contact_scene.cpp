@@ -36,7 +36,10 @@ std::vector<double> graded(double end, double fine, double h, double growth) {
 
 Model scaled_model(const Scene& scene, const StudyOptions& options) {
   Model model = build_model(scene.scenario());
-  for (ContactModel& contact : model.contacts) contact.stiffness *= options.stiffness;
+  for (ContactModel& contact : model.contacts) {
+    contact.stiffness_a *= options.stiffness;
+    contact.stiffness_b *= options.stiffness;
+  }
   return model;
 }
 
