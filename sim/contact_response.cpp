@@ -63,8 +63,9 @@ ContactResponse::Sides ContactResponse::sides(std::size_t direction) const {
   const ContactModel& contact = model_.contacts[static_cast<std::size_t>(list.contact)];
   const Collider& a = *model_.bodies[static_cast<std::size_t>(contact.a)].collider;
   const Collider& b = *model_.bodies[static_cast<std::size_t>(contact.b)].collider;
-  if (list.reversed) return {b, a, contact.b, contact.a, contact.stiffness_b};
-  return {a, b, contact.a, contact.b, contact.stiffness_a};
+  if (list.reversed)
+    return {b, a, contact.b, contact.a, soft_ ? contact.soft_b : contact.stiffness_b};
+  return {a, b, contact.a, contact.b, soft_ ? contact.soft_a : contact.stiffness_a};
 }
 
 void ContactResponse::evaluate(const Configuration& configuration,

@@ -54,6 +54,8 @@ struct ContactSummary {
 class ContactResponse {
  public:
   explicit ContactResponse(const Model& model);
+  /// From the next evaluate() on, with the soft stiffness of the ContactModel.
+  void set_soft(bool soft) { soft_ = soft; }
 
   /// Depths and pressures of the candidates in a configuration; what follows is about it.
   void evaluate(const Configuration& configuration, const std::vector<CandidateList>& candidates);
@@ -84,6 +86,7 @@ class ContactResponse {
                           fem::BlockMatrix& A);
 
   const Model& model_;
+  bool soft_ = false;
   const std::vector<CandidateList>* candidates_ = nullptr;
   std::vector<DirectionMoment> directions_;  // one a candidate list
 

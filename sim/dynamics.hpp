@@ -34,6 +34,8 @@ class Dynamics {
   const std::vector<LineState>& lines() const { return lines_; }
   /// Whether any contact candidates are there.
   bool touches() const { return candidates_ != nullptr && contact_.has_patches(); }
+  /// From the next evaluate() on, see ContactResponse::set_soft().
+  void set_soft_contact(bool soft) { contact_.set_soft(soft); }
   const ContactResponse& contact() const { return contact_; }
   /// One a contact of the model.
   std::vector<ContactSummary> contacts() const {

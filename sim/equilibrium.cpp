@@ -66,6 +66,7 @@ class Equilibrium::Solver {
   static int assemble(N_Vector u, N_Vector, SUNMatrix, void* data, N_Vector, N_Vector);
   static int correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype);
   int run(double tolerance);
+  [[nodiscard]] bool balance(bool soft);
   void move(const Eigen::VectorXd& u, Eigen::VectorXd& y) const;
   /// r at u; kept, as KINSOL asks again for what the line search has seen.
   const Eigen::VectorXd& residual_at(const Eigen::VectorXd& u);
@@ -288,6 +289,30 @@ int Equilibrium::Solver::run(double tolerance) {
   return flag;
 }
 
+/// From where solution_ is. @param soft  contact is, and about balanced will do
+bool Equilibrium::Solver::balance(bool soft) {
+  constexpr double kAboutBalanced = 1e-3;
+  const double tolerance = soft ? kAboutBalanced : kBalanced;
+  dynamics_.set_soft_contact(soft);
+  known_ = false;
+  predicted_part_.reset();
+  residual_at(view(solution_));
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (!(dynamics_.largest_force() > 0)) break;  // nothing acts
+    const int flag = run(tolerance * dynamics_.largest_force());
+    const bool stuck = flag == KIN_STEP_LT_STPTOL && iterations.back().fraction < 1;
+    if (flag < 0 || stuck || !r_.allFinite()) {
+      dynamics_.set_soft_contact(false);
+      return false;
+    }
+    residual_at(view(solution_));
+    if (flag == KIN_STEP_LT_STPTOL) break;
+    if (largest(r_) <= 2 * tolerance * dynamics_.largest_force()) break;
+  }
+  dynamics_.set_soft_contact(false);
+  return true;
+}
+
 bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
   predicted_part_.reset();
   start_ = y;
@@ -302,17 +327,11 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
     return true;
   }
   residual_at(view(solution_));
-  for (int round = 0; round < kMostRounds; ++round) {
-    if (!(dynamics_.largest_force() > 0)) break;  // nothing acts
-    const int flag = run(kBalanced * dynamics_.largest_force());
-    const bool stuck = flag == KIN_STEP_LT_STPTOL && iterations.back().fraction < 1;
-    if (flag < 0 || stuck || !r_.allFinite()) {
-      ++counts.rejected_newton;
-      return false;
-    }
-    residual_at(view(solution_));
-    if (flag == KIN_STEP_LT_STPTOL) break;
-    if (largest(r_) <= 2 * kBalanced * dynamics_.largest_force()) break;
+  // Contact that is as stiff as it should be throws what is far from equilibrium back and forth.
+  if (dynamics_.touches() && !balance(true)) view(solution_).setZero();
+  if (!balance(false)) {
+    ++counts.rejected_newton;
+    return false;
   }
   ++counts.steps;
   y = y_;

@@ -21,6 +21,8 @@ namespace {
 /// Contact stiffness of a side is this times constrained modulus / element height: the mean
 /// penetration is then a thousandth of the element's own compression.
 constexpr double kContactFactor = 1000;
+/// How much softer the penalty is that an iteration from afar starts with.
+constexpr double kSoftStart = 100;
 /// How far in front of a face a triangle's depth counts in the averages, in heights of the elements
 /// at its surface: more than a facet's sagitta under a round bone.
 constexpr double kOpenDepth = 0.25;
@@ -264,7 +266,7 @@ class Builder {
     collider.mean_compliance =
         depth / (kContactFactor * constrained_modulus(kBoneModulus, kBonePoisson));
     if (body.layer)
-      collider.mean_compliance +=
+      collider.layer_compliance =
           body.layer->thickness /
           constrained_modulus(body.layer->young_modulus, body.layer->poisson_ratio);
     collider.compliance.setConstant(collider.X.cols(), collider.mean_compliance);
@@ -454,16 +456,21 @@ class Builder {
     contact.a = a;
     contact.b = b;
     contact.share = a == b ? 0.5 : 1;
-    contact.mean_stiffness = stiffness.value_or(1 / (A->mean_compliance + B->mean_compliance));
-    const auto at_nodes = [&](const Collider& side, const Collider& other) {
+    const double layers = A->layer_compliance + B->layer_compliance;
+    contact.mean_stiffness =
+        stiffness.value_or(1 / (A->mean_compliance + B->mean_compliance + layers));
+    const auto at_nodes = [&](const Collider& side, const Collider& other, double softer) {
       if (stiffness)
         return Eigen::VectorXd::Constant(side.X.cols(), contact.share * *stiffness).eval();
-      return (contact.share / (side.compliance.array() + other.mean_compliance)).matrix().eval();
+      return (contact.share /
+              (softer * (side.compliance.array() + other.mean_compliance) + layers))
+          .matrix()
+          .eval();
     };
-    if (a == b || averages_first(a, b, *A, *B))
-      contact.stiffness_a = at_nodes(*A, *B);
-    else
-      contact.stiffness_b = at_nodes(*B, *A);
+    const bool first = a == b || averages_first(a, b, *A, *B);
+    const Collider &side = first ? *A : *B, &other = first ? *B : *A;
+    (first ? contact.stiffness_a : contact.stiffness_b) = at_nodes(side, other, 1);
+    (first ? contact.soft_a : contact.soft_b) = at_nodes(side, other, kSoftStart);
     model_.contacts.push_back(std::move(contact));
   }
 

@@ -45,8 +45,9 @@ struct Collider {
   std::vector<NodeRef> nodes;             // what moves each node
   std::vector<double> face_area;          // at the start [m²]
   std::vector<int> nearby_begin, nearby;  // per tetrahedron: faces around it
-  Eigen::VectorXd compliance;             // of this side in contact, at each node [m/Pa]
-  double mean_compliance = 0;             // of its surface [m/Pa]
+  Eigen::VectorXd compliance;             // by penalty, at each node [m/Pa]
+  double mean_compliance = 0;             // by penalty, of its surface [m/Pa]
+  double layer_compliance = 0;            // of the layer on it [m/Pa]
   double reach = 0;                       // [m] depth up to which a crossed face is found
   double open_depth = 0;   // [m] how far in front of a face this side's surface counts
   double size = 0;         // [m] mean height of the elements at the surface
@@ -113,6 +114,8 @@ struct ContactModel {
   int a = 0, b = 0;  // bodies; a == b: with itself
   // At the nodes of the side whose nodes depths are averaged at, times `share` [Pa/m]; else empty.
   Eigen::VectorXd stiffness_a, stiffness_b;
+  // What an iteration that comes from afar starts with, of the same sizes: softer.
+  Eigen::VectorXd soft_a, soft_b;
   double mean_stiffness = 0;  // of the two sides in series [Pa/m]
   double share = 1;           // ½ for a body with itself: each of two folds meets the other
 };
