@@ -110,7 +110,7 @@ void ContactResponse::find_patches(std::size_t d, const Configuration& configura
     faces_.resize(side.faces.face_area.size());
     met_.resize(side.faces.face_area.size(), 0);
   }
-  const DepthRange range{side.triangles.open_depth, side.faces.reach};
+  const DepthRange range = depth_range(side.triangles, side.faces);
   const std::vector<ContactCandidate>& pairs = (*candidates_)[d].pairs;
   for (std::size_t first = 0; first < pairs.size();) {  // they come sorted by triangle
     const int triangle = pairs[first].triangle;

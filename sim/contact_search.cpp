@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "sim/contact_patch.hpp"
 
 namespace articular::sim {
 namespace {
@@ -27,13 +26,14 @@ bool apart(const Extent& a, const Extent& b, double distance) {
 }
 
 /// The face F can't come to lie opposite the triangle s by motion over a distance: it is farther
-/// than `open` in front of it, deeper behind it than `reach`, or beside it when seen along the
+/// in front of it or deeper behind it than the range goes, or beside it when seen along the
 /// triangle's normal.
-bool cannot_meet(const FacePlace& s, const FacePlace& F, double open, double reach,
+bool cannot_meet(const FacePlace& s, const FacePlace& F, const DepthRange& range,
                  double distance) {
   const double plane = s.normal.dot(s.corners.col(0));
   const Extent height = extent(F.corners, s.normal);
-  if (height.low - plane > open + distance || plane - height.high > reach + distance) return true;
+  if (height.low - plane > range.open + distance ||
+      plane - height.high > range.reach + distance) return true;
   for (int k = 0; k < 3; ++k)
     if (apart(s.along[static_cast<std::size_t>(k)], extent(F.corners, s.sides.col(k)), distance))
       return true;
@@ -73,6 +73,10 @@ void drop_far_faces(const std::vector<collision::Penetration>& faces_in_triangle
 }
 
 }  // namespace
+
+DepthRange depth_range(const Collider& triangles, const Collider& faces) {
+  return {triangles.open_depth, std::min(2 * triangles.reach, faces.reach)};
+}
 
 ContactSearch::ContactSearch(const Model& model)
     : model_(model), moving_of_body_(model.bodies.size(), -1) {
@@ -191,6 +195,7 @@ void ContactSearch::collect(const std::vector<collision::Penetration>& found, co
                             const Moving& b, double margin, std::vector<ContactCandidate>& pairs) {
   const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
   const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
+  const DepthRange range = depth_range(A, B);
   std::fill(seen_.begin(), seen_.end(), -1);
   for (const collision::Penetration& p : found) {
     const FacePlace& s = a.faces[static_cast<std::size_t>(p.face)];
@@ -203,7 +208,7 @@ void ContactSearch::collect(const std::vector<collision::Penetration>& found, co
       const FacePlace& face = b.faces[static_cast<std::size_t>(f)];
       // Not yet facing, but it may turn until the step's end.
       if (s.normal.dot(face.normal) > -0.5 * kFacingNone) continue;
-      if (cannot_meet(s, face, A.open_depth, B.reach, margin)) continue;
+      if (cannot_meet(s, face, range, margin)) continue;
       if (tied(A, p.face, B, f)) continue;
       pairs.push_back({p.face, f});
     }

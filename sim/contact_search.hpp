@@ -6,6 +6,7 @@
 
 #include "collision/block_collide.hpp"
 #include "sim/configuration.hpp"
+#include "sim/contact_patch.hpp"
 
 /// Who may touch whom during the next step: from the BlockTrees' penetrations with a margin to
 /// pairs of a surface triangle and a facing face of the other body.
@@ -22,6 +23,10 @@ struct CandidateList {
   bool reversed = false;  // the triangles are b's
   std::vector<ContactCandidate> pairs;
 };
+
+/// The depths of a side's triangles behind another's faces that count. Deeper than an element of
+/// either side it was not this face that was crossed.
+DepthRange depth_range(const Collider& triangles, const Collider& faces);
 
 struct SearchCounts {
   std::int64_t tree_updates = 0;

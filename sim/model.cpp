@@ -18,11 +18,11 @@
 namespace articular::sim {
 namespace {
 
-/// Contact stiffness of a side is this times constrained modulus / element height: the mean
-/// penetration is then a thousandth of the element's own compression.
-constexpr double kContactFactor = 1000;
-/// How much softer the penalty is that an iteration from afar starts with.
-constexpr double kSoftStart = 100;
+/// Contact stiffness of a side is this times constrained modulus / element height. Statics ends at a
+/// thousand, where forces no longer depend on it, and begins softer: from afar a stiff iteration is
+/// thrown back and forth. In time, where Newton's iteration ends by how far things still move, a
+/// stiffer contact would turn that into noise of its forces.
+constexpr double kStaticFactor = 1000, kSoftFactor = 10, kDynamicFactor = 30;
 /// How far in front of a face a triangle's depth counts in the averages, in heights of the elements
 /// at its surface: more than a facet's sagitta under a round bone.
 constexpr double kOpenDepth = 0.25;
@@ -218,6 +218,10 @@ class Builder {
     }
   }
 
+  double contact_factor() const {
+    return scenario().analysis == Scenario::Analysis::Static ? kStaticFactor : kDynamicFactor;
+  }
+
   Collider tissue_collider(std::size_t b) const {
     const Tissue& tissue = model_.tissues[static_cast<std::size_t>(model_.bodies[b].tissue)];
     const Material& material = *scenario().bodies[b].material;
@@ -226,7 +230,7 @@ class Builder {
     collider.tets = tissue.elements.tets();
     collider.nodes = tissue.nodes;
     complete_collider(collider, {});
-    const double compliance = 1 / (kContactFactor * constrained_modulus(material));
+    const double compliance = 1 / (contact_factor() * constrained_modulus(material));
     collider.compliance = compliance * collider.height;
     collider.mean_compliance = compliance * collider.size;
     collider.reach = kTissueReach * collider.size;
@@ -264,7 +268,7 @@ class Builder {
           {bone.block, model_.bodies[b].bone, collider.X.col(i) - bone.rest.p});
     collider.open_depth = kOpenDepth * depth;
     collider.mean_compliance =
-        depth / (kContactFactor * constrained_modulus(kBoneModulus, kBonePoisson));
+        depth / (contact_factor() * constrained_modulus(kBoneModulus, kBonePoisson));
     if (body.layer)
       collider.layer_compliance =
           body.layer->thickness /
@@ -470,7 +474,7 @@ class Builder {
     const bool first = a == b || averages_first(a, b, *A, *B);
     const Collider &side = first ? *A : *B, &other = first ? *B : *A;
     (first ? contact.stiffness_a : contact.stiffness_b) = at_nodes(side, other, 1);
-    (first ? contact.soft_a : contact.soft_b) = at_nodes(side, other, kSoftStart);
+    (first ? contact.soft_a : contact.soft_b) = at_nodes(side, other, contact_factor() / kSoftFactor);
     model_.contacts.push_back(std::move(contact));
   }
 
