@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace articular::sim {
 
@@ -38,12 +39,18 @@ Mat3 corners(const Configuration& configuration, const Collider& collider, int f
   return x;
 }
 
+/// Pressures at the nodes of a patch's triangle [Pa].
+Vec3 nodal_pressures(const DirectionMoment& direction, const DirectionMoment::Patch& entry,
+                     const Eigen::Matrix3Xi& faces) {
+  Vec3 p;
+  for (int i = 0; i < 3; ++i) p[i] = direction.pressure[faces(i, entry.triangle)];
+  return p;
+}
+
 /// ∂E over a patch's six nodes.
 Vec18 energy_gradient(const DirectionMoment& direction, const DirectionMoment::Patch& entry,
                       const Eigen::Matrix3Xi& faces) {
-  Vec3 p;
-  for (int i = 0; i < 3; ++i) p[i] = direction.pressure[faces(i, entry.triangle)];
-  return patch_gradient(entry.patch, p);
+  return patch_gradient(entry.patch, nodal_pressures(direction, entry, faces));
 }
 
 bool carries(const DirectionMoment& direction, int triangle, const Eigen::Matrix3Xi& faces) {
@@ -192,7 +199,7 @@ std::vector<Positions> ContactResponse::nodal_forces() const {
 
 std::vector<ContactSummary> ContactResponse::summaries(const Configuration& configuration) const {
   std::vector<ContactSummary> result(model_.contacts.size());
-  std::vector<double> weight(result.size(), 0);           // Σ p W
+  std::vector<double> weight(result.size(), 0);           // ∫ p dA
   std::vector<Vec3> moment(result.size(), Vec3::Zero());  // about the origin
   for (std::size_t d = 0; d < directions_.size(); ++d) {
     const DirectionMoment& direction = directions_[d];
@@ -204,8 +211,6 @@ std::vector<ContactSummary> ContactResponse::summaries(const Configuration& conf
       if (!(direction.pressure[node] > 0)) continue;
       const Vec3 x = configuration.position(side.triangles.nodes[static_cast<std::size_t>(node)]);
       const double p = direction.pressure[node], W = direction.area[node];
-      weight[c] += p * W;
-      sum.center += p * W * x;
       sum.area += W * model_.contacts[c].share;
       sum.max_pressure = std::max(sum.max_pressure, p / model_.contacts[c].share);
       sum.energy += 0.5 * p * direction.depth[node] * direction.measure[node];
@@ -218,6 +223,9 @@ std::vector<ContactSummary> ContactResponse::summaries(const Configuration& conf
       const auto& triangles = side.triangles.surface.faces;
       if (!carries(direction, entry.triangle, triangles)) continue;
       sum.max_point_depth = std::max(sum.max_point_depth, entry.patch.depth_max);
+      const Vec3 q = entry.patch.Q * nodal_pressures(direction, entry, triangles);
+      weight[c] += q.sum();
+      sum.center += corners(configuration, side.triangles, entry.triangle) * q;
       if (side.triangle_body == side.face_body) continue;
       const Vec18 g = energy_gradient(direction, entry, triangles);
       for (int i = 0; i < 3; ++i) {
@@ -233,6 +241,97 @@ std::vector<ContactSummary> ContactResponse::summaries(const Configuration& conf
     if (weight[c] > 0) result[c].center /= weight[c];
     result[c].moment = moment[c] - result[c].center.cross(result[c].force);
   }
+  return result;
+}
+
+namespace {
+
+/// Sums over the patches at the nodes and faces of a body.
+struct SurfaceSums {
+  Eigen::VectorXd node_force, node_area;            // ∫ N p dA [N], ∫ N dA [m²]
+  Eigen::VectorXd face_force, face_gap, face_area;  // [N], [m³], [m²]
+};
+
+/// Of one patch, with N at the triangle's nodes and β at the face's.
+void add_nodes(const DirectionMoment::Patch& entry, const Vec3& p, double share,
+               const Collider& triangles, const Collider& faces, SurfaceSums& of_triangles,
+               SurfaceSums& of_faces) {
+  const Vec3 area = nodal_areas(entry.patch);
+  const Vec3 reaction = entry.patch.beta * entry.patch.Q * p, opposite = entry.patch.beta * area;
+  for (int i = 0; i < 3; ++i) {
+    const int node = triangles.surface.faces(i, entry.triangle);
+    of_triangles.node_force[node] += p[i] * area[i];  // gives p[i] back where all is one contact's
+    of_triangles.node_area[node] += share * area[i];
+    const int other = faces.surface.faces(i, entry.face);
+    of_faces.node_force[other] += reaction[i];
+    of_faces.node_area[other] += share * opposite[i];
+  }
+}
+
+void add_faces(const DirectionMoment::Patch& entry, const Vec3& p, SurfaceSums& of_triangles,
+               SurfaceSums& of_faces) {
+  const double force = (entry.patch.Q * p).sum(), gap = -depth_integrals(entry.patch).sum();
+  const auto add = [&](int face, double normal_force, SurfaceSums& sums) {
+    sums.face_force[face] += normal_force;
+    sums.face_gap[face] += gap;
+    sums.face_area[face] += entry.patch.area;
+  };
+  add(entry.triangle, force, of_triangles);
+  add(entry.face, force / -entry.patch.cosine, of_faces);  // what acts is along the face's normal
+}
+
+SurfaceSums no_sums(const Collider& collider) {
+  const Eigen::VectorXd nodes = Eigen::VectorXd::Zero(collider.X.cols());
+  const Eigen::VectorXd faces = Eigen::VectorXd::Zero(collider.surface.faces.cols());
+  return {nodes, nodes, faces, faces, faces};
+}
+
+SurfaceContact means(const SurfaceSums& sums, const Collider& collider,
+                     const Configuration& configuration) {
+  // Of a face: where less than this lies opposite, it does so by round-off, and means are noise.
+  constexpr double kLeastPart = 1e-9;
+  double largest = 0;
+  Eigen::VectorXd area_now(sums.face_area.size());
+  for (Eigen::Index f = 0; f < area_now.size(); ++f) {
+    largest = std::max(largest, collider.face_area[static_cast<std::size_t>(f)]);
+    const int face = static_cast<int>(f);
+    area_now[f] = 0.5 * flat_triangle(corners(configuration, collider, face)).twice_area;
+  }
+  const auto mean = [least = kLeastPart * largest](const Eigen::VectorXd& sum,
+                                                   const Eigen::VectorXd& area, double nothing) {
+    return Eigen::VectorXd((area.array() > least).select(sum.array() / area.array(), nothing));
+  };
+  return {mean(sums.node_force, sums.node_area, 0), mean(sums.face_force, area_now, 0),
+          mean(sums.face_gap, sums.face_area, std::numeric_limits<double>::quiet_NaN())};
+}
+
+}  // namespace
+
+std::vector<SurfaceContact> ContactResponse::surface_contacts(
+    const Configuration& configuration) const {
+  std::vector<SurfaceSums> sums(model_.bodies.size());
+  for (std::size_t b = 0; b < sums.size(); ++b)
+    if (model_.bodies[b].collider) sums[b] = no_sums(*model_.bodies[b].collider);
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    const Sides side = sides(d);
+    const double share = model_.contacts[static_cast<std::size_t>((*candidates_)[d].contact)].share;
+    SurfaceSums& of_triangles = sums[static_cast<std::size_t>(side.triangle_body)];
+    SurfaceSums& of_faces = sums[static_cast<std::size_t>(side.face_body)];
+    const auto& triangles = side.triangles.surface.faces;
+    for (const DirectionMoment::Patch& entry : directions_[d].patches()) {
+      const Vec3 p = nodal_pressures(directions_[d], entry, triangles);
+      add_faces(entry, p, of_triangles, of_faces);
+      // What is near, but carries nothing, must not thin out another contact at the same node. Of a
+      // body with itself both directions count, or half the pressure would stand for all of it.
+      if (carries(directions_[d], entry.triangle, triangles) ||
+          side.triangle_body == side.face_body)
+        add_nodes(entry, p, share, side.triangles, side.faces, of_triangles, of_faces);
+    }
+  }
+  std::vector<SurfaceContact> result(sums.size());
+  for (std::size_t b = 0; b < sums.size(); ++b)
+    if (model_.bodies[b].collider)
+      result[b] = means(sums[b], *model_.bodies[b].collider, configuration);
   return result;
 }
 

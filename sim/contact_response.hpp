@@ -41,7 +41,7 @@ struct DirectionMoment {
 /// What one contact pair carries; force and moment on body a, of a body with itself none.
 struct ContactSummary {
   Vec3 force = Vec3::Zero();    // [N]
-  Vec3 center = Vec3::Zero();   // centre of pressure [m]; where nothing touches, the origin
+  Vec3 center = Vec3::Zero();   // ∫ p x dA / ∫ p dA [m]; where nothing carries, the origin
   Vec3 moment = Vec3::Zero();   // about that centre [N m]
   double area = 0;              // [m²] rest area of the nodes that carry
   double max_pressure = 0;      // [Pa] at a node
@@ -49,6 +49,15 @@ struct ContactSummary {
   Vec3 deepest = Vec3::Zero();  // that node [m]
   double max_point_depth = 0;   // [m] of any point: facets can't follow a curve
   double energy = 0;            // [J]
+};
+
+/// What contact with all others puts on the surface of one body.
+struct SurfaceContact {
+  Eigen::VectorXd node_pressure;  // [Pa] mean of p around a node over what lies opposite another
+                                  // surface: at nodes that depths are averaged at, their p
+  Eigen::VectorXd face_pressure;  // [Pa] normal force through a face over its area now
+  Eigen::VectorXd face_gap;       // [m] mean over what lies opposite another surface, < 0 in
+                                  // penetration; NaN where nothing does within the open depth
 };
 
 class ContactResponse {
@@ -76,6 +85,8 @@ class ContactResponse {
   std::vector<ContactSummary> summaries(const Configuration& configuration) const;
   /// Contact force at each node of each collider [N] (by body), for output.
   std::vector<Positions> nodal_forces() const;
+  /// By body, over the nodes and faces of its collider; empty without one. For output.
+  std::vector<SurfaceContact> surface_contacts(const Configuration& configuration) const;
 
  private:
   struct Sides;

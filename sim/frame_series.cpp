@@ -55,7 +55,13 @@ std::optional<int> index_in_name(const std::string& file) {
   return parse_integer(std::string_view(stem).substr(underscore + 1));
 }
 
+constexpr const char* kContactSurface = ":contact";  // bodies' names have no colon
+
 }  // namespace
+
+std::string contact_surface_part(const std::string& body) { return body + kContactSurface; }
+
+bool is_contact_surface(const SeriesEntry& entry) { return entry.part.ends_with(kContactSurface); }
 
 std::vector<SeriesEntry> read_series(const std::filesystem::path& pvd) {
   const std::string name = pvd.string();

@@ -10,9 +10,13 @@ namespace articular::sim {
 struct SeriesEntry {
   double time;       // [s]
   int index;         // frame number; as in the file's name, or later for a part that stands still
-  std::string part;  // name of the body, or "lines"
+  std::string part;  // name of the body, "lines", or contact_surface_part(body)
   std::string file;  // relative to the folder of the .pvd
 };
+
+/// What the contact surface of a body is called in a .pvd; no body is called like that.
+std::string contact_surface_part(const std::string& body);
+bool is_contact_surface(const SeriesEntry& entry);
 
 /// The entries of a .pvd in its order. @throws InputError when it is missing or not understood
 std::vector<SeriesEntry> read_series(const std::filesystem::path& pvd);

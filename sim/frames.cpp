@@ -1,39 +1,46 @@
 #include "sim/frames.hpp"
 
+#include <algorithm>
+
 #include "fem/von_mises.hpp"
 
 namespace articular::sim {
 namespace {
 
-/// Area of the collider's outer surface that belongs to each node [m²].
-Eigen::VectorXd nodal_area(const Collider& collider) {
-  Eigen::VectorXd area = Eigen::VectorXd::Zero(collider.X.cols());
-  for (std::size_t f = 0; f < collider.face_area.size(); ++f)
-    for (int k = 0; k < 3; ++k)
-      area[collider.surface.faces(k, static_cast<Eigen::Index>(f))] += collider.face_area[f] / 3;
-  return area;
+/// What contact puts on all bodies' surfaces, each by body.
+struct Contacts {
+  std::vector<Positions> forces;  // at the nodes of colliders [N]
+  std::vector<SurfaceContact> surfaces;
+};
+
+/// At the first nodes of a body's collider.
+std::vector<Field> contact_point_fields(const Contacts& contacts, std::size_t body,
+                                        Eigen::Index num_nodes) {
+  return {{"contact_force", "N", contacts.forces[body].leftCols(num_nodes)},
+          {"contact_pressure", "Pa",
+           contacts.surfaces[body].node_pressure.head(num_nodes).transpose()}};
+}
+
+void append(std::vector<Field> more, std::vector<Field>& fields) {
+  for (Field& field : more) fields.push_back(std::move(field));
 }
 
 std::vector<Field> tissue_point_fields(const Model& model, const Tissue& tissue,
                                        const Configuration& now, const Positions& x,
-                                       const Positions& contact_force) {
+                                       const Contacts& contacts) {
   const auto num_nodes = x.cols();
   Eigen::MatrixXd velocity(3, num_nodes);
   for (Eigen::Index i = 0; i < num_nodes; ++i)
     velocity.col(i) = now.velocity(tissue.nodes[static_cast<std::size_t>(i)]);
-  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3, num_nodes);
-  Eigen::MatrixXd pressure = Eigen::MatrixXd::Zero(1, num_nodes);
-  const auto& collider = model.bodies[static_cast<std::size_t>(tissue.body)].collider;
-  if (collider && contact_force.cols() == num_nodes) {
-    force = contact_force;
-    const Eigen::VectorXd area = nodal_area(*collider);
-    for (Eigen::Index i = 0; i < num_nodes; ++i)
-      if (area[i] > 0) pressure(0, i) = force.col(i).norm() / area[i];
-  }
-  return {{"displacement", "m", x - tissue.X},
-          {"velocity", "m/s", velocity},
-          {"contact_force", "N", force},
-          {"contact_pressure", "Pa", pressure}};
+  std::vector<Field> fields = {{"displacement", "m", x - tissue.X}, {"velocity", "m/s", velocity}};
+  const auto body = static_cast<std::size_t>(tissue.body);
+  if (model.bodies[body].collider)
+    append(contact_point_fields(contacts, body, num_nodes), fields);
+  else  // pictures of scenes without contact have the same arrays
+    append({{"contact_force", "N", Eigen::MatrixXd::Zero(3, num_nodes)},
+            {"contact_pressure", "Pa", Eigen::MatrixXd::Zero(1, num_nodes)}},
+           fields);
+  return fields;
 }
 
 /// @param lags  of the tissue's relaxation
@@ -53,13 +60,25 @@ std::vector<Field> tissue_cell_fields(const Tissue& tissue, const Positions& x,
   return fields;
 }
 
-/// A fixed bone is written once.
-bool stands_still(const Bone& bone) { return !bone.unknown && !bone.motion; }
+bool can_touch(const Model& model, int body) {
+  return std::any_of(
+      model.contacts.begin(), model.contacts.end(),
+      [&](const ContactModel& contact) { return contact.a == body || contact.b == body; });
+}
 
-void write_bone(const Model& model, const Configuration& now, const BodyModel& body, int index,
-                double time, FrameWriter& writer) {
+/// The drawn mesh of a bone is also what touches: its nodes are the collider's first ones.
+bool draws_contact_surface(const Model& model, int body) {
+  return can_touch(model, body) &&
+         model.scenario.bodies[static_cast<std::size_t>(body)].contact_meshes.empty();
+}
+
+void write_bone(const Model& model, const Configuration& now, int body_index,
+                const Contacts& contacts, int index, double time, FrameWriter& writer) {
+  const BodyModel& body = model.bodies[static_cast<std::size_t>(body_index)];
   const auto b = static_cast<std::size_t>(body.bone);
-  if (index > 0 && stands_still(model.bones[b])) {
+  const bool shows_contact = draws_contact_surface(model, body_index);
+  const bool stands_still = !model.bones[b].unknown && !model.bones[b].motion;
+  if (index > 0 && stands_still && !shows_contact) {
     writer.repeat_bone(body.name, 0, index, time);
     return;
   }
@@ -70,12 +89,26 @@ void write_bone(const Model& model, const Configuration& now, const BodyModel& b
   Eigen::MatrixXd v(3, x.cols());
   for (Eigen::Index i = 0; i < x.cols(); ++i)
     v.col(i) = velocity.linear + velocity.angular.cross(x.col(i) - pose.p);
-  writer.write_bone({body.name,
-                     x,
-                     body.triangles,
-                     {{"displacement", "m", x - start}, {"velocity", "m/s", v}},
-                     {}},
-                    index, time);
+  std::vector<Field> fields = {{"displacement", "m", x - start}, {"velocity", "m/s", v}};
+  if (shows_contact)
+    append(contact_point_fields(contacts, static_cast<std::size_t>(body_index), x.cols()), fields);
+  writer.write_bone({body.name, x, body.triangles, std::move(fields), {}}, index, time);
+}
+
+void write_contact_surface(const Model& model, const Configuration& now, int body_index,
+                           const Contacts& contacts, int index, double time, FrameWriter& writer) {
+  const auto b = static_cast<std::size_t>(body_index);
+  const Collider& collider = *model.bodies[b].collider;
+  const SurfaceContact& surface = contacts.surfaces[b];
+  Positions x;
+  positions_of(now, collider.nodes, x);
+  writer.write_contact_surface({model.bodies[b].name,
+                                x,
+                                collider.surface.faces,
+                                contact_point_fields(contacts, b, x.cols()),
+                                {{"contact_pressure", "Pa", surface.face_pressure.transpose()},
+                                 {"contact_gap", "m", surface.face_gap.transpose()}}},
+                               index, time);
 }
 
 void write_lines(const Model& model, const Stepper& stepper, int index, double time,
@@ -110,21 +143,25 @@ void write_lines(const Model& model, const Stepper& stepper, int index, double t
 void write_frame(const Model& model, const Stepper& stepper, int index, double time,
                  FrameWriter& writer) {
   const Configuration& now = stepper.dynamics().configuration();
-  const std::vector<Positions> contact_forces = stepper.contact_forces();
-  for (const BodyModel& body : model.bodies) {
+  const ContactResponse& contact = stepper.dynamics().contact();
+  const Contacts contacts{contact.nodal_forces(), contact.surface_contacts(now)};
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyModel& body = model.bodies[b];
+    const int body_index = static_cast<int>(b);
     if (body.tissue >= 0) {
       const Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
       Positions x;
       positions_of(now, tissue.nodes, x);
       writer.write_tissue(
           {body.name, x, tissue.elements.tets(),
-           tissue_point_fields(model, tissue, now, x,
-                               contact_forces[static_cast<std::size_t>(tissue.body)]),
+           tissue_point_fields(model, tissue, now, x, contacts),
            tissue_cell_fields(tissue, x, now, stepper.dynamics().lags(body.tissue))},
           index, time);
     } else if (body.X.cols() > 0) {
-      write_bone(model, now, body, index, time, writer);
+      write_bone(model, now, body_index, contacts, index, time, writer);
     }
+    if (model.scenario.output.contact_surfaces && can_touch(model, body_index))
+      write_contact_surface(model, now, body_index, contacts, index, time, writer);
   }
   if (!model.lines.empty()) write_lines(model, stepper, index, time, writer);
   writer.finish_frame(index, time);

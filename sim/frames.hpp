@@ -5,7 +5,8 @@
 
 namespace articular::sim {
 
-/// Writes one frame: every tissue, bone and the lines, with the arrays that the README names.
+/// Writes one frame: every tissue, bone and the lines, and where the scenario asks for them the
+/// surfaces that bodies touch with, with the arrays that the README names.
 void write_frame(const Model& model, const Stepper& stepper, int index, double time,
                  FrameWriter& writer);
 

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 
 #include "sim/convergence.hpp"
@@ -31,9 +32,13 @@ std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model)
       return {scalar("angle", "deg")};
     case Probe::Kind::Contact: {
       auto names = vector("force", "N");
+      for (auto& name : vector("moment", "N m")) names.push_back(name);
+      for (auto& name : vector("center", length)) names.push_back(name);
       names.push_back(scalar("area", length + "^2"));
       names.push_back(scalar("max_pressure", "Pa"));
       names.push_back(scalar("max_penetration", length));
+      for (auto& name : vector("max_penetration_at", length)) names.push_back(name);
+      names.push_back(scalar("max_point_penetration", length));
       return names;
     }
     case Probe::Kind::Line: {
@@ -60,6 +65,22 @@ std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model)
   return {};
 }
 
+/// What the pair of a contact probe carries, with force and moment on the first body named.
+ContactSummary summary_of(const ProbeModel& probe, const Model& model, const Stepper& stepper) {
+  const std::vector<ContactSummary> contacts = stepper.dynamics().contacts();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const ContactModel& contact = model.contacts[c];
+    if (contact.a == probe.body && contact.b == probe.other) return contacts[c];
+    if (contact.b == probe.body && contact.a == probe.other) {
+      ContactSummary swapped = contacts[c];
+      swapped.force *= -1;
+      swapped.moment *= -1;
+      return swapped;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 History::History(const Model& model) : model_(model), columns_{"time [s]"} {
@@ -71,8 +92,10 @@ void History::record(const State& state, const Stepper& stepper) {
   values_.assign(1, state.t);
   for (const ProbeModel& probe : model_.probes) append(probe, state, stepper);
   fmt::format_to(std::back_inserter(rows_), "{:.12g}", state.t);
-  for (std::size_t i = 1; i < values_.size(); ++i)
-    fmt::format_to(std::back_inserter(rows_), ",{:.9g}", values_[i]);
+  for (std::size_t i = 1; i < values_.size(); ++i) {
+    rows_ += ',';
+    if (!std::isnan(values_[i])) fmt::format_to(std::back_inserter(rows_), "{:.9g}", values_[i]);
+  }
   rows_ += '\n';
 }
 
@@ -91,21 +114,16 @@ void History::append(const ProbeModel& probe, const State& state, const Stepper&
       return;
     }
     case Probe::Kind::Contact: {
-      // Force on the first body named.
-      ContactSummary sum;
-      const auto& contacts = stepper.dynamics().contacts();
-      for (std::size_t c = 0; c < contacts.size(); ++c) {
-        const ContactModel& contact = model_.contacts[c];
-        const bool same = contact.a == probe.body && contact.b == probe.other;
-        const bool swapped = contact.b == probe.body && contact.a == probe.other;
-        if (same || swapped) {
-          sum = contacts[c];
-          if (!same) sum.force = -sum.force;
-        }
-      }
+      const ContactSummary sum = summary_of(probe, model_, stepper);
+      // Places where nothing is.
+      const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
       push(sum.force);
+      push(sum.moment);
+      push(sum.area > 0 ? Vec3(unit * sum.center) : nowhere);
       values_.insert(values_.end(),
                      {sum.area * unit * unit, sum.max_pressure, sum.max_depth * unit});
+      push(sum.area > 0 ? Vec3(unit * sum.deepest) : nowhere);
+      values_.push_back(sum.max_point_depth * unit);
       return;
     }
     case Probe::Kind::Line: {

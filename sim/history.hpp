@@ -7,7 +7,9 @@
 
 namespace articular::sim {
 
-/// history.csv: first column `time [s]`, then one column a probe value with its unit.
+/// history.csv: first column `time [s]`, then one column a probe value with its unit. A place where
+/// nothing is (NaN) is an empty cell: plots and spreadsheets leave a gap there, while a number
+/// would draw a line to it.
 class History {
  public:
   explicit History(const Model& model);

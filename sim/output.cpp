@@ -88,7 +88,7 @@ void FrameWriter::add_field(vtkPointSet& set, vtkDataSetAttributes& target,
                             const Field& field) const {
   double scale = 1;
   std::string unit = field.unit;
-  if (field.name == "displacement" && field.unit == "m") {
+  if ((field.name == "displacement" || field.name == "contact_gap") && field.unit == "m") {
     scale = 1 / length_unit_;
     unit = length_unit_name_;
   } else if (field.name == "velocity" && field.unit == "m/s") {
@@ -117,11 +117,11 @@ void FrameWriter::add_fields(vtkPointSet& set, const std::vector<Field>& point_f
   }
 }
 
-void FrameWriter::write_part(const std::string& part, const std::string& ending, vtkPointSet& set,
-                             int index, double time) {
-  if (part.empty() || part.find('/') != std::string::npos || part.front() == '.')
-    throw InputError("body name `" + part + "` can't be the name of a file");
-  const std::string file = std::string(kFrames) + "/" + frame_file_name(part, index, ending);
+void FrameWriter::write_part(const std::string& part, const std::string& name,
+                             const std::string& ending, vtkPointSet& set, int index, double time) {
+  if (name.empty() || name.find('/') != std::string::npos || name.front() == '.')
+    throw InputError("body name `" + name + "` can't be the name of a file");
+  const std::string file = std::string(kFrames) + "/" + frame_file_name(name, index, ending);
   assert(std::none_of(pending_.begin(), pending_.end(),
                       [&](const SeriesEntry& entry) { return entry.file == file; }));
   vtkNew<vtkDoubleArray> time_value;
@@ -136,18 +136,33 @@ void FrameWriter::write_part(const std::string& part, const std::string& ending,
 void FrameWriter::write_tissue(const TissueFrame& frame, int index, double time) {
   const auto set = make_grid(frame.x, length_unit_, frame.tets, Triangles(3, 0));
   add_fields(*set, frame.point_fields, frame.cell_fields);
-  write_part(frame.body, ".vtu", *set, index, time);
+  write_part(frame.body, frame.body, ".vtu", *set, index, time);
 }
 
 void FrameWriter::write_bone(const BoneFrame& frame, int index, double time) {
   const auto set = make_surface(frame.x, length_unit_, frame.triangles);
   add_fields(*set, frame.point_fields, frame.cell_fields);
-  write_part(frame.body, ".vtp", *set, index, time);
+  write_part(frame.body, frame.body, ".vtp", *set, index, time);
 }
 
 void FrameWriter::repeat_bone(const std::string& body, int first, int index, double time) {
   pending_.push_back(
       {time, index, body, std::string(kFrames) + "/" + frame_file_name(body, first, ".vtp")});
+}
+
+void FrameWriter::write_contact_surface(const ContactSurfaceFrame& frame, int index, double time) {
+  // Interior nodes have no place in a surface.
+  std::vector<int> kept(frame.faces.data(), frame.faces.data() + frame.faces.size());
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  const Triangles faces = frame.faces.unaryExpr([&](int node) {
+    return static_cast<int>(std::lower_bound(kept.begin(), kept.end(), node) - kept.begin());
+  });
+  std::vector<Field> point_fields = frame.point_fields;
+  for (Field& field : point_fields) field.values = field.values(Eigen::all, kept).eval();
+  const auto set = make_surface(frame.x(Eigen::all, kept), length_unit_, faces);
+  add_fields(*set, point_fields, frame.cell_fields);
+  write_part(contact_surface_part(frame.body), frame.body + "_contact", ".vtp", *set, index, time);
 }
 
 void FrameWriter::write_lines(const LinesFrame& frame, int index, double time) {
@@ -157,7 +172,7 @@ void FrameWriter::write_lines(const LinesFrame& frame, int index, double time) {
   for (const std::string& name : frame.names) names->InsertNextValue(name);
   set->GetCellData()->AddArray(names);
   add_fields(*set, {}, frame.cell_fields);
-  write_part("lines", ".vtp", *set, index, time);
+  write_part("lines", "lines", ".vtp", *set, index, time);
 }
 
 void FrameWriter::finish_frame(int index, double time) {

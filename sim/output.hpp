@@ -17,8 +17,8 @@ class vtkPointSet;
 namespace articular::sim {
 
 /// A named array over points or cells: `components` rows, one column a point or cell. A
-/// `displacement` in "m" and a `velocity` in "m/s" are written in the output's length unit, every
-/// other field as it is.
+/// `displacement` or `contact_gap` in "m" and a `velocity` in "m/s" are written in the output's
+/// length unit, every other field as it is.
 struct Field {
   std::string name;  // e.g. "contact_pressure"
   std::string unit;  // e.g. "Pa"; written as a field-data array "<name>.unit"
@@ -37,6 +37,14 @@ struct BoneFrame {
   const Positions& x;
   const Triangles& triangles;
   std::vector<Field> point_fields, cell_fields;
+};
+
+/// The surface that a body touches with.
+struct ContactSurfaceFrame {
+  std::string body;
+  const Positions& x;  // of all nodes of the collider; those on no face are left out
+  const Triangles& faces;
+  std::vector<Field> point_fields, cell_fields;  // over x and over the faces
 };
 
 /// Muscles and ligaments: each a polyline; one value a line in each cell field.
@@ -63,13 +71,16 @@ class FrameWriter {
   void write_bone(const BoneFrame& frame, int index, double time);
   /// A bone that stands still since frame `first`: that frame's file again.
   void repeat_bone(const std::string& body, int first, int index, double time);
+  /// As BODY_contact_000123.vtp.
+  void write_contact_surface(const ContactSurfaceFrame& frame, int index, double time);
   void write_lines(const LinesFrame& frame, int index, double time);
   /// All parts of this frame are there: publishes it in the .pvd.
   void finish_frame(int index, double time);
 
  private:
-  void write_part(const std::string& part, const std::string& ending, vtkPointSet& set, int index,
-                  double time);
+  /// @param part  its name in the .pvd  @param name  of the file, without number and ending
+  void write_part(const std::string& part, const std::string& name, const std::string& ending,
+                  vtkPointSet& set, int index, double time);
   std::filesystem::path series_file() const;
   void add_field(vtkPointSet& set, vtkDataSetAttributes& target, const Field& field) const;
   void add_fields(vtkPointSet& set, const std::vector<Field>& point_fields,

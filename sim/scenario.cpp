@@ -4,6 +4,20 @@
 #include "sim/toml_override.hpp"
 
 namespace articular::sim {
+namespace {
+
+/// frames/BODY_contact_000000.vtp must not be a body's own file.
+void check_names_of_contact_surfaces(const std::vector<Body>& bodies) {
+  for (const Body& body : bodies)
+    for (const Body& other : bodies)
+      if (other.name == body.name + "_contact")
+        throw InputError(other.where, fmt::format("body `{}` has the name of the contact surface "
+                                                  "of `{}` in the results; expected another name, "
+                                                  "or no output.contact_surfaces",
+                                                  other.name, body.name));
+}
+
+}  // namespace
 
 Scenario read_scenario(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides) {
@@ -19,6 +33,7 @@ Scenario read_scenario(const std::filesystem::path& file,
   const std::filesystem::path folder = file.parent_path();
   read_settings(document, scenario);
   scenario.bodies = read_bodies(document, folder);
+  if (scenario.output.contact_surfaces) check_names_of_contact_surfaces(scenario.bodies);
   if (scenario.analysis == Scenario::Analysis::Static)
     for (const Body& body : scenario.bodies)
       if (!body.velocity.isZero(0) || !body.angular_velocity.isZero(0))

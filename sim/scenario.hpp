@@ -257,6 +257,7 @@ struct Output {
   double length_unit = 1e-3;  // [m] per unit in the files
   std::string length_unit_name = "mm";
   std::optional<std::filesystem::path> directory;
+  bool contact_surfaces = false;  // a file of its own for the surface that each body touches with
   std::optional<double> checkpoint_interval;  // [s]; none = ten times the interval
 };
 

@@ -74,14 +74,16 @@ void read_detection(const Node& node, Detection& detection) {
 }
 
 void read_output(const Node& node, Output& output) {
-  const TableReader table(node, "[output]",
-                          {"interval", "length_unit", "directory", "checkpoint_interval"});
+  const TableReader table(
+      node, "[output]",
+      {"interval", "length_unit", "directory", "contact_surfaces", "checkpoint_interval"});
   table.may("interval", output.interval, as_quantity(kTime, kPositive));
   if (const Node* unit = table.find("length_unit")) {
     output.length_unit = read_choice<double>(*unit, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
     output.length_unit_name = *unit->text();
   }
   table.may("directory", output.directory, read_text);
+  table.may("contact_surfaces", output.contact_surfaces, read_boolean);
   table.may("checkpoint_interval", output.checkpoint_interval, as_quantity(kTime, kPositive));
 }
 
@@ -142,7 +144,9 @@ std::string settings_as_json(const Scenario& scenario) {
       {"margin_m", scenario.detection.margin},
       {"narrow_test",
        scenario.detection.narrow_test == collision::NarrowTest::Gjk ? "gjk" : "separating-axes"}};
-  json["output"] = {{"interval_s", output.interval}, {"length_unit", output.length_unit_name}};
+  json["output"] = {{"interval_s", output.interval},
+                    {"length_unit", output.length_unit_name},
+                    {"contact_surfaces", output.contact_surfaces}};
   if (output.directory) json["output"]["directory"] = output.directory->string();
   if (output.checkpoint_interval)
     json["output"]["checkpoint_interval_s"] = *output.checkpoint_interval;

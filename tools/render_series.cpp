@@ -142,6 +142,7 @@ Series open_series(const fs::path& run) {
   Series series{file.stem().string(), file.parent_path(), {}};
   std::map<int, FrameEntry> frames;
   for (sim::SeriesEntry& entry : sim::read_series(file)) {
+    if (sim::is_contact_surface(entry)) continue;  // its body is drawn
     FrameEntry& frame = frames[entry.index];
     frame.index = entry.index;
     frame.time = entry.time;

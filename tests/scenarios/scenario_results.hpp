@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -27,7 +28,8 @@ class ScenarioResults {
     while (std::getline(text, line)) {
       std::size_t column = 0;
       for (std::istringstream cells(line); std::getline(cells, cell, ',');)
-        columns_[names.at(column++)].push_back(std::stod(cell));
+        columns_[names.at(column++)].push_back(
+            cell.empty() ? std::numeric_limits<double>::quiet_NaN() : std::stod(cell));
     }
   }
 

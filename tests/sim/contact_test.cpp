@@ -41,28 +41,138 @@ Scenario press() {
   return s;
 }
 
-// Without lateral contraction the block and the contact are springs in series:
-// p = δ / (H/E + 1/k), uniform, because R7 passes the patch test.
-TEST(Contact, AUniformlyPressedBlockHasTheUniformPressureOfSpringsInSeries) {
-  Simulation run(press());
+/// What a run's probes say now, by the names of the columns.
+class Probes {
+ public:
+  explicit Probes(const Simulation& run) : history_(run.model) {
+    history_.record(run.state, run.stepper);
+  }
+  double operator()(const std::string& name) const {
+    const auto& names = history_.columns();
+    const auto column = std::find(names.begin(), names.end(), name) - names.begin();
+    return history_.last().at(static_cast<std::size_t>(column));
+  }
+  Vec3 vec3(const std::string& what, const std::string& unit) const {
+    const auto along = [&](const char* axis) {
+      return (*this)(what + "." + axis + " [" + unit + "]");
+    };
+    return {along("x"), along("y"), along("z")};
+  }
+
+ private:
+  History history_;
+};
+
+/// Pressure of a plate on the block, which without lateral contraction is uniform: block and
+/// contact are springs in series, p = δ / (H/E + 1/k).
+constexpr double kPressure = kPress / (kSide / kYoung + 1 / kStiffness);
+
+void press_to_rest(Simulation& run) {
   run.advance(0.2);
   run.advance(3);  // at rest to 1e-8 by implicit Euler's damping
-  History history(run.model);
-  history.record(run.state, run.stepper);
-  const std::vector<double>& row = history.last();
-  const double area = kSide * kSide, p = kPress / (kSide / kYoung + 1 / kStiffness);
-  ASSERT_EQ(row.size(), 1U + 6U + 6U);
-  EXPECT_NEAR(row[1], 0, 1e-6 * p * area);
-  EXPECT_NEAR(row[2], 0, 1e-6 * p * area);
-  EXPECT_NEAR(row[3], -p * area, 1e-6 * p * area);     // force on the block, named first
-  EXPECT_NEAR(row[4], area * 1e6, 1e-6 * area * 1e6);  // [mm²]
-  EXPECT_NEAR(row[5], p, 1e-6 * p);
-  EXPECT_NEAR(row[6], 1e3 * p / kStiffness, 1e-6 * 1e3 * p / kStiffness);  // [mm]
-  EXPECT_NEAR(row[9], p * area, 1e-6 * p * area);                          // reaction on the plate
+}
+
+TEST(Contact, AUniformlyPressedBlockHasTheUniformPressureOfSpringsInSeries) {
+  Simulation run(press());
+  press_to_rest(run);
+  const Probes probes(run);
+  const double area = kSide * kSide, p = kPressure, force = p * area;
+  const Vec3 on_block(0, 0, -force);  // named first
+  EXPECT_LT((probes.vec3("pressed.force", "N") - on_block).norm(), 1e-6 * force);
+  EXPECT_LT(probes.vec3("pressed.moment", "N m").norm(), 1e-6 * force * kSide);
+  const Vec3 middle(0, 0, kSide / 2 - p * kSide / kYoung);
+  EXPECT_LT((probes.vec3("pressed.center", "mm") - 1e3 * middle).norm(), 1e3 * 1e-6 * kSide);
+  EXPECT_NEAR(probes("pressed.area [mm^2]"), area * 1e6, 1e-6 * area * 1e6);
+  EXPECT_NEAR(probes("pressed.max_pressure [Pa]"), p, 1e-6 * p);
+  const double depth = 1e3 * p / kStiffness;  // [mm]
+  EXPECT_NEAR(probes("pressed.max_penetration [mm]"), depth, 1e-6 * depth);
+  EXPECT_NEAR(probes("pressed.max_penetration_at.z [mm]"), 1e3 * middle.z(), 1e3 * 1e-6 * kSide);
+  EXPECT_NEAR(probes("pressed.max_point_penetration [mm]"), depth, 1e-6 * depth);
+  EXPECT_NEAR(probes("plate.force.z [N]"), force, 1e-6 * force);
   Positions x;
   positions_of(run.now(), run.model.tissues[0].nodes, x);
   const Eigen::MatrixXd stress = run.model.tissues[0].elements.cauchy_stress(x, 0);
   EXPECT_LT((stress.row(2).array() + p).abs().maxCoeff(), 0.02 * p);  // Cauchy's, at 0.9 % strain
+}
+
+// At nodes on the block's top and on the plate's bottom, though the plate reaches farther, and no
+// other nodes; what goes through the faces is the force on the body.
+TEST(Contact, UniformPressureIsUniformOnTheSurfacesOfBothBodies) {
+  Simulation run(press());
+  press_to_rest(run);
+  const double p = kPressure, force = p * kSide * kSide;
+  const std::vector<SurfaceContact> surfaces =
+      run.stepper.dynamics().contact().surface_contacts(run.now());
+  for (const std::size_t b : {0, 1}) {
+    const Collider& collider = *run.model.bodies[b].collider;
+    const double touching = kSide / 2, outward = b == 0 ? 1 : -1;
+    const SurfaceContact& surface = surfaces[b];
+    ASSERT_EQ(surface.node_pressure.size(), collider.X.cols());
+    for (Eigen::Index i = 0; i < collider.X.cols(); ++i) {
+      const bool touches = std::abs(collider.X(2, i) - touching) < 1e-9;
+      EXPECT_NEAR(surface.node_pressure[i], touches ? p : 0, 1e-6 * p) << "body " << b;
+    }
+    Vec3 through_faces = Vec3::Zero();
+    ASSERT_EQ(surface.face_pressure.size(), collider.surface.faces.cols());
+    ASSERT_EQ(surface.face_gap.size(), collider.surface.faces.cols());
+    for (Eigen::Index f = 0; f < collider.surface.faces.cols(); ++f) {
+      Mat3 corners;
+      for (int k = 0; k < 3; ++k)
+        corners.col(k) = run.now().position(
+            collider.nodes[static_cast<std::size_t>(collider.surface.faces(k, f))]);
+      const FlatTriangle face = flat_triangle(corners);
+      through_faces -= surface.face_pressure[f] * face.twice_area / 2 * face.normal;
+      if (surface.face_pressure[f] > 1e-6 * p) {
+        EXPECT_NEAR(face.normal.z(), outward, 1e-6);
+        EXPECT_NEAR(surface.face_gap[f], -p / kStiffness, 1e-6 * p / kStiffness);
+      } else {
+        EXPECT_TRUE(std::isnan(surface.face_gap[f]));
+      }
+    }
+    EXPECT_LT((through_faces - Vec3(0, 0, -outward * force)).norm(), 1e-6 * force) << "body " << b;
+  }
+}
+
+// A plate tilted by θ sinks δ + θ x into a block that is stiff beside the contact: the centre of
+// its pressure k (δ + θ x) lies at θ L²/12δ. The mean depth at a node of the rim is that at a third
+// of a cell from it: of n cells, 2/n² of that is missing.
+TEST(Contact, TheCentreOfPressureOfATiltedPlateIsWhereTheMomentVanishes) {
+  constexpr double tilt = 0.01, cells = 8;
+  Scenario s = press();
+  s.bodies[0].box->cells = {8, 8, 1};
+  s.bodies[0].material = material_of(fem::Linear(1e5 * kStiffness * kSide, 0));
+  s.loads[0].motion.rotation = {Vec3::Zero(), tilt * Vec3::UnitY()};
+  s.loads[0].motion.about = {0, 0, kSide / 2};
+  Simulation run(s);
+  press_to_rest(run);
+  const Probes probes(run);
+  const Vec3 force = probes.vec3("pressed.force", "N"),
+             moment = probes.vec3("pressed.moment", "N m");
+  const Vec3 center = 1e-3 * probes.vec3("pressed.center", "mm");
+  const double expected = tilt * kSide * kSide / (12 * kPress) * (1 - 2 / (cells * cells));
+  EXPECT_NEAR(center.x(), expected, 0.01 * expected);  // corners are left out of that
+  EXPECT_NEAR(center.y(), 0, 1e-3 * expected);
+  EXPECT_LT(moment.norm(), 5e-3 * force.norm() * expected);
+  EXPECT_GT(probes("pressed.max_penetration_at.x [mm]"), 0.49e3 * kSide);
+  // On the plate the opposite acts, at the same place.
+  const int bone = run.model.bodies[1].bone;
+  const Vec3 lever = center - run.now().poses[static_cast<std::size_t>(bone)].p;
+  const Vec3 on_plate = -(moment + lever.cross(force));
+  EXPECT_LT((probes.vec3("plate.force", "N") + force).norm(), 1e-6 * force.norm());
+  EXPECT_LT((probes.vec3("plate.moment", "N m") - on_plate).norm(),
+            1e-6 * force.norm() * lever.norm());
+}
+
+TEST(Contact, AProbeOfBodiesThatDoNotTouchHasNoPlace) {
+  Scenario s = press();
+  s.loads[0] = shift("plate", 0.2, {0, 0, kPress});
+  Simulation run(s);
+  run.advance(0.2);
+  const Probes probes(run);
+  EXPECT_TRUE(probes.vec3("pressed.center", "mm").array().isNaN().all());
+  EXPECT_TRUE(probes.vec3("pressed.max_penetration_at", "mm").array().isNaN().all());
+  EXPECT_EQ(probes.vec3("pressed.force", "N"), Vec3::Zero());
+  EXPECT_EQ(probes("pressed.max_point_penetration [mm]"), 0);
 }
 
 TEST(Contact, NodalContactForcesOfBothBodiesBalanceTheProbe) {

@@ -136,6 +136,33 @@ TEST(FrameWriter, EveryArrayIsReadBackByVtkWithItsUnit) {
   EXPECT_EQ(names->GetValue(1), "temporomandibular");
 }
 
+TEST(FrameWriter, AContactSurfaceHasTheNodesOfItsFacesOnly) {
+  const TemporaryFolder folder;
+  const Positions x = 0.1 * Positions::Random(3, 6);
+  Triangles faces(3, 2);
+  faces << 1, 4, 2, 2, 4, 5;  // columns 1 2 4 and 4 2 5
+  const Field pressure = random_field("contact_pressure", "Pa", 1, 6);
+  const Field gap = random_field("contact_gap", "m", 1, 2);
+  FrameWriter writer(folder.path(), "opening", kMillimetre, "mm");
+  writer.write_contact_surface({"disc", x, faces, {pressure}, {gap}}, 7, 0.1);
+  writer.finish_frame(7, 0.1);
+  const std::vector<int> kept = {1, 2, 4, 5};
+  const auto surface = read<vtkXMLPolyDataReader>(folder / "frames/disc_contact_000007.vtp");
+  expect_positions(*surface, x(Eigen::all, kept));
+  ASSERT_EQ(surface->GetNumberOfPolys(), 2);
+  for (int f = 0; f < 2; ++f)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(kept[static_cast<std::size_t>(surface->GetCell(f)->GetPointId(k))], faces(k, f));
+  Field at_kept = pressure;
+  at_kept.values = pressure.values(Eigen::all, kept);
+  expect_field(*surface, *surface->GetPointData(), at_kept, 1, "Pa");
+  expect_field(*surface, *surface->GetCellData(), gap, 1000, "mm");
+  const std::vector<SeriesEntry> entries = read_series(folder / "opening.pvd");
+  ASSERT_EQ(entries.size(), 1U);
+  EXPECT_TRUE(is_contact_surface(entries[0]));
+  EXPECT_FALSE(is_contact_surface({0, 0, "disc_contact", "frames/disc_contact_000000.vtp"}));
+}
+
 TEST(FrameWriter, FilesAreCompressedBinary) {
   const TemporaryFolder folder;
   FrameWriter writer(folder.path(), "opening", kMillimetre, "mm");

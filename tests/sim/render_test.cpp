@@ -63,6 +63,7 @@ void write_run(const std::filesystem::path& folder) {
                          {{"displacement", "m", x - rest}, {"contact_pressure", "Pa", pressure}},
                          {{"von_mises", "Pa", stress}}},
                         i, time);
+    writer.write_contact_surface({"disc", x, triangles, {}, {}}, i, time);
     writer.write_bone({"skull", plate, triangles, {}, {}}, i, time);
     writer.write_bone({"jaw", x, triangles, {}, {}}, i, time);
     Positions muscle(3, 3), ligament(3, 2);
@@ -170,6 +171,14 @@ TEST_F(Drawing, EveryFieldViewAndFocusCanBeDrawn) {
         options_.focus = focus;
         EXPECT_NE(print_of(options_).find(", " + field + " 0 to "), std::string::npos);
       }
+}
+
+TEST_F(Drawing, ContactSurfacesAreNotDrawnOverTheirBodies) {
+  for (const FrameEntry& frame : open_series(run_.path()).frames) {
+    std::vector<std::string> names;
+    for (const sim::SeriesEntry& part : frame.parts) names.push_back(part.part);
+    EXPECT_EQ(names, (std::vector<std::string>{"disc", "skull", "jaw", "lines"}));
+  }
 }
 
 TEST_F(Drawing, AMovieIsWrittenWholeAndWithoutPictures) {

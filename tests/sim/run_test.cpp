@@ -307,9 +307,11 @@ TEST_F(RunTest, TheHistoryHasAColumnWithItsUnitForEveryProbeValueAndARowForEvery
   EXPECT_EQ(columns.front(), "time [s]");
   for (const char* name :
        {"plate.position.z [mm]", "table_block.force.x [N]", "table_block.area [mm^2]",
-        "table_block.max_pressure [Pa]", "table_block.max_penetration [mm]", "puller.force [N]",
-        "puller.length [mm]", "puller.activation [-]", "band.force [N]", "table.moment.y [N m]",
-        "tilt.angle [deg]", "energy.numerical_loss [J]"})
+        "table_block.max_pressure [Pa]", "table_block.max_penetration [mm]",
+        "table_block.moment.x [N m]", "table_block.center.z [mm]",
+        "table_block.max_penetration_at.z [mm]", "table_block.max_point_penetration [mm]",
+        "puller.force [N]", "puller.length [mm]", "puller.activation [-]", "band.force [N]",
+        "table.moment.y [N m]", "tilt.angle [deg]", "energy.numerical_loss [J]"})
     EXPECT_NE(std::find(columns.begin(), columns.end(), name), columns.end()) << name;
   EXPECT_EQ(std::find(columns.begin(), columns.end(), "band.activation [-]"), columns.end());
   double last = -1;
@@ -321,6 +323,30 @@ TEST_F(RunTest, TheHistoryHasAColumnWithItsUnitForEveryProbeValueAndARowForEvery
   }
   EXPECT_EQ(last, 0.06);
   EXPECT_GE(lines.size(), 62U);
+}
+
+TEST_F(RunTest, PlacesOfAContactThatIsNotThereAreEmptyCells) {
+  run_all("run");
+  const std::string history = content(out("run") / "history.csv");
+  EXPECT_EQ(history.find("nan"), std::string::npos);
+  const auto lines = split(history, '\n');
+  const auto columns = split(lines.at(0), ',');
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) -
+                                    columns.begin());
+  };
+  const auto force = column("table_block.force.z [N]"), z = column("table_block.center.z [mm]"),
+             at = column("table_block.max_penetration_at.z [mm]");
+  int touching = 0, apart = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const auto cells = split(lines[i], ',');
+    const bool touches = std::stod(cells.at(force)) != 0;
+    ++(touches ? touching : apart);
+    EXPECT_EQ(cells.at(z).empty(), !touches);
+    EXPECT_EQ(cells.at(at).empty(), !touches);
+  }
+  EXPECT_GT(touching, 0);
+  EXPECT_GT(apart, 0);
 }
 
 TEST_F(RunTest, TheSummaryCountsWhatTheSceneNeedsAndBalancesTheEnergy) {
@@ -392,10 +418,57 @@ TEST_F(RunTest, TheSeriesOpensInVtkWithEveryArray) {
       if (entry.part == "lines")
         expect_arrays(*poly->GetCellData(), {{"activation", 1}, {"force", 1}, {"length", 1}});
       else
-        expect_arrays(*poly->GetPointData(), {{"displacement", 3}, {"velocity", 3}});
+        expect_arrays(
+            *poly->GetPointData(),
+            {{"displacement", 3}, {"velocity", 3}, {"contact_force", 3}, {"contact_pressure", 1}});
     }
   }
   EXPECT_GT(greatest_pressure, 0);
+}
+
+/// Σ pressure · area · (−normal) over the triangles of a contact surface [N].
+Vec3 force_through(vtkPolyData& surface) {
+  vtkDataArray* const pressure = surface.GetCellData()->GetArray("contact_pressure");
+  Vec3 force = Vec3::Zero();
+  for (vtkIdType f = 0; f < surface.GetNumberOfCells(); ++f) {
+    Mat3 x;  // [mm]
+    for (int k = 0; k < 3; ++k)
+      surface.GetPoint(surface.GetCell(f)->GetPointId(k), x.col(k).data());
+    const FlatTriangle face = flat_triangle(1e-3 * x);
+    force -= pressure->GetComponent(f, 0) * face.twice_area / 2 * face.normal;
+  }
+  return force;
+}
+
+TEST_F(RunTest, ContactSurfacesAreWrittenWhereAskedForAndCarryTheForce) {
+  run_all("without");
+  run_all("run", false, {"output.contact_surfaces=true"});
+  EXPECT_FALSE(fs::exists(out("without") / "frames/block_contact_000000.vtp"));
+  const std::vector<SeriesEntry> entries = read_series(out("run") / "scene.pvd");
+  EXPECT_EQ(entries.size(), 11U * (4U + 3U));
+  // Only the table's and the block's own faces in the last frame: the plate may rest on the block.
+  const auto table = read<vtkXMLPolyDataReader>(out("run") / "frames/table_contact_000010.vtp");
+  const auto block = read<vtkXMLPolyDataReader>(out("run") / "frames/block_contact_000010.vtp");
+  EXPECT_EQ(block->GetNumberOfPoints(), 26);  // without the node inside
+  EXPECT_EQ(block->GetNumberOfCells(), 48);
+  for (vtkPolyData* surface : {table.Get(), block.Get()}) {
+    expect_arrays(*surface->GetPointData(), {{"contact_force", 3}, {"contact_pressure", 1}});
+    expect_arrays(*surface->GetCellData(), {{"contact_pressure", 1}, {"contact_gap", 1}});
+    Vec3 at_nodes = Vec3::Zero();
+    for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i) {
+      Vec3 f;
+      surface->GetPointData()->GetArray("contact_force")->GetTuple(i, f.data());
+      at_nodes += f;
+    }
+    EXPECT_GT(force_through(*table).norm(), 1e-4);  // [N]: something weighs on it
+    EXPECT_LT((force_through(*surface) - at_nodes).norm(), 0.02 * force_through(*table).norm());
+  }
+  const auto lines = split(content(out("run") / "history.csv"), '\n');
+  const auto columns = split(lines.at(0), ',');
+  const auto z = std::find(columns.begin(), columns.end(), "table_block.force.z [N]");
+  const double probe =
+      std::stod(split(lines.back(), ',').at(static_cast<std::size_t>(z - columns.begin())));
+  EXPECT_NEAR(force_through(*table).z(), probe, 1e-6 * std::abs(probe));
 }
 
 TEST_F(RunTest, ARunThatCannotGoOnSaysUntilWhenAndLeavesValidFiles) {

@@ -193,6 +193,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "\"../x\""},
         Mistake{"ReservedName", kStart + "[[body]]\nname = @\"lines\"\nkind = \"fixed\"\n",
                 "`name`: a body cannot be called `lines`; results use that name"},
+        Mistake{"NameOfAContactSurface",
+                kStart + "[output]\ncontact_surfaces = true\n@[[body]]\n"
+                         "name = \"skull_contact\"\nkind = \"fixed\"\n",
+                "body `skull_contact` has the name of the contact surface of `skull` in the "
+                "results; expected another name, or no output.contact_surfaces"},
         Mistake{"SecondBody", kStart + "[[body]]\nname = @\"skull\"\nkind = \"fixed\"\n",
                 "`name`: a second body is called `skull`, the first is at jaw.toml:3"},
         Mistake{"SecondMuscle",

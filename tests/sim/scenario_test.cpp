@@ -203,6 +203,7 @@ body = "skull"
 interval = "20 ms"
 length_unit = "cm"
 directory = "out/opening"
+contact_surfaces = true
 checkpoint_interval = "100 ms"
 )";
 
@@ -234,6 +235,7 @@ TEST_F(CompleteScenario, HasItsSettings) {
   EXPECT_EQ(scenario_.output.length_unit, 1e-2);
   EXPECT_EQ(scenario_.output.length_unit_name, "cm");
   EXPECT_EQ(scenario_.output.directory, "out/opening");
+  EXPECT_TRUE(scenario_.output.contact_surfaces);
   EXPECT_EQ(scenario_.output.checkpoint_interval, 0.1);
 }
 
@@ -455,6 +457,7 @@ TEST_F(CompleteScenario, RecordsItsSettingsAsJson) {
   EXPECT_EQ(json["integrator"]["scheme"], "tr-bdf2");
   EXPECT_EQ(json["integrator"]["position_tolerance_m"], 3e-7);
   EXPECT_EQ(json["detection"]["narrow_test"], "gjk");
+  EXPECT_EQ(json["output"]["contact_surfaces"], true);
   EXPECT_EQ(json["output"]["checkpoint_interval_s"], 0.1);
 }
 
