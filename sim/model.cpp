@@ -32,6 +32,8 @@ constexpr double kTissueReach = 0.5;
 constexpr double kBoneModulus = 15e9, kBonePoisson = 0.3;
 /// Depth of the collision elements under a bone's surface where the scenario names none [m].
 constexpr double kDefaultShell = 1e-3;
+/// Of the elements at the surface: what friction at 0.7 of its limit creeps in the whole scene.
+constexpr double kCreep = 0.05;
 /// A muscle that gives less than this part of its maximal force at rest and full activation is
 /// probably a table applied to another subject.
 constexpr double kLeastForceAtRest = 0.1;
@@ -446,7 +448,7 @@ class Builder {
     return mean_face_area(A) <= mean_face_area(B);
   }
 
-  void add_contact(int a, int b, std::optional<double> stiffness) {
+  void add_contact(int a, int b, const ContactPair& pair) {
     const auto& A = model_.bodies[static_cast<std::size_t>(a)].collider;
     const auto& B = model_.bodies[static_cast<std::size_t>(b)].collider;
     if (!A || !B) return;
@@ -454,16 +456,20 @@ class Builder {
     contact.a = a;
     contact.b = b;
     contact.share = a == b ? 0.5 : 1;
-    contact.mean_stiffness = stiffness.value_or(1 / (A->mean_compliance + B->mean_compliance));
+    contact.mean_stiffness = pair.stiffness.value_or(1 / (A->mean_compliance + B->mean_compliance));
     const auto at_nodes = [&](const Collider& side, const Collider& other) {
-      if (stiffness)
-        return Eigen::VectorXd::Constant(side.X.cols(), contact.share * *stiffness).eval();
+      if (pair.stiffness)
+        return Eigen::VectorXd::Constant(side.X.cols(), contact.share * *pair.stiffness).eval();
       return (contact.share / (side.compliance.array() + other.mean_compliance)).matrix().eval();
     };
     if (a == b || averages_first(a, b, *A, *B))
       contact.stiffness_a = at_nodes(*A, *B);
     else
       contact.stiffness_b = at_nodes(*B, *A);
+    contact.law.friction = pair.friction;
+    contact.law.damping = contact.share * pair.damping;
+    contact.law.slip_velocity =
+        pair.slip_velocity.value_or(kCreep * std::min(A->size, B->size) / scenario().duration);
     model_.contacts.push_back(std::move(contact));
   }
 
@@ -482,7 +488,7 @@ class Builder {
                            fmt::format("body `{}` has nothing to touch with: it needs a mesh and "
                                        "must not have collides = false",
                                        model_.bodies[static_cast<std::size_t>(body)].name));
-      add_contact(a, b, pair.stiffness);
+      add_contact(a, b, pair);
     }
     if (!scenario().contacts.empty()) return;
     const auto n = static_cast<int>(model_.bodies.size());
@@ -491,7 +497,7 @@ class Builder {
         const auto fixed = [&](int body) {
           return model_.bodies[static_cast<std::size_t>(body)].kind == Body::Kind::Fixed;
         };
-        if (!(fixed(a) && fixed(b))) add_contact(a, b, {});
+        if (!(fixed(a) && fixed(b))) add_contact(a, b, ContactPair{});
       }
   }
 
