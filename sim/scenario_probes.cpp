@@ -22,7 +22,7 @@ void read_friction(const TableReader& table, Scenario::Analysis analysis, Contac
   if (!(pair.friction > 0)) table.refuse({"slip_velocity"}, "there is no friction");
   if (pair.friction > 0 && analysis == Scenario::Analysis::Static)
     fail(*table.find("friction"),
-         "friction needs a dynamic analysis: in a static one nothing has a velocity");
+         "needs a dynamic analysis: in a static one nothing has a velocity");
 }
 
 ContactPair read_contact(const Node& node, const Context& context, Scenario::Analysis analysis) {
