@@ -367,7 +367,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "`bodies[1]`: body `stand` has no surface that could touch"},
         Mistake{"NegativeFriction",
                 kStart + "[[contact]]\nbodies = [\"skull\", \"mandible\"]\nfriction = @-0.1\n",
-                "`friction`: must not be negative, found the number -0.1"},
+                "`friction` must not be negative, found -0.1"},
         Mistake{"SlipWithoutFriction",
                 kStart + "[[contact]]\nbodies = [\"skull\", \"mandible\"]\n@slip_velocity = \"1 "
                          "mm/s\"\n",
