@@ -16,9 +16,6 @@ struct ContactResponse::Sides {
   const Eigen::VectorXd& stiffness;  // at the nodes of the triangles' side [Pa/m]
 };
 
-namespace {
-
-/// The six nodes of a patch: the triangle's, then the face's.
 std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider& faces,
                                        int triangle, int face) {
   std::array<const NodeRef*, 6> nodes{};
@@ -30,6 +27,13 @@ std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider
   }
   return nodes;
 }
+
+bool carries(const DirectionMoment& direction, int triangle, const Eigen::Matrix3Xi& faces) {
+  return direction.pressure[faces(0, triangle)] > 0 || direction.pressure[faces(1, triangle)] > 0 ||
+         direction.pressure[faces(2, triangle)] > 0;
+}
+
+namespace {
 
 Mat3 corners(const Configuration& configuration, const Collider& collider, int face) {
   Mat3 x;
@@ -47,15 +51,15 @@ Vec3 nodal_pressures(const DirectionMoment& direction, const DirectionMoment::Pa
   return p;
 }
 
-/// ∂E over a patch's six nodes.
-Vec18 energy_gradient(const DirectionMoment& direction, const DirectionMoment::Patch& entry,
+/// Forces on a patch's six nodes.
+Vec18 forces_on_nodes(const DirectionMoment& direction, const DirectionMoment::Patch& entry,
                       const Eigen::Matrix3Xi& faces) {
-  return patch_gradient(entry.patch, nodal_pressures(direction, entry, faces));
-}
-
-bool carries(const DirectionMoment& direction, int triangle, const Eigen::Matrix3Xi& faces) {
-  return direction.pressure[faces(0, triangle)] > 0 || direction.pressure[faces(1, triangle)] > 0 ||
-         direction.pressure[faces(2, triangle)] > 0;
+  Vec18 forces = -patch_gradient(entry.patch, nodal_pressures(direction, entry, faces));
+  if (direction.drag.empty()) return forces;
+  Mat3 t;
+  for (int i = 0; i < 3; ++i)
+    t.col(i) = direction.drag[static_cast<std::size_t>(faces(i, entry.triangle))].traction;
+  return forces + slip_gradient(entry.patch, t);
 }
 
 }  // namespace
@@ -94,6 +98,9 @@ void ContactResponse::evaluate(const Configuration& configuration,
       direction.depth[node] /= direction.measure[node];
       direction.pressure[node] = stiffness[node] * std::max(0.0, direction.depth[node]);
     }
+    const auto contact = static_cast<std::size_t>(candidates[d].contact);
+    if (const SurfaceLaw& law = model_.contacts[contact].law; law.acts())
+      find_drag(law, sides(d).triangles, sides(d).faces, configuration, direction);
   }
 }
 
@@ -153,11 +160,11 @@ void ContactResponse::add_force(const Configuration& configuration, Eigen::Vecto
     const Sides side = sides(d);
     for (const DirectionMoment::Patch& entry : directions_[d].patches()) {
       if (!carries(directions_[d], entry.triangle, side.triangles.surface.faces)) continue;
-      const Vec18 g = energy_gradient(directions_[d], entry, side.triangles.surface.faces);
+      const Vec18 forces = forces_on_nodes(directions_[d], entry, side.triangles.surface.faces);
       const auto nodes = nodes_of(side.triangles, side.faces, entry.triangle, entry.face);
       for (std::size_t i = 0; i < 6; ++i)
-        sim::add_force(configuration, *nodes[i], -g.segment<3>(3 * static_cast<Eigen::Index>(i)),
-                       f);
+        sim::add_force(configuration, *nodes[i],
+                       forces.segment<3>(3 * static_cast<Eigen::Index>(i)), f);
     }
   }
 }
@@ -185,12 +192,12 @@ std::vector<Positions> ContactResponse::nodal_forces() const {
     const auto &triangles = side.triangles.surface.faces, &faces = side.faces.surface.faces;
     for (const DirectionMoment::Patch& entry : directions_[d].patches()) {
       if (!carries(directions_[d], entry.triangle, triangles)) continue;
-      const Vec18 g = energy_gradient(directions_[d], entry, triangles);
+      const Vec18 on_nodes = forces_on_nodes(directions_[d], entry, triangles);
       for (int i = 0; i < 3; ++i) {
-        forces[static_cast<std::size_t>(side.triangle_body)].col(triangles(i, entry.triangle)) -=
-            g.segment<3>(3 * i);
-        forces[static_cast<std::size_t>(side.face_body)].col(faces(i, entry.face)) -=
-            g.segment<3>(9 + 3 * i);
+        forces[static_cast<std::size_t>(side.triangle_body)].col(triangles(i, entry.triangle)) +=
+            on_nodes.segment<3>(3 * i);
+        forces[static_cast<std::size_t>(side.face_body)].col(faces(i, entry.face)) +=
+            on_nodes.segment<3>(9 + 3 * i);
       }
     }
   }
@@ -213,7 +220,9 @@ std::vector<ContactSummary> ContactResponse::summaries(const Configuration& conf
       const double p = direction.pressure[node], W = direction.area[node];
       sum.area += W * model_.contacts[c].share;
       sum.max_pressure = std::max(sum.max_pressure, p / model_.contacts[c].share);
-      sum.energy += 0.5 * p * direction.depth[node] * direction.measure[node];
+      const double damping =
+          direction.drag.empty() ? 0 : direction.drag[static_cast<std::size_t>(node)].pressure;
+      sum.energy += 0.5 * (p - damping) * direction.depth[node] * direction.measure[node];
       if (direction.depth[node] > sum.max_depth) {
         sum.max_depth = direction.depth[node];
         sum.deepest = x;
@@ -227,9 +236,9 @@ std::vector<ContactSummary> ContactResponse::summaries(const Configuration& conf
       weight[c] += q.sum();
       sum.center += corners(configuration, side.triangles, entry.triangle) * q;
       if (side.triangle_body == side.face_body) continue;
-      const Vec18 g = energy_gradient(direction, entry, triangles);
+      const Vec18 on_nodes = forces_on_nodes(direction, entry, triangles);
       for (int i = 0; i < 3; ++i) {
-        const Vec3 force = list.reversed ? Vec3(g.segment<3>(3 * i)) : Vec3(-g.segment<3>(3 * i));
+        const Vec3 force = (list.reversed ? -1 : 1) * on_nodes.segment<3>(3 * i);
         const int node = triangles(i, entry.triangle);
         const Vec3 x = configuration.position(side.triangles.nodes[static_cast<std::size_t>(node)]);
         sum.force += force;
@@ -335,10 +344,25 @@ std::vector<SurfaceContact> ContactResponse::surface_contacts(
   return result;
 }
 
+void ContactResponse::add_damping_product(const Configuration& configuration,
+                                          const Eigen::VectorXd& u, double scale,
+                                          Eigen::VectorXd& f) const {
+  for (std::size_t d = 0; d < directions_.size(); ++d)
+    if (!directions_[d].drag.empty())
+      add_drag_product(directions_[d], sides(d).triangles, sides(d).faces, configuration, u, scale,
+                       f);
+}
+
+double ContactResponse::damping_power() const {
+  double power = 0;
+  for (const DirectionMoment& direction : directions_) power += drag_power(direction);
+  return power;
+}
+
 void ContactResponse::add_stiffness(const Configuration& configuration, fem::Tangent tangent,
-                                    double scale, fem::BlockMatrix& A) {
+                                    const SystemScale& scale, fem::BlockMatrix& A) {
   for (std::size_t d = 0; d < directions_.size(); ++d) {
-    add_node_stiffness(d, configuration, scale, A);
+    add_node_stiffness(d, configuration, tangent, scale, A);
     if (tangent != fem::Tangent::Consistent) continue;
     const Sides side = sides(d);
     const auto& triangles = side.triangles.surface.faces;
@@ -346,7 +370,7 @@ void ContactResponse::add_stiffness(const Configuration& configuration, fem::Tan
       if (!carries(directions_[d], entry.triangle, triangles)) continue;
       Vec3 p;
       for (int i = 0; i < 3; ++i)
-        p[i] = scale * directions_[d].pressure[triangles(i, entry.triangle)];
+        p[i] = scale.stiffness * directions_[d].pressure[triangles(i, entry.triangle)];
       sim::add_stiffness(model_, configuration,
                          nodes_of(side.triangles, side.faces, entry.triangle, entry.face),
                          patch_curvature(entry.patch, p), A);
@@ -354,13 +378,11 @@ void ContactResponse::add_stiffness(const Configuration& configuration, fem::Tan
   }
 }
 
-/// Σ k_a/A_a ∇G_a ∇G_aᵀ.
-void ContactResponse::add_node_stiffness(std::size_t d, const Configuration& configuration,
-                                         double scale, fem::BlockMatrix& A) {
+/// The patches around node i: patch_of_node_[patch_begin_[i] .. patch_begin_[i + 1]).
+void ContactResponse::find_patches_of_nodes(std::size_t d) {
   const DirectionMoment& direction = directions_[d];
   const Sides side = sides(d);
   const auto& triangles = side.triangles.surface.faces;
-  // The patches around node i: patch_of_node_[patch_begin_[i] .. patch_begin_[i + 1]).
   patch_begin_.assign(static_cast<std::size_t>(side.triangles.X.cols()) + 2, 0);
   for (const DirectionMoment::Patch& entry : direction.patches())
     for (const int node : triangles.col(entry.triangle))
@@ -371,6 +393,16 @@ void ContactResponse::add_node_stiffness(std::size_t d, const Configuration& con
     for (const int node : triangles.col(direction.stored[e].triangle))
       patch_of_node_[static_cast<std::size_t>(patch_begin_[static_cast<std::size_t>(node) + 1]++)] =
           static_cast<int>(e);
+}
+
+/// A += factor g gᵀ, where g sums gradient(patch, place of the node in its triangle) over the
+/// patches around a node.
+template <class Gradient>
+void ContactResponse::add_rank_one(std::size_t d, int a, const Configuration& configuration,
+                                   double factor, Gradient&& gradient, fem::BlockMatrix& A) {
+  const DirectionMoment& direction = directions_[d];
+  const Sides side = sides(d);
+  const auto& triangles = side.triangles.surface.faces;
   const auto add = [&](const NodeRef& node, const Vec3& g) {
     if (node.bone >= model_.layout.num_rigid) return;
     const auto put = [&](int block, const Vec3& part) {
@@ -383,28 +415,61 @@ void ContactResponse::add_node_stiffness(std::size_t d, const Configuration& con
     put(node.block, g);
     if (node.bone >= 0) put(node.block + 1, configuration.lever(node).cross(g));
   };
+  for (int k = patch_begin_[static_cast<std::size_t>(a)];
+       k < patch_begin_[static_cast<std::size_t>(a) + 1]; ++k) {
+    const DirectionMoment::Patch& entry =
+        direction.stored[static_cast<std::size_t>(patch_of_node_[static_cast<std::size_t>(k)])];
+    int local = 0;
+    while (triangles(local, entry.triangle) != a) ++local;
+    const Vec18 g = gradient(entry.patch, local);
+    const auto nodes = nodes_of(side.triangles, side.faces, entry.triangle, entry.face);
+    for (std::size_t i = 0; i < 6; ++i)
+      add(*nodes[i], g.segment<3>(3 * static_cast<Eigen::Index>(i)));
+  }
+  for (const int i : blocks_)
+    for (const int j : blocks_)
+      A.block(A.slot(i, j)) += factor * gradient_.col(i) * gradient_.col(j).transpose();
+  for (const int block : blocks_) {
+    gradient_.col(block).setZero();
+    has_gradient_[static_cast<std::size_t>(block)] = 0;
+  }
+  blocks_.clear();
+}
+
+/// Σ k_a/A_a ∇G_a ∇G_aᵀ, the same with the damping, and −∂t_a/∂V_a.
+void ContactResponse::add_node_stiffness(std::size_t d, const Configuration& configuration,
+                                         fem::Tangent tangent, const SystemScale& scale,
+                                         fem::BlockMatrix& A) {
+  const DirectionMoment& direction = directions_[d];
+  const Sides side = sides(d);
+  find_patches_of_nodes(d);
+  const auto of_depth = [](const ContactPatch& patch, int local) {
+    return patch_gradient(patch, Vec3::Unit(local));
+  };
   for (const int a : direction.nodes) {
     if (!(direction.pressure[a] > 0)) continue;
-    for (int k = patch_begin_[static_cast<std::size_t>(a)];
-         k < patch_begin_[static_cast<std::size_t>(a) + 1]; ++k) {
-      const DirectionMoment::Patch& entry =
-          direction.stored[static_cast<std::size_t>(patch_of_node_[static_cast<std::size_t>(k)])];
-      int local = 0;
-      while (triangles(local, entry.triangle) != a) ++local;
-      const Vec18 g = patch_gradient(entry.patch, Vec3::Unit(local));
-      const auto nodes = nodes_of(side.triangles, side.faces, entry.triangle, entry.face);
-      for (std::size_t i = 0; i < 6; ++i)
-        add(*nodes[i], g.segment<3>(3 * static_cast<Eigen::Index>(i)));
+    const double penalty = scale.stiffness * side.stiffness[a] / direction.measure[a];
+    if (direction.drag.empty()) {
+      add_rank_one(d, a, configuration, penalty, of_depth, A);
+      continue;
     }
-    const double factor = scale * side.stiffness[a] / direction.measure[a];
-    for (const int i : blocks_)
-      for (const int j : blocks_)
-        A.block(A.slot(i, j)) += factor * gradient_.col(i) * gradient_.col(j).transpose();
-    for (const int block : blocks_) {
-      gradient_.col(block).setZero();
-      has_gradient_[static_cast<std::size_t>(block)] = 0;
+    const NodalDrag& drag = direction.drag[static_cast<std::size_t>(a)];
+    add_rank_one(d, a, configuration,
+                 drag.stiffening * penalty + scale.damping * drag.damping / direction.measure[a],
+                 of_depth, A);
+    // Friction grows with the slip ever more slowly: the secant is an upper bound of the tangent.
+    const double along = tangent == fem::Tangent::Consistent ? drag.drag_along : drag.drag_across;
+    for (const auto& [direction_of_slip, strength] :
+         {std::pair(drag.along, along), std::pair(drag.across, drag.drag_across)}) {
+      if (!(scale.damping * strength > 0)) continue;
+      const Vec3& unit = direction_of_slip;
+      add_rank_one(
+          d, a, configuration, scale.damping * strength / direction.area[a],
+          [&unit](const ContactPatch& patch, int local) {
+            return slip_gradient(patch, unit * Vec3::Unit(local).transpose());
+          },
+          A);
     }
-    blocks_.clear();
   }
 }
 

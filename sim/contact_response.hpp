@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
+#include "sim/contact_friction.hpp"
 #include "sim/contact_patch.hpp"
 #include "sim/contact_search.hpp"
 #include "sim/system_matrix.hpp"
@@ -31,12 +33,20 @@ struct DirectionMoment {
   std::size_t num_patches = 0;
   std::span<const Patch> patches() const { return {stored.data(), num_patches}; }
   // By node of the side whose triangles these are; zero where it meets nothing:
-  Eigen::VectorXd area;      // W [m²]
-  Eigen::VectorXd measure;   // A [m²]
-  Eigen::VectorXd depth;     // g [m]
-  Eigen::VectorXd pressure;  // p [Pa]
-  std::vector<int> nodes;    // that have an area
+  Eigen::VectorXd area;         // W [m²]
+  Eigen::VectorXd measure;      // A [m²]
+  Eigen::VectorXd depth;        // g [m]
+  Eigen::VectorXd pressure;     // p [Pa], with that of damping
+  std::vector<int> nodes;       // that have an area
+  std::vector<NodalDrag> drag;  // empty: neither friction nor damping
 };
+
+/// Whether a node of the triangle has pressure.
+bool carries(const DirectionMoment& direction, int triangle, const Eigen::Matrix3Xi& faces);
+
+/// The six nodes of a patch: the triangle's, then the face's.
+std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider& faces,
+                                       int triangle, int face);
 
 /// What one contact pair carries; force and moment on body a, of a body with itself none.
 struct ContactSummary {
@@ -71,10 +81,16 @@ class ContactResponse {
 
   /// f += contact forces (block forces).
   void add_force(const Configuration& configuration, Eigen::VectorXd& f) const;
-  /// A += scale times the contact stiffness: all of it, or (projected) the positive semidefinite
-  /// part Σ k_a W_a ∇g_a ∇g_aᵀ.
-  void add_stiffness(const Configuration& configuration, fem::Tangent tangent, double scale,
-                     fem::BlockMatrix& A);
+  /// A += contact stiffness: all of it, or (projected) the positive semidefinite part
+  /// Σ k_a W_a ∇g_a ∇g_aᵀ; and the damping. How friction grows with the pressure is left out: it is
+  /// not symmetric.
+  void add_stiffness(const Configuration& configuration, fem::Tangent tangent,
+                     const SystemScale& scale, fem::BlockMatrix& A);
+  /// f += scale D u for block velocities u, with the D of friction and damping.
+  void add_damping_product(const Configuration& configuration, const Eigen::VectorXd& u,
+                           double scale, Eigen::VectorXd& f) const;
+  /// What friction and damping lose [W].
+  double damping_power() const;
 
   /// Something lies opposite a face within the depths that count.
   bool has_patches() const;
@@ -93,8 +109,12 @@ class ContactResponse {
   Sides sides(std::size_t direction) const;
   void find_patches(std::size_t direction, const Configuration& configuration);
   const FlatTriangle& face_now(const Configuration& configuration, const Collider& faces, int face);
-  void add_node_stiffness(std::size_t direction, const Configuration& configuration, double scale,
-                          fem::BlockMatrix& A);
+  void find_patches_of_nodes(std::size_t direction);
+  template <class Gradient>
+  void add_rank_one(std::size_t direction, int node, const Configuration& configuration,
+                    double factor, Gradient&& gradient, fem::BlockMatrix& A);
+  void add_node_stiffness(std::size_t direction, const Configuration& configuration,
+                          fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A);
 
   const Model& model_;
   bool soft_ = false;
@@ -105,7 +125,7 @@ class ContactResponse {
   std::vector<FlatTriangle> faces_;
   std::vector<int> met_;  // by face: when it was computed last
   int now_ = 0;
-  // Scratch of add_node_stiffness: the patches around each node, and ∇g_a by blocks.
+  // Scratch of add_node_stiffness: the patches around each node, and a gradient by blocks.
   std::vector<int> patch_begin_, patch_of_node_;
   Positions gradient_;
   std::vector<int> blocks_;

@@ -329,6 +329,7 @@ void Dynamics::add_damping_product(const Eigen::VectorXd& u, double scale,
       add_force(configuration_, tissue.nodes[static_cast<std::size_t>(i)], scale * damping_.col(i),
                 f);
   }
+  if (candidates_ != nullptr) contact_.add_damping_product(configuration_, u, scale, f);
 }
 
 void Dynamics::add_lag_force(const double* b, double gamma, Eigen::VectorXd& f) const {

@@ -53,7 +53,7 @@ class Dynamics {
   /// this object.
   fem::PressurePart pressure_part() const { return matrix_.pressure_part(); }
 
-  /// f += scale D u for block velocities u, of the dampers in tissue.
+  /// f += scale D u for block velocities u, of the dampers in tissue and in contact.
   void add_damping_product(const Eigen::VectorXd& u, double scale, Eigen::VectorXd& f) const;
 
   /// Newton's iteration with the pressures of smoothed tissues as unknowns of their own: those
@@ -101,6 +101,8 @@ class Dynamics {
   double elastic_energy() const;  // of the tissues [J]
   /// What the tissues' dampers lose there [W].
   double damping_power() const;
+  /// What friction and damping in contact lose there [W].
+  double contact_power() const { return candidates_ != nullptr ? contact_.damping_power() : 0; }
   /// ∂W/∂a of a tissue's elastic energy there by its activation [J].
   double energy_per_activation(std::size_t tissue) const;
   double gravity_energy() const;  // [J], of all masses but fixed and driven bones' own

@@ -49,9 +49,9 @@ std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model)
     }
     case Probe::Kind::Energy: {
       std::vector<std::string> names;
-      for (const char* what :
-           {"kinetic", "elastic", "gravity", "contact", "lines", "muscle_work", "load_work",
-            "motion_work", "ligament_loss", "tissue_loss", "settling_loss", "numerical_loss"})
+      for (const char* what : {"kinetic", "elastic", "gravity", "contact", "lines", "muscle_work",
+                               "load_work", "motion_work", "ligament_loss", "tissue_loss",
+                               "contact_loss", "settling_loss", "numerical_loss"})
         names.push_back(scalar(what, "J"));
       return names;
     }
@@ -136,9 +136,10 @@ void History::append(const ProbeModel& probe, const State& state, const Stepper&
     case Probe::Kind::Energy: {
       const StoredEnergy e = stepper.stored_energy();
       const EnergyLedger& l = state.energy;
-      values_.insert(values_.end(), {e.kinetic, e.elastic, e.gravity, e.contact, e.lines,
-                                     l.muscle_work, l.load_work, l.motion_work, l.ligament_loss,
-                                     l.tissue_loss, l.settling_loss, numerical_loss(state, e)});
+      values_.insert(values_.end(),
+                     {e.kinetic, e.elastic, e.gravity, e.contact, e.lines, l.muscle_work,
+                      l.load_work, l.motion_work, l.ligament_loss, l.tissue_loss, l.contact_loss,
+                      l.settling_loss, numerical_loss(state, e)});
       return;
     }
     case Probe::Kind::Attachment: {

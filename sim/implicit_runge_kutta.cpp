@@ -1,5 +1,7 @@
 #include <arkode/arkode_arkstep.h>
+#include <sunnonlinsol/sunnonlinsol_newton.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,6 +18,9 @@ using sundials::view;
 
 struct FreeArkode {
   void operator()(void* memory) const { ARKStepFree(&memory); }
+};
+struct FreeNonlinear {
+  void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
 };
 struct FreeTable {
   void operator()(ARKodeButcherTable table) const { ARKodeButcherTable_Free(table); }
@@ -43,6 +48,8 @@ class ImplicitRungeKutta final : public TimeIntegrator {
   static int rate(realtype t, N_Vector y, N_Vector y_dot, void* data);
   static int solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype);
   static int weights(N_Vector, N_Vector w, void* data);
+  static int is_converged(SUNNonlinearSolver solver, N_Vector, N_Vector correction,
+                          realtype tolerance, N_Vector weights, void* data);
   static int predict_stage(realtype t, N_Vector z, void* data);
   [[nodiscard]] bool evolve(const Eigen::VectorXd& start, double t, double h);
 
@@ -58,7 +65,10 @@ class ImplicitRungeKutta final : public TimeIntegrator {
   sundials::Context context_;
   sundials::Vector y_;
   sundials::Solver solver_;
+  sundials::Owned<SUNNonlinearSolver, FreeNonlinear> nonlinear_;
   sundials::Owned<void*, FreeArkode> arkode_;
+  double correction_size_ = 0;   // of the last one, by the weights
+  double convergence_rate_ = 1;  // how corrections shrink from one to the next
 };
 
 int ImplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
@@ -81,6 +91,23 @@ int ImplicitRungeKutta::weights(N_Vector, N_Vector w, void* data) {
   const auto& self = *static_cast<const ImplicitRungeKutta*>(data);
   set_weights(self.model_, self.step_, view(w));
   return 0;
+}
+
+/// ARKODE's own test, but for corrections that the line search has shortened: they are small
+/// however far the solution is, and steps accepted after one don't keep the momentum.
+int ImplicitRungeKutta::is_converged(SUNNonlinearSolver solver, N_Vector, N_Vector correction,
+                                     realtype tolerance, N_Vector weights, void* data) {
+  constexpr double kLeastRateFall = 0.3;
+  auto& self = *static_cast<ImplicitRungeKutta*>(data);
+  int iteration = 0;
+  SUNNonlinSolGetCurIter(solver, &iteration);
+  const double size = N_VWrmsNorm(correction, weights), last = self.correction_size_;
+  self.correction_size_ = size;
+  self.convergence_rate_ =
+      iteration == 0 ? 1 : std::max(kLeastRateFall * self.convergence_rate_, size / last);
+  if (!self.newton_.shortened() && std::min(1.0, self.convergence_rate_) * size <= tolerance)
+    return SUN_NLS_SUCCESS;
+  return iteration > 0 && size > kDivergenceRatio * last ? SUN_NLS_CONV_RECVR : SUN_NLS_CONTINUE;
 }
 
 /// A stage's iteration starts where everything would be if it went on as in the last step, with the
@@ -127,6 +154,7 @@ ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics)
       context_(sundials::make_context()),
       y_(sundials::make_vector(model.layout.size(), context_)),
       solver_(sundials::make_solver(context_, this, sundials::matrix_embedded, solve)),
+      nonlinear_(SUNNonlinSol_Newton(y_.get(), context_.get())),
       arkode_(ARKStepCreate(nullptr, rate, 0, y_.get(), context_.get())) {
   if (!arkode_) throw std::runtime_error("ARKStepCreate failed");
   void* arkode = arkode_.get();
@@ -135,12 +163,14 @@ ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics)
   check(ARKStepSetUserData(arkode, this), "ARKStepSetUserData");
   set_scheme(arkode, model.scenario.integrator.scheme);
   check(ARKStepWFtolerances(arkode, weights), "ARKStepWFtolerances");
+  check(ARKStepSetNonlinearSolver(arkode, nonlinear_.get()), "ARKStepSetNonlinearSolver");
+  check(SUNNonlinSolSetConvTestFn(nonlinear_.get(), is_converged, this),
+        "SUNNonlinSolSetConvTestFn");
   check(ARKStepSetLinearSolver(arkode, solver_.get(), nullptr), "ARKStepSetLinearSolver");
   check(ARKStepSetMaxNonlinIters(arkode, model.scenario.integrator.max_iterations),
         "ARKStepSetMaxNonlinIters");
   check(ARKStepSetMaxConvFails(arkode, 1), "ARKStepSetMaxConvFails");
   check(ARKStepSetNonlinConvCoef(arkode, kNewtonFraction), "ARKStepSetNonlinConvCoef");
-  check(ARKStepSetNonlinRDiv(arkode, kDivergenceRatio), "ARKStepSetNonlinRDiv");
   // The stage's own rate, (z − y)/γ, and not f(z): a remaining error in z would come out amplified
   // by the stiffness.
   check(ARKStepSetDeduceImplicitRhs(arkode, SUNTRUE), "ARKStepSetDeduceImplicitRhs");

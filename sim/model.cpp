@@ -34,6 +34,8 @@ constexpr double kTissueReach = 0.5;
 constexpr double kBoneModulus = 15e9, kBonePoisson = 0.3;
 /// Depth of the collision elements under a bone's surface where the scenario names none [m].
 constexpr double kDefaultShell = 1e-3;
+/// Of the elements at the surface: what friction at 0.7 of its limit creeps in the whole scene.
+constexpr double kCreep = 0.05;
 /// A muscle that gives less than this part of its maximal force at rest and full activation is
 /// probably a table applied to another subject.
 constexpr double kLeastForceAtRest = 0.1;
@@ -452,7 +454,7 @@ class Builder {
     return mean_face_area(A) <= mean_face_area(B);
   }
 
-  void add_contact(int a, int b, std::optional<double> stiffness) {
+  void add_contact(int a, int b, const ContactPair& pair) {
     const auto& A = model_.bodies[static_cast<std::size_t>(a)].collider;
     const auto& B = model_.bodies[static_cast<std::size_t>(b)].collider;
     if (!A || !B) return;
@@ -462,10 +464,10 @@ class Builder {
     contact.share = a == b ? 0.5 : 1;
     const double layers = A->layer_compliance + B->layer_compliance;
     contact.mean_stiffness =
-        stiffness.value_or(1 / (A->mean_compliance + B->mean_compliance + layers));
+        pair.stiffness.value_or(1 / (A->mean_compliance + B->mean_compliance + layers));
     const auto at_nodes = [&](const Collider& side, const Collider& other, double softer) {
-      if (stiffness)
-        return Eigen::VectorXd::Constant(side.X.cols(), contact.share * *stiffness).eval();
+      if (pair.stiffness)
+        return Eigen::VectorXd::Constant(side.X.cols(), contact.share * *pair.stiffness).eval();
       return (contact.share /
               (softer * (side.compliance.array() + other.mean_compliance) + layers))
           .matrix()
@@ -475,6 +477,10 @@ class Builder {
     const Collider &side = first ? *A : *B, &other = first ? *B : *A;
     (first ? contact.stiffness_a : contact.stiffness_b) = at_nodes(side, other, 1);
     (first ? contact.soft_a : contact.soft_b) = at_nodes(side, other, contact_factor() / kSoftFactor);
+    contact.law.friction = pair.friction;
+    contact.law.damping = contact.share * pair.damping;
+    contact.law.slip_velocity =
+        pair.slip_velocity.value_or(kCreep * std::min(A->size, B->size) / scenario().duration);
     model_.contacts.push_back(std::move(contact));
   }
 
@@ -493,7 +499,7 @@ class Builder {
                            fmt::format("body `{}` has nothing to touch with: it needs a mesh and "
                                        "must not have collides = false",
                                        model_.bodies[static_cast<std::size_t>(body)].name));
-      add_contact(a, b, pair.stiffness);
+      add_contact(a, b, pair);
     }
     if (!scenario().contacts.empty()) return;
     const auto n = static_cast<int>(model_.bodies.size());
@@ -502,7 +508,7 @@ class Builder {
         const auto fixed = [&](int body) {
           return model_.bodies[static_cast<std::size_t>(body)].kind == Body::Kind::Fixed;
         };
-        if (!(fixed(a) && fixed(b))) add_contact(a, b, {});
+        if (!(fixed(a) && fixed(b))) add_contact(a, b, ContactPair{});
       }
   }
 

@@ -7,6 +7,7 @@
 #include "collision/surface.hpp"
 #include "fem/dashpots.hpp"
 #include "fem/relaxation.hpp"
+#include "sim/contact_friction.hpp"
 #include "sim/rigid_body.hpp"
 #include "sim/scenario.hpp"
 #include "sim/tissue_elements.hpp"
@@ -118,6 +119,7 @@ struct ContactModel {
   Eigen::VectorXd soft_a, soft_b;
   double mean_stiffness = 0;  // of the two sides in series [Pa/m]
   double share = 1;           // ½ for a body with itself: each of two folds meets the other
+  SurfaceLaw law;             // its damping times `share`
 };
 
 struct ProbeModel {

@@ -288,8 +288,7 @@ const fem::BlockMatrix& NewtonMatrix::assemble(const Moment& now, const SystemSc
   add_masses(now.configuration, scale, common);
   for (std::size_t l = 0; l < model_.lines.size(); ++l)
     add_line_stiffness(model_, model_.lines[l], now.configuration, now.lines[l], scale, common);
-  if (now.contact != nullptr)
-    now.contact->add_stiffness(now.configuration, tangent, scale.stiffness, common);
+  if (now.contact != nullptr) now.contact->add_stiffness(now.configuration, tangent, scale, common);
   pressure_terms_.clear();
   if (!smoothed_) return A_;
   A_.set_zero();

@@ -201,7 +201,8 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   }
   dynamics_.correct_lags(b, gamma, w_, x);
   if (dynamics_.touches()) scale = line_search(y, gamma, x, scale, counts);
-  if (scale < 1) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;
+  shortened_ = scale < 1;
+  if (shortened_) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;
   return true;
 }
 

@@ -32,6 +32,8 @@ class NewtonSystem {
 
   /// This step did without a consistent matrix: with the projected one it would go the same way.
   bool used_projected_only() const { return !used_consistent_; }
+  /// The last correction is only a part of Newton's: however small, it says nothing of convergence.
+  bool shortened() const { return shortened_; }
   double solve_seconds() const { return solve_seconds_; }
 
  private:
@@ -56,6 +58,7 @@ class NewtonSystem {
   fem::Tangent first_ = fem::Tangent::Consistent;    // to try in this step
   bool used_consistent_ = false;                     // in this step
   int iteration_ = 0;                                // in this step
+  bool shortened_ = false;                           // the last correction
   double residual_ = 0, last_residual_ = 0;          // of this iteration and the one before
   double solve_seconds_ = 0;
 };

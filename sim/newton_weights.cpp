@@ -14,6 +14,14 @@ constexpr double kActivationTolerance = 1e-4;
 /// Of relaxing stress by the shear modulus.
 constexpr double kStrainTolerance = 1e-4;
 
+/// Sticking and sliding differ by velocities of this size [m/s]; infinity: no friction.
+double least_slip_velocity(const Model& model) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ContactModel& contact : model.contacts)
+    if (contact.law.friction > 0) least = std::min(least, contact.law.slip_velocity);
+  return least;
+}
+
 }  // namespace
 
 double turning_radius(const Bone& bone) {
@@ -35,13 +43,14 @@ void set_weights(const Model& model, double h, Eigen::Ref<Eigen::VectorXd> weigh
   const Layout& layout = model.layout;
   const double position = 1 / model.position_tolerance;
   weight.head(3 * layout.num_free_nodes).setConstant(position);
-  weight.segment(layout.velocities(), 3 * layout.num_unknown_blocks()).setConstant(position * h);
+  const double velocity = std::max(position * h, 1 / least_slip_velocity(model));
+  weight.segment(layout.velocities(), 3 * layout.num_unknown_blocks()).setConstant(velocity);
   for (int r = 0; r < layout.num_rigid; ++r) {
     const Bone& bone = model.bones[static_cast<std::size_t>(r)];
     const double size = turning_radius(bone);
     weight.segment<3>(layout.bone_p(r)).setConstant(position);
     weight.segment<4>(layout.bone_q(r)).setConstant(position * size);
-    weight.segment<3>(layout.velocities() + 3 * bone.block + 3).setConstant(position * size * h);
+    weight.segment<3>(layout.velocities() + 3 * bone.block + 3).setConstant(velocity * size);
   }
   weight.segment(layout.activations(), layout.num_muscles).setConstant(1 / kActivationTolerance);
   if (layout.num_lags == 0) return;

@@ -7,7 +7,8 @@
 namespace articular::sim {
 
 /// Weights 1/tolerance of the unknowns: positions against position_tolerance, velocities against
-/// what moves them so far in a time h [s], rotations by the bone's size.
+/// what moves them so far in a time h [s] and the least slip velocity of friction, rotations by the
+/// bone's size.
 void set_weights(const Model& model, double h, Eigen::Ref<Eigen::VectorXd> weight);
 
 /// What the scenario gives, or its part of the mean element size of the finest tissue; without

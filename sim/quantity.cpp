@@ -86,6 +86,7 @@ constexpr std::array kNouns{
     Noun{kStiffness.dimension, kStiffness.noun},
     Noun{kDamping.dimension, kDamping.noun},
     Noun{kContactStiffness.dimension, kContactStiffness.noun},
+    Noun{kContactDamping.dimension, kContactDamping.noun},
     Noun{kInertia.dimension, kInertia.noun},
     Noun{kVelocity.dimension, kVelocity.noun},
     Noun{kAngularVelocity.dimension, kAngularVelocity.noun},

@@ -220,6 +220,9 @@ struct ContactPair {
   std::string a, b;                 // a == b: the body with itself
   std::optional<double> stiffness;  // [Pa/m]; default: chosen from the tissue
   Location where;
+  double friction = 0;                       // coefficient; dynamic analysis only
+  std::optional<double> slip_velocity = {};  // [m/s] that friction takes for rest; default: chosen
+  double damping = 0;                        // pressure per closing velocity [Pa s/m]
 };
 
 struct Probe {

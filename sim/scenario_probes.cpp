@@ -15,8 +15,19 @@ const Body& read_touching_body(const Node& node, const Context& context) {
   return body;
 }
 
-ContactPair read_contact(const Node& node, const Context& context) {
-  const TableReader table(node, "[[contact]]", {"bodies", "self", "stiffness"});
+/// Friction, which acts on velocities.
+void read_friction(const TableReader& table, Scenario::Analysis analysis, ContactPair& pair) {
+  table.may("friction", pair.friction, as_number(kNotNegative));
+  table.may("slip_velocity", pair.slip_velocity, as_quantity(kVelocity, kPositive));
+  if (!(pair.friction > 0)) table.refuse({"slip_velocity"}, "there is no friction");
+  if (pair.friction > 0 && analysis == Scenario::Analysis::Static)
+    fail(*table.find("friction"),
+         "needs a dynamic analysis: in a static one nothing has a velocity");
+}
+
+ContactPair read_contact(const Node& node, const Context& context, Scenario::Analysis analysis) {
+  const TableReader table(node, "[[contact]]",
+                          {"bodies", "self", "stiffness", "friction", "slip_velocity", "damping"});
   ContactPair pair;
   pair.where = node.where;
   const Node& which = table.exactly_one({"bodies", "self"});
@@ -30,6 +41,8 @@ ContactPair read_contact(const Node& node, const Context& context) {
   pair.a = a.name;
   pair.b = b.name;
   table.may("stiffness", pair.stiffness, as_quantity(kContactStiffness, kPositive));
+  read_friction(table, analysis, pair);
+  table.may("damping", pair.damping, as_quantity(kContactDamping, kNotNegative));
   return pair;
 }
 
@@ -133,7 +146,7 @@ void read_contacts(const TableReader& document, const Context& context, Scenario
     fail(*node, fmt::format("expected false or entries that start with [[contact]], found {}",
                             found(*node)));
   for (const Node& element : *node->list()) {
-    ContactPair pair = read_contact(element, context);
+    ContactPair pair = read_contact(element, context, scenario.analysis);
     for (const ContactPair& other : scenario.contacts)
       if (std::minmax(pair.a, pair.b) == std::minmax(other.a, other.b))
         throw InputError(element.where,

@@ -94,6 +94,9 @@ nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
   for (const ContactPair& pair : scenario.contacts) {
     nlohmann::ordered_json entry{{"bodies", {pair.a, pair.b}}};
     if (pair.stiffness) entry["stiffness_Pa_per_m"] = *pair.stiffness;
+    if (pair.friction > 0) entry["friction"] = pair.friction;
+    if (pair.slip_velocity) entry["slip_velocity_m_per_s"] = *pair.slip_velocity;
+    if (pair.damping > 0) entry["damping_Pa_s_per_m"] = pair.damping;
     pairs.push_back(std::move(entry));
   }
   return pairs;

@@ -12,6 +12,7 @@ struct EnergyLedger {
   double motion_work = 0;    // by what drives prescribed motions
   double ligament_loss = 0;  // in ligaments' dampers
   double tissue_loss = 0;    // in tissues' dampers
+  double contact_loss = 0;   // by friction and dampers in contact
   double settling_loss = 0;  // against pseudo-time damping of a static analysis
   double start = 0;          // stored and kinetic energy at t = 0
 };

@@ -18,7 +18,7 @@ constexpr double kMarginPerStray = 4;
 double numerical_loss(const State& state, const StoredEnergy& now) {
   const EnergyLedger& l = state.energy;
   return l.start + l.muscle_work + l.load_work + l.motion_work - l.ligament_loss - l.tissue_loss -
-         l.settling_loss - now.total();
+         l.contact_loss - l.settling_loss - now.total();
 }
 
 Stepper::Stepper(const Model& model) : model_(model) {
@@ -99,6 +99,7 @@ void Stepper::remember_start(const State& state) {
   start_ = dynamics_->configuration();
   t_before_ = state.t;
   damping_before_ = dynamics_->damping_power();
+  contact_power_before_ = dynamics_->contact_power();
   fibre_energy_before_.assign(model_.tissues.size(), 0);
   for (std::size_t t = 0; t < model_.tissues.size(); ++t)
     if (model_.tissues[t].muscle >= 0)
@@ -208,6 +209,8 @@ void Stepper::account(State& after) {
   }
   ledger.tissue_loss +=
       0.5 * (damping_before_ + dynamics_->damping_power()) * (after.t - t_before_);
+  ledger.contact_loss +=
+      0.5 * (contact_power_before_ + dynamics_->contact_power()) * (after.t - t_before_);
   for (std::size_t i = 0; i < model_.forces.size(); ++i) {
     const ForceModel& force = model_.forces[i];
     const double factor =

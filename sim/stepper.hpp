@@ -80,6 +80,7 @@ class Stepper {
   Eigen::VectorXd forces_before_;
   double t_before_ = 0;
   double damping_before_ = 0;                // [W]
+  double contact_power_before_ = 0;          // [W]
   std::vector<double> fibre_energy_before_;  // [J] per activation, of each tissue
 };
 

@@ -59,6 +59,7 @@ Json energy(const State& state, const StoredEnergy& now) {
           {"motion_work", l.motion_work},
           {"ligament_loss", l.ligament_loss},
           {"tissue_loss", l.tissue_loss},
+          {"contact_loss", l.contact_loss},
           {"settling_loss", l.settling_loss},
           {"numerical_loss", numerical_loss(state, now)},
           {"end",

@@ -68,9 +68,10 @@ Json linear_solver(const sim::Model& model) {
 Json explain(const sim::Model& model) {
   Json bodies = Json::array(), pairs = Json::array(), left_out = Json::array();
   for (const sim::BodyModel& body : model.bodies) bodies.push_back(explain_body(model, body));
-  bool any_self = false;
+  bool any_self = false, any_friction = false;
   for (const sim::ContactModel& contact : model.contacts) {
     any_self = any_self || contact.a == contact.b;
+    any_friction = any_friction || contact.law.friction > 0;
     pairs.push_back({{"a", model.bodies[static_cast<std::size_t>(contact.a)].name},
                      {"b", model.bodies[static_cast<std::size_t>(contact.b)].name},
                      {"stiffness_Pa_per_m", contact.mean_stiffness}});
@@ -88,7 +89,7 @@ Json explain(const sim::Model& model) {
   left_out.push_back("fluid flow in cartilage (poroelasticity)");
   left_out.push_back("wrapping of muscles over bone (straight between via points)");
   left_out.push_back("deformation of bone");
-  left_out.push_back("friction");
+  if (!any_friction) left_out.push_back("friction: the scene names none");
   return {{"title", model.scenario.title},
           {"bodies", bodies},
           {"contact_pairs", pairs},

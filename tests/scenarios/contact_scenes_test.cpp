@@ -68,6 +68,30 @@ TEST(ToolOnTissue, ForceIsThatOfABallOnABondedLayer) {
             0.1 * results.largest("energy.motion_work [J]"));
 }
 
+TEST(Incline, OneBlockCreepsAndTheOthersSlideWithWhatFrictionLeaves) {
+  const ScenarioResults results = run_scenario("verification/incline.toml");
+  expect_contact_was_searched(results);
+  const double sine = 3.355218, cosine = 9.218385;  // times g [m/s²]
+  const auto speed = [&](const std::string& block, double from, double to) {
+    const std::string column = block + ".position.x [mm]";
+    return 1e-3 * (results.at(column, to) - results.at(column, from)) / (to - from);
+  };
+  const auto acceleration = [&](const std::string& block) {
+    return (speed(block, 0.08, 0.1) - speed(block, 0.04, 0.06)) / 0.04;
+  };
+  const double ratio = sine / cosine / 0.5, creep = 1e-4 * ratio / std::sqrt(1 - ratio * ratio);
+  EXPECT_NEAR(speed("sticking", 0.05, 0.1), creep, 0.01 * creep);
+  EXPECT_NEAR(acceleration("sliding"), sine - 0.3 * cosine, 0.01 * (sine - 0.3 * cosine));
+  EXPECT_NEAR(acceleration("slippery"), sine, 0.01 * sine);
+  EXPECT_NEAR(-results.last("slid.force.x [N]"), 0.3 * results.last("slid.force.z [N]"),
+              1e-3 * results.last("slid.force.z [N]"));
+  const double weight = 1000 * 16 * 16 * 8e-9;  // by g [kg]
+  EXPECT_NEAR(-results.last("stuck.force.x [N]"), weight * sine, 0.01 * weight * sine);
+  const double rubbed = 1e-3 * results.last("sliding.position.x [mm]") * 0.3 * weight * cosine +
+                        1e-3 * results.last("sticking.position.x [mm]") * weight * sine;
+  EXPECT_NEAR(results.last("energy.contact_loss [J]"), rubbed, 0.03 * rubbed);
+}
+
 TEST(TwoVShapes, PushEachOtherAsideWithEqualAndOppositeForces) {
   const ScenarioResults results = run_scenario("v-shapes/two.toml", {"duration=0.5 s"});
   expect_contact_was_searched(results);

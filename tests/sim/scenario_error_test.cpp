@@ -370,6 +370,23 @@ INSTANTIATE_TEST_SUITE_P(
                 "`self`: only tissue can touch itself, body `mandible` is rigid"},
         Mistake{"ContactWithoutSurface", kStart + "[[contact]]\nbodies = [\"skull\", @\"stand\"]\n",
                 "`bodies[1]`: body `stand` has no surface that could touch"},
+        Mistake{"NegativeFriction",
+                kStart + "[[contact]]\nbodies = [\"skull\", \"mandible\"]\nfriction = @-0.1\n",
+                "`friction` must not be negative, found -0.1"},
+        Mistake{"SlipWithoutFriction",
+                kStart + "[[contact]]\nbodies = [\"skull\", \"mandible\"]\n@slip_velocity = \"1 "
+                         "mm/s\"\n",
+                "[[contact]]: `slip_velocity` does not belong here: there is no friction"},
+        Mistake{"StaticFriction",
+                "analysis = \"static\"\n" + kStart +
+                    "[[contact]]\nbodies = [\"skull\", \"mandible\"]\nfriction = @0.1\n",
+                "`friction`: needs a dynamic analysis: in a static one nothing has a "
+                "velocity"},
+        Mistake{
+            "ContactDampingUnit",
+            kStart + "[[contact]]\nbodies = [\"skull\", \"mandible\"]\ndamping = @\"1 N s/m\"\n",
+            "`damping`: expected a damping per area such as \"1e4 Pa s/m\", found \"1 N s/m\" "
+            "(a damping)"},
         Mistake{"ContactTwice",
                 kStart + "[[contact]]\nbodies = [\"skull\", \"mandible\"]\n@[[contact]]\nbodies = "
                          "[\"mandible\", "

@@ -163,6 +163,9 @@ interpolation = "linear"
 [[contact]]
 bodies = ["disc_left", "mandible"]
 stiffness = "1e11 Pa/m"
+friction = 0.02
+slip_velocity = "0.1 mm/s"
+damping = "1e4 Pa s/m"
 
 [[contact]]
 self = "block"
@@ -402,8 +405,14 @@ TEST_F(CompleteScenario, HasItsContactsAndProbes) {
   EXPECT_EQ(scenario_.contacts[0].a, "disc_left");
   EXPECT_EQ(scenario_.contacts[0].b, "mandible");
   EXPECT_EQ(scenario_.contacts[0].stiffness, 1e11);
+  EXPECT_EQ(scenario_.contacts[0].friction, 0.02);
+  EXPECT_EQ(scenario_.contacts[0].slip_velocity, 1e-4);
+  EXPECT_EQ(scenario_.contacts[0].damping, 1e4);
   EXPECT_EQ(scenario_.contacts[1].a, "block");
   EXPECT_EQ(scenario_.contacts[1].b, "block");
+  EXPECT_EQ(scenario_.contacts[1].friction, 0);
+  EXPECT_FALSE(scenario_.contacts[1].slip_velocity);
+  EXPECT_EQ(scenario_.contacts[1].damping, 0);
   ASSERT_EQ(scenario_.probes.size(), 7U);
   EXPECT_EQ(scenario_.probes[0].anchor.body, "mandible");
   EXPECT_EQ(scenario_.probes[0].anchor.point, Vec3(0, -47e-3, 42e-3));

@@ -1,0 +1,151 @@
+#include "sim/contact_friction.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "sim/contact_response.hpp"
+
+namespace articular::sim {
+namespace {
+
+using SixVectors = Eigen::Matrix<double, 3, 6>;
+
+/// Rates at the nodes of a direction: in `closing` and `slip`, sums over patches.
+struct Rates {
+  Eigen::VectorXd closing;  // Ġ [m³/s]
+  Positions slip;           // W V [m³/s]
+};
+
+/// @param velocity_of  a NodeRef's [m/s]
+template <class Velocity>
+Rates rates_of(const DirectionMoment& direction, const Collider& triangles, const Collider& faces,
+               Velocity&& velocity_of) {
+  Rates rates{Eigen::VectorXd::Zero(triangles.X.cols()), Positions::Zero(3, triangles.X.cols())};
+  for (const DirectionMoment::Patch& entry : direction.patches()) {
+    if (!carries(direction, entry.triangle, triangles.surface.faces)) continue;
+    const auto nodes = nodes_of(triangles, faces, entry.triangle, entry.face);
+    SixVectors v;
+    for (Eigen::Index k = 0; k < 6; ++k)
+      v.col(k) = velocity_of(*nodes[static_cast<std::size_t>(k)]);
+    const Mat3 slip = slip_integrals(entry.patch, v);
+    for (int i = 0; i < 3; ++i) {
+      const int node = triangles.surface.faces(i, entry.triangle);
+      rates.closing[node] += patch_gradient(entry.patch, Vec3::Unit(i)).dot(v.reshaped());
+      rates.slip.col(node) += slip.col(i);
+    }
+  }
+  return rates;
+}
+
+/// Sums of w N_a n over the patches.
+Positions normals_of(const DirectionMoment& direction, const Collider& triangles) {
+  Positions normals = Positions::Zero(3, triangles.X.cols());
+  for (const DirectionMoment::Patch& entry : direction.patches()) {
+    const Vec3 areas = nodal_areas(entry.patch);
+    for (int i = 0; i < 3; ++i)
+      normals.col(triangles.surface.faces(i, entry.triangle)) += areas[i] * entry.patch.normal;
+  }
+  return normals;
+}
+
+}  // namespace
+
+NodalDrag nodal_drag(const SurfaceLaw& law, double pressure, double closing, const Vec3& slip,
+                     const Vec3& normal) {
+  NodalDrag drag;
+  drag.closing = closing;
+  // No more than the penalty gives: pressure rises from 0 where surfaces meet, and never pulls.
+  drag.pressure = std::clamp(law.damping * closing, -pressure, pressure);
+  if (std::abs(law.damping * closing) < pressure)
+    drag.damping = law.damping;
+  else
+    drag.stiffening = closing > 0 ? 2 : 0;
+  if (!(law.friction > 0)) return drag;
+  const double limit = law.friction * (pressure + drag.pressure);
+  drag.slip = slip - normal.dot(slip) * normal;
+  const double speed = drag.slip.norm(), regular = std::hypot(speed, law.slip_velocity);
+  drag.traction = -limit / regular * drag.slip;
+  drag.along = speed > 0 ? Vec3(drag.slip / speed) : Vec3(normal.unitOrthogonal());
+  drag.across = normal.cross(drag.along);
+  drag.drag_across = limit / regular;
+  drag.drag_along = drag.drag_across * std::pow(law.slip_velocity / regular, 2);
+  return drag;
+}
+
+// u_i = v_i − d_i ṅ − Σ β_mi ḟ_m at the triangle's nodes, with ṅ = −Σ ∇N_j (n·v_j).
+
+Vec18 slip_gradient(const ContactPatch& patch, const Mat3& t) {
+  const Mat3 q = t * patch.Q;  // of u_i
+  const Vec3 lever = q * patch.depth;
+  Vec18 g;
+  for (int i = 0; i < 3; ++i) {
+    g.segment<3>(3 * i) = q.col(i) + lever.dot(patch.g.col(i)) * patch.normal;
+    g.segment<3>(9 + 3 * i) = -q * patch.beta.row(i).transpose();
+  }
+  return g;
+}
+
+Mat3 slip_integrals(const ContactPatch& patch, const SixVectors& v) {
+  const Vec3 turning = -patch.g * (v.leftCols<3>().transpose() * patch.normal);
+  const Mat3 u =
+      v.leftCols<3>() - turning * patch.depth.transpose() - v.rightCols<3>() * patch.beta;
+  return u * patch.Q;
+}
+
+void find_drag(const SurfaceLaw& law, const Collider& triangles, const Collider& faces,
+               const Configuration& configuration, DirectionMoment& direction) {
+  const Rates rates = rates_of(direction, triangles, faces,
+                               [&](const NodeRef& node) { return configuration.velocity(node); });
+  const Positions normals = normals_of(direction, triangles);
+  direction.drag.assign(static_cast<std::size_t>(triangles.X.cols()), {});
+  for (const int node : direction.nodes) {
+    if (!(direction.pressure[node] > 0)) continue;
+    NodalDrag& drag = direction.drag[static_cast<std::size_t>(node)];
+    drag = nodal_drag(law, direction.pressure[node], rates.closing[node] / direction.measure[node],
+                      rates.slip.col(node) / direction.area[node], normals.col(node).normalized());
+    direction.pressure[node] += drag.pressure;
+  }
+}
+
+void add_drag_product(const DirectionMoment& direction, const Collider& triangles,
+                      const Collider& faces, const Configuration& configuration,
+                      const Eigen::VectorXd& u, double scale, Eigen::VectorXd& f) {
+  const Rates rates = rates_of(direction, triangles, faces, [&](const NodeRef& node) {
+    Vec3 velocity = u.segment<3>(3 * node.block);
+    if (node.bone >= 0)
+      velocity += u.segment<3>(3 * node.block + 3).cross(configuration.lever(node));
+    return velocity;
+  });
+  for (const DirectionMoment::Patch& entry : direction.patches()) {
+    if (!carries(direction, entry.triangle, triangles.surface.faces)) continue;
+    Vec3 p;
+    Mat3 t;
+    for (int i = 0; i < 3; ++i) {
+      const int node = triangles.surface.faces(i, entry.triangle);
+      const NodalDrag& drag = direction.drag[static_cast<std::size_t>(node)];
+      const Vec3 slip = rates.slip.col(node) / direction.area[node];
+      p[i] = drag.damping * rates.closing[node] / direction.measure[node];
+      t.col(i) = drag.drag_along * drag.along.dot(slip) * drag.along +
+                 drag.drag_across * drag.across.dot(slip) * drag.across;
+    }
+    const Vec18 product = patch_gradient(entry.patch, p) + slip_gradient(entry.patch, t);
+    const auto nodes = nodes_of(triangles, faces, entry.triangle, entry.face);
+    for (Eigen::Index k = 0; k < 6; ++k)
+      add_force(configuration, *nodes[static_cast<std::size_t>(k)],
+                scale * product.segment<3>(3 * k), f);
+  }
+}
+
+double drag_power(const DirectionMoment& direction) {
+  double power = 0;
+  if (direction.drag.empty()) return power;
+  for (const int node : direction.nodes) {
+    const NodalDrag& drag = direction.drag[static_cast<std::size_t>(node)];
+    power += drag.pressure * drag.closing * direction.measure[node] -
+             drag.traction.dot(drag.slip) * direction.area[node];
+  }
+  return power;
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/contact_patch.hpp"
+
+/// Friction and damping of two surfaces in contact, at the nodes a at which depths are averaged
+/// (contact_response.hpp). On a patch, u is how the triangle's point moves relative to the face's
+/// point opposite: both looked at on the face, where the triangle carries a stick of the length of
+/// the depth along its normal. With the weights of the depths,
+///
+///   V_a = ∫ w N_a u dA / W_a   (over all patches around a; its part across the mean normal)
+///   t_a = −μ p_a V_a / √(|V_a|² + v_s²),
+///
+/// regularised Coulomb friction [Wriggers 2006, ch. 5.2]. The forces on the six nodes are those
+/// whose power is Σ W_a t_a·V_a: as u vanishes for a common rigid motion, they are equal and
+/// opposite and make no net moment.
+///
+/// [Wriggers 2006] Wriggers. Computational Contact Mechanics, 2nd ed. Springer.
+namespace articular::sim {
+
+struct Collider;
+struct Configuration;
+struct DirectionMoment;
+
+/// What a contact does beside pressing; nothing by default.
+struct SurfaceLaw {
+  double friction = 0;       // coefficient [-]
+  double slip_velocity = 0;  // v_s [m/s], > 0 with friction
+  double damping = 0;        // pressure per closing velocity [Pa s/m]
+  bool acts() const { return friction > 0 || damping > 0; }
+};
+
+/// At one node: on the side whose triangles are averaged over.
+struct NodalDrag {
+  Vec3 traction = Vec3::Zero();  // t [Pa]
+  Vec3 slip = Vec3::Zero();      // V [m/s]
+  Vec3 along = Vec3::Zero();     // unit tangents: that of the slip,
+  Vec3 across = Vec3::Zero();    // and the other one
+  double drag_along = 0;         // −∂t/∂V along them [Pa s/m]
+  double drag_across = 0;
+  double closing = 0;     // rate of the mean depth [m/s]
+  double pressure = 0;    // of damping, part of the node's [Pa]
+  double damping = 0;     // its derivative by `closing` [Pa s/m]
+  double stiffening = 1;  // derivative of the node's pressure by that of the penalty
+};
+
+/// @param pressure  of the penalty [Pa], > 0
+/// @param normal    unit
+NodalDrag nodal_drag(const SurfaceLaw& law, double pressure, double closing, const Vec3& slip,
+                     const Vec3& normal);
+
+/// Σ_a t_a·∫ w N_a u dA by the velocities of the six nodes. @param t  one a node of the triangle
+Vec18 slip_gradient(const ContactPatch& patch, const Mat3& t);
+/// ∫ w N_a u dA [m³/s] for velocities of the six nodes [m/s], one a column.
+Mat3 slip_integrals(const ContactPatch& patch, const Eigen::Matrix<double, 3, 6>& v);
+
+/// Drag at the nodes of a direction whose depths and pressures are known; adds to the pressures.
+void find_drag(const SurfaceLaw& law, const Collider& triangles, const Collider& faces,
+               const Configuration& configuration, DirectionMoment& direction);
+
+/// f += scale D u for velocities u of the blocks, where D is minus the derivative of forces by
+/// velocities that drag has.
+void add_drag_product(const DirectionMoment& direction, const Collider& triangles,
+                      const Collider& faces, const Configuration& configuration,
+                      const Eigen::VectorXd& u, double scale, Eigen::VectorXd& f);
+
+/// What friction and damping lose [W].
+double drag_power(const DirectionMoment& direction);
+
+}  // namespace articular::sim
