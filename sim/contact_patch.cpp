@@ -203,25 +203,34 @@ Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p) {
 //
 //   δ²d = −2 δd c·δn − 2 Σ δβ_m c·δf_m − d c·δ²n,   −c·δ²n = |δn|² + 2 Σ e_j δn·δx_j.
 
+namespace {
+
+using Mat18x3 = Eigen::Matrix<double, 18, 3>;
+
+/// direction·u_i for the three nodes of s, of the 18 displacements.
+Mat18x3 opposite(const ContactPatch& patch, const Vec3& direction) {
+  Mat18x3 rows;
+  const Vec3 tilt = patch.g.transpose() * direction;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      rows.block<3, 1>(3 * j, i) = patch.depth[i] * tilt[j] * patch.normal;
+      rows.block<3, 1>(9 + 3 * j, i) = -patch.beta(j, i) * direction;
+    }
+    rows.block<3, 1>(3 * i, i) += direction;
+  }
+  return rows;
+}
+
+}  // namespace
+
+Mat18 patch_hessian(const ContactPatch& patch) {
+  const Mat18x3 a = opposite(patch, patch.c);
+  return a * patch.Q * a.transpose();
+}
+
 Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p) {
-  using Mat18x3 = Eigen::Matrix<double, 18, 3>;
   const Vec3 q = patch.Q * p;
   const double tilting = q.dot(patch.depth);
-  // What direction·u_i is of the 18 displacements.
-  const auto opposite = [&patch](int i, const Vec3& direction) {
-    Vec18 row;
-    for (int j = 0; j < 3; ++j) {
-      row.segment<3>(3 * j) = patch.depth[i] * direction.dot(patch.g.col(j)) * patch.normal;
-      row.segment<3>(9 + 3 * j) = -patch.beta(j, i) * direction;
-    }
-    row.segment<3>(3 * i) += direction;
-    return row;
-  };
-  const auto opposite_all = [&opposite](const Vec3& direction) {
-    Mat18x3 rows;
-    for (int i = 0; i < 3; ++i) rows.col(i) = opposite(i, direction);
-    return rows;
-  };
   Vec18 tilt = Vec18::Zero();  // −c·δn
   for (int j = 0; j < 3; ++j) tilt.segment<3>(3 * j) = patch.e[j] * patch.normal;
 
@@ -229,12 +238,12 @@ Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p) {
   // ½ of each pair: the transpose is added below.
   Mat18x3 y = tilt * q.transpose();
   for (int m = 0; m < 3; ++m)
-    H.block<18, 3>(0, 9 + 3 * m) -= opposite_all(patch.face_g.col(m)) * q * patch.c.transpose();
+    H.block<18, 3>(0, 9 + 3 * m) -= opposite(patch, patch.face_g.col(m)) * q * patch.c.transpose();
   for (int k = 0; k < patch.num_edges; ++k) {
     const PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
-    y += 0.5 * opposite_all(patch.face_g.col(edge.m)) * edge_integral(edge, p);
+    y += 0.5 * opposite(patch, patch.face_g.col(edge.m)) * edge_integral(edge, p);
   }
-  H += opposite_all(patch.c) * y.transpose();
+  H += opposite(patch, patch.c) * y.transpose();
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       H.block<3, 3>(3 * i, 3 * j) +=

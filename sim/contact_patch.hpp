@@ -83,6 +83,9 @@ inline Vec3 depth_integrals(const ContactPatch& patch) { return patch.Q * patch.
 /// ∂/∂(x0 x1 x2 f0 f1 f2) of Σ p_a G_a for numbers p that stay as they are.
 Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p);
 
+/// w ∫ ∇d ∇dᵀ dA, ∇d by the six nodes: positive semidefinite.
+Mat18 patch_hessian(const ContactPatch& patch);
+
 /// Second derivative of Σ p_a G_a for numbers p that stay as they are: of the depth, and of what
 /// the face's edges sweep as they move over the triangle, made symmetric: summed over the two faces
 /// at an edge that is exact. Indefinite. Left out: the turning of w, and the gradient's missing

@@ -47,7 +47,13 @@ Mat3 corners(const Configuration& configuration, const Collider& collider, int f
 Vec3 nodal_pressures(const DirectionMoment& direction, const DirectionMoment::Patch& entry,
                      const Eigen::Matrix3Xi& faces) {
   Vec3 p;
-  for (int i = 0; i < 3; ++i) p[i] = direction.pressure[faces(i, entry.triangle)];
+  for (int i = 0; i < 3; ++i) {
+    const int node = faces(i, entry.triangle);
+    p[i] = direction.pressure[node];
+    if (!(direction.point_stiffness > 0)) continue;
+    p[i] = direction.point_stiffness * entry.patch.depth[i];
+    if (!direction.drag.empty()) p[i] += direction.drag[static_cast<std::size_t>(node)].pressure;
+  }
   return p;
 }
 
@@ -67,6 +73,10 @@ Vec18 forces_on_nodes(const DirectionMoment& direction, const DirectionMoment::P
 ContactResponse::ContactResponse(const Model& model) : model_(model) {
   gradient_.setZero(3, model.num_blocks);
   has_gradient_.assign(static_cast<std::size_t>(model.num_blocks), 0);
+}
+
+const ContactModel& ContactResponse::contact_of(std::size_t direction) const {
+  return model_.contacts[static_cast<std::size_t>((*candidates_)[direction].contact)];
 }
 
 ContactResponse::Sides ContactResponse::sides(std::size_t direction) const {
@@ -94,12 +104,12 @@ void ContactResponse::evaluate(const Configuration& configuration,
     direction.nodes.clear();
     find_patches(d, configuration);
     const Eigen::VectorXd& stiffness = sides(d).stiffness;
+    direction.point_stiffness = contact_of(d).averaged ? 0 : stiffness[0];
     for (const int node : direction.nodes) {
       direction.depth[node] /= direction.measure[node];
       direction.pressure[node] = stiffness[node] * std::max(0.0, direction.depth[node]);
     }
-    const auto contact = static_cast<std::size_t>(candidates[d].contact);
-    if (const SurfaceLaw& law = model_.contacts[contact].law; law.acts())
+    if (const SurfaceLaw& law = contact_of(d).law; law.acts())
       find_drag(law, sides(d).triangles, sides(d).faces, configuration, direction);
   }
 }
@@ -124,7 +134,8 @@ void ContactResponse::find_patches(std::size_t d, const Configuration& configura
     faces_.resize(side.faces.face_area.size());
     met_.resize(side.faces.face_area.size(), 0);
   }
-  const DepthRange range = depth_range(side.triangles, side.faces);
+  const bool averaged = contact_of(d).averaged;
+  const DepthRange range = depth_range(side.triangles, side.faces, averaged);
   const std::vector<ContactCandidate>& pairs = (*candidates_)[d].pairs;
   for (std::size_t first = 0; first < pairs.size();) {  // they come sorted by triangle
     const int triangle = pairs[first].triangle;
@@ -148,7 +159,7 @@ void ContactResponse::find_patches(std::size_t d, const Configuration& configura
       if (!(covered[i] > 0)) continue;
       const int node = side.triangles.surface.faces(i, triangle);
       if (direction.measure[node] == 0) direction.nodes.push_back(node);
-      direction.measure[node] += std::sqrt(covered[i] * rest_area / 3);
+      direction.measure[node] += averaged ? std::sqrt(covered[i] * rest_area / 3) : covered[i];
       direction.area[node] += covered[i];
       direction.depth[node] += integrals[i];
     }
@@ -222,7 +233,8 @@ std::vector<ContactSummary> ContactResponse::summaries(const Configuration& conf
       sum.max_pressure = std::max(sum.max_pressure, p / model_.contacts[c].share);
       const double damping =
           direction.drag.empty() ? 0 : direction.drag[static_cast<std::size_t>(node)].pressure;
-      sum.energy += 0.5 * (p - damping) * direction.depth[node] * direction.measure[node];
+      if (!(direction.point_stiffness > 0))
+        sum.energy += 0.5 * (p - damping) * direction.depth[node] * direction.measure[node];
       if (direction.depth[node] > sum.max_depth) {
         sum.max_depth = direction.depth[node];
         sum.deepest = x;
@@ -232,6 +244,8 @@ std::vector<ContactSummary> ContactResponse::summaries(const Configuration& conf
       const auto& triangles = side.triangles.surface.faces;
       if (!carries(direction, entry.triangle, triangles)) continue;
       sum.max_point_depth = std::max(sum.max_point_depth, entry.patch.depth_max);
+      sum.energy +=
+          0.5 * direction.point_stiffness * entry.patch.depth.dot(depth_integrals(entry.patch));
       const Vec3 q = entry.patch.Q * nodal_pressures(direction, entry, triangles);
       weight[c] += q.sum();
       sum.center += corners(configuration, side.triangles, entry.triangle) * q;
@@ -363,17 +377,19 @@ void ContactResponse::add_stiffness(const Configuration& configuration, fem::Tan
                                     const SystemScale& scale, fem::BlockMatrix& A) {
   for (std::size_t d = 0; d < directions_.size(); ++d) {
     add_node_stiffness(d, configuration, tangent, scale, A);
-    if (tangent != fem::Tangent::Consistent) continue;
+    const double k = scale.stiffness * directions_[d].point_stiffness;
+    if (tangent != fem::Tangent::Consistent && k == 0) continue;
     const Sides side = sides(d);
     const auto& triangles = side.triangles.surface.faces;
     for (const DirectionMoment::Patch& entry : directions_[d].patches()) {
       if (!carries(directions_[d], entry.triangle, triangles)) continue;
-      Vec3 p;
-      for (int i = 0; i < 3; ++i)
-        p[i] = scale.stiffness * directions_[d].pressure[triangles(i, entry.triangle)];
+      Mat18 H = Mat18::Zero();
+      if (k > 0) H += k * patch_hessian(entry.patch);
+      if (tangent == fem::Tangent::Consistent)
+        H += patch_curvature(entry.patch,
+                             scale.stiffness * nodal_pressures(directions_[d], entry, triangles));
       sim::add_stiffness(model_, configuration,
-                         nodes_of(side.triangles, side.faces, entry.triangle, entry.face),
-                         patch_curvature(entry.patch, p), A);
+                         nodes_of(side.triangles, side.faces, entry.triangle, entry.face), H, A);
     }
   }
 }
@@ -442,6 +458,8 @@ void ContactResponse::add_node_stiffness(std::size_t d, const Configuration& con
                                          fem::BlockMatrix& A) {
   const DirectionMoment& direction = directions_[d];
   const Sides side = sides(d);
+  const bool averaged = !(direction.point_stiffness > 0);
+  if (!averaged && direction.drag.empty()) return;
   find_patches_of_nodes(d);
   const auto of_depth = [](const ContactPatch& patch, int local) {
     return patch_gradient(patch, Vec3::Unit(local));
@@ -455,7 +473,8 @@ void ContactResponse::add_node_stiffness(std::size_t d, const Configuration& con
     }
     const NodalDrag& drag = direction.drag[static_cast<std::size_t>(a)];
     add_rank_one(d, a, configuration,
-                 drag.stiffening * penalty + scale.damping * drag.damping / direction.measure[a],
+                 (averaged ? drag.stiffening * penalty : 0) +
+                     scale.damping * drag.damping / direction.measure[a],
                  of_depth, A);
     // Friction grows with the slip ever more slowly: the secant is an upper bound of the tangent.
     const double along = tangent == fem::Tangent::Consistent ? drag.drag_along : drag.drag_across;
@@ -483,11 +502,20 @@ void append_missing_stencils(const Model& model, const std::vector<CandidateList
     };
     const Collider& triangles = *model.bodies[body(list.reversed)].collider;
     const Collider& faces = *model.bodies[body(!list.reversed)].collider;
-    blocks_of_node.assign(static_cast<std::size_t>(triangles.X.cols()), {});
+    // Pointwise, a candidate couples its own six nodes; an average, all around its node.
+    const bool by_node = contact.averaged || contact.law.acts();
+    blocks_of_node.assign(
+        by_node ? static_cast<std::size_t>(triangles.X.cols()) : list.pairs.size(), {});
+    for (std::size_t k = 0; k < list.pairs.size() && !by_node; ++k)
+      for (const NodeRef* node :
+           nodes_of(triangles, faces, list.pairs[k].triangle, list.pairs[k].face))
+        append_blocks(model, *node, blocks_of_node[k]);
     for (const ContactCandidate& candidate : list.pairs)
-      for (const int a : triangles.surface.faces.col(candidate.triangle))
+      for (const int a : triangles.surface.faces.col(candidate.triangle)) {
+        if (!by_node) break;
         for (const NodeRef* node : nodes_of(triangles, faces, candidate.triangle, candidate.face))
           append_blocks(model, *node, blocks_of_node[static_cast<std::size_t>(a)]);
+      }
     for (std::vector<int>& blocks : blocks_of_node) {
       if (blocks.empty()) continue;
       std::sort(blocks.begin(), blocks.end());

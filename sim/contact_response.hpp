@@ -33,11 +33,13 @@ struct DirectionMoment {
   std::size_t num_patches = 0;
   std::span<const Patch> patches() const { return {stored.data(), num_patches}; }
   // By node of the side whose triangles these are; zero where it meets nothing:
-  Eigen::VectorXd area;         // W [m²]
-  Eigen::VectorXd measure;      // A [m²]
-  Eigen::VectorXd depth;        // g [m]
-  Eigen::VectorXd pressure;     // p [Pa], with that of damping
-  std::vector<int> nodes;       // that have an area
+  Eigen::VectorXd area;      // W [m²]
+  Eigen::VectorXd measure;   // A [m²]
+  Eigen::VectorXd depth;     // g [m]
+  Eigen::VectorXd pressure;  // p [Pa], with that of damping
+  std::vector<int> nodes;    // that have an area
+  /// Where depths are not averaged, of each point [Pa/m]; then g and p above are but means.
+  double point_stiffness = 0;
   std::vector<NodalDrag> drag;  // empty: neither friction nor damping
 };
 
@@ -107,6 +109,7 @@ class ContactResponse {
  private:
   struct Sides;
   Sides sides(std::size_t direction) const;
+  const ContactModel& contact_of(std::size_t direction) const;
   void find_patches(std::size_t direction, const Configuration& configuration);
   const FlatTriangle& face_now(const Configuration& configuration, const Collider& faces, int face);
   void find_patches_of_nodes(std::size_t direction);

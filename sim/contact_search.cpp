@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 
-
 namespace articular::sim {
 namespace {
 
@@ -28,12 +27,11 @@ bool apart(const Extent& a, const Extent& b, double distance) {
 /// The face F can't come to lie opposite the triangle s by motion over a distance: it is farther
 /// in front of it or deeper behind it than the range goes, or beside it when seen along the
 /// triangle's normal.
-bool cannot_meet(const FacePlace& s, const FacePlace& F, const DepthRange& range,
-                 double distance) {
+bool cannot_meet(const FacePlace& s, const FacePlace& F, const DepthRange& range, double distance) {
   const double plane = s.normal.dot(s.corners.col(0));
   const Extent height = extent(F.corners, s.normal);
-  if (height.low - plane > range.open + distance ||
-      plane - height.high > range.reach + distance) return true;
+  if (height.low - plane > range.open + distance || plane - height.high > range.reach + distance)
+    return true;
   for (int k = 0; k < 3; ++k)
     if (apart(s.along[static_cast<std::size_t>(k)], extent(F.corners, s.sides.col(k)), distance))
       return true;
@@ -74,8 +72,8 @@ void drop_far_faces(const std::vector<collision::Penetration>& faces_in_triangle
 
 }  // namespace
 
-DepthRange depth_range(const Collider& triangles, const Collider& faces) {
-  return {triangles.open_depth, std::min(2 * triangles.reach, faces.reach)};
+DepthRange depth_range(const Collider& triangles, const Collider& faces, bool averaged) {
+  return {averaged ? triangles.open_depth : 0, std::min(2 * triangles.reach, faces.reach)};
 }
 
 ContactSearch::ContactSearch(const Model& model)
@@ -100,7 +98,8 @@ ContactSearch::ContactSearch(const Model& model)
       if ((reversed ? contact.stiffness_b : contact.stiffness_a).size() == 0) continue;
       candidates_.push_back({static_cast<int>(c), reversed, {}});
       const auto side = static_cast<std::size_t>(reversed ? contact.b : contact.a);
-      open_depth_ = std::max(open_depth_, model.bodies[side].collider->open_depth);
+      if (contact.averaged)
+        open_depth_ = std::max(open_depth_, model.bodies[side].collider->open_depth);
     }
   }
 }
@@ -186,16 +185,18 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
 void ContactSearch::fill(CandidateList& list, const std::vector<collision::Penetration>& found,
                          const std::vector<collision::Penetration>& reverse, const Moving& a,
                          const Moving& b, double margin) {
-  collect(found, a, b, margin, list.pairs);
+  const bool averaged = model_.contacts[static_cast<std::size_t>(list.contact)].averaged;
+  collect(found, a, b, averaged, margin, list.pairs);
   const auto& faces = model_.bodies[static_cast<std::size_t>(b.body)].collider->face_area;
   drop_far_faces(reverse, faces.size(), list.pairs);
 }
 
 void ContactSearch::collect(const std::vector<collision::Penetration>& found, const Moving& a,
-                            const Moving& b, double margin, std::vector<ContactCandidate>& pairs) {
+                            const Moving& b, bool averaged, double margin,
+                            std::vector<ContactCandidate>& pairs) {
   const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
   const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
-  const DepthRange range = depth_range(A, B);
+  const DepthRange range = depth_range(A, B, averaged);
   std::fill(seen_.begin(), seen_.end(), -1);
   for (const collision::Penetration& p : found) {
     const FacePlace& s = a.faces[static_cast<std::size_t>(p.face)];

@@ -26,7 +26,7 @@ struct CandidateList {
 
 /// The depths of a side's triangles behind another's faces that count. Deeper than an element of
 /// either side it was not this face that was crossed.
-DepthRange depth_range(const Collider& triangles, const Collider& faces);
+DepthRange depth_range(const Collider& triangles, const Collider& faces, bool averaged);
 
 struct SearchCounts {
   std::int64_t tree_updates = 0;
@@ -81,7 +81,7 @@ class ContactSearch {
             const std::vector<collision::Penetration>& reverse, const Moving& a, const Moving& b,
             double margin);
   void collect(const std::vector<collision::Penetration>& found, const Moving& a, const Moving& b,
-               double margin, std::vector<ContactCandidate>& pairs);
+               bool averaged, double margin, std::vector<ContactCandidate>& pairs);
 
   const Model& model_;
   std::vector<Moving> moving_;       // one a collider

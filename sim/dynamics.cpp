@@ -95,20 +95,7 @@ bool Dynamics::carries_own_weight(const NodeRef& node) const {
   return node.bone < 0 || node.bone >= model_.layout.num_rigid;
 }
 
-bool Dynamics::is_known(const double* y, double t) const {
-  constexpr double kRoundOff = 1e-15;
-  if (y_.size() != model_.layout.size() || t != configuration_.t) return false;
-  const Eigen::Map<const Eigen::VectorXd> there(y, y_.size());
-  const Eigen::Index first = model_.layout.velocities();
-  const auto same = [&](const auto& a, const auto& b) {
-    return a.size() == 0 || (a - b).cwiseAbs().maxCoeff() <= kRoundOff * a.cwiseAbs().maxCoeff();
-  };
-  return same(there.head(first), y_.head(first)) &&
-         same(there.tail(y_.size() - first), y_.tail(y_.size() - first));
-}
-
 void Dynamics::evaluate(const double* y, double t) {
-  y_ = Eigen::Map<const Eigen::VectorXd>(y, model_.layout.size());
   read_state(model_, y, t, configuration_);
   f_.setZero();
   largest_force_ = 0;

@@ -24,8 +24,6 @@ class Dynamics {
 
   /// Reads y and computes all forces there. Block forces: 3 entries a block, reactions included.
   void evaluate(const double* y, double t);
-  /// The last evaluate() was at y and t, but for round-off: a line search was there before.
-  bool is_known(const double* y, double t) const;
   const Configuration& configuration() const { return configuration_; }
   const Eigen::VectorXd& forces() const { return f_; }
   /// Force [N] on a bone of the tissue that is tied to it, and its moment [N m] about the bone's
@@ -121,7 +119,6 @@ class Dynamics {
   const Model& model_;
   const std::vector<CandidateList>* candidates_ = nullptr;
   Configuration configuration_;
-  Eigen::VectorXd y_;  // of the last evaluate()
   Eigen::VectorXd f_;
   mutable Positions v_, damping_;                    // at the nodes of a tissue
   mutable Eigen::VectorXd lag_part_, stress_there_;  // of a tissue

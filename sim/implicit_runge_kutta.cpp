@@ -93,8 +93,8 @@ int ImplicitRungeKutta::weights(N_Vector, N_Vector w, void* data) {
   return 0;
 }
 
-/// ARKODE's own test, but for corrections that the line search has shortened: they are small
-/// however far the solution is, and steps accepted after one don't keep the momentum.
+/// ARKODE's own test, but for corrections that were shortened: they are small however far the
+/// solution is, and steps accepted after one don't keep the momentum.
 int ImplicitRungeKutta::is_converged(SUNNonlinearSolver solver, N_Vector, N_Vector correction,
                                      realtype tolerance, N_Vector weights, void* data) {
   constexpr double kLeastRateFall = 0.3;

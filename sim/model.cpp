@@ -18,11 +18,11 @@
 namespace articular::sim {
 namespace {
 
-/// Contact stiffness of a side is this times constrained modulus / element height. Statics ends at a
-/// thousand, where forces no longer depend on it, and begins softer: from afar a stiff iteration is
-/// thrown back and forth. In time, where Newton's iteration ends by how far things still move, a
+/// Contact stiffness of a side is this times constrained modulus / element height. Statics ends at
+/// a thousand, where forces no longer depend on it, and begins softer: from afar a stiff iteration
+/// is thrown back and forth. In time, where Newton's iteration ends by how far things still move, a
 /// stiffer contact would turn that into noise of its forces.
-constexpr double kStaticFactor = 1000, kSoftFactor = 10, kDynamicFactor = 30;
+constexpr double kStaticFactor = 1000, kSoftFactor = 10, kDynamicFactor = 10;
 /// How far in front of a face a triangle's depth counts in the averages, in heights of the elements
 /// at its surface: more than a facet's sagitta under a round bone.
 constexpr double kOpenDepth = 0.25;
@@ -461,22 +461,30 @@ class Builder {
     ContactModel contact;
     contact.a = a;
     contact.b = b;
-    contact.share = a == b ? 0.5 : 1;
+    contact.averaged = scenario().analysis == Scenario::Analysis::Static;
+    contact.share = a == b || !contact.averaged ? 0.5 : 1;
     const double layers = A->layer_compliance + B->layer_compliance;
     contact.mean_stiffness =
         pair.stiffness.value_or(1 / (A->mean_compliance + B->mean_compliance + layers));
     const auto at_nodes = [&](const Collider& side, const Collider& other, double softer) {
       if (pair.stiffness)
         return Eigen::VectorXd::Constant(side.X.cols(), contact.share * *pair.stiffness).eval();
-      return (contact.share /
-              (softer * (side.compliance.array() + other.mean_compliance) + layers))
+      if (!contact.averaged)
+        return Eigen::VectorXd::Constant(side.X.cols(), contact.share * contact.mean_stiffness)
+            .eval();
+      return (contact.share / (softer * (side.compliance.array() + other.mean_compliance) + layers))
           .matrix()
           .eval();
     };
-    const bool first = a == b || averages_first(a, b, *A, *B);
-    const Collider &side = first ? *A : *B, &other = first ? *B : *A;
-    (first ? contact.stiffness_a : contact.stiffness_b) = at_nodes(side, other, 1);
-    (first ? contact.soft_a : contact.soft_b) = at_nodes(side, other, contact_factor() / kSoftFactor);
+    const bool first = a == b || (contact.averaged && averages_first(a, b, *A, *B));
+    if (first || !contact.averaged) {
+      contact.stiffness_a = at_nodes(*A, *B, 1);
+      contact.soft_a = at_nodes(*A, *B, contact_factor() / kSoftFactor);
+    }
+    if (!first) {
+      contact.stiffness_b = at_nodes(*B, *A, 1);
+      contact.soft_b = at_nodes(*B, *A, contact_factor() / kSoftFactor);
+    }
     contact.law.friction = pair.friction;
     contact.law.damping = contact.share * pair.damping;
     contact.law.slip_velocity =

@@ -112,13 +112,14 @@ struct ForceModel {
 };
 
 struct ContactModel {
-  int a = 0, b = 0;  // bodies; a == b: with itself
-  // At the nodes of the side whose nodes depths are averaged at, times `share` [Pa/m]; else empty.
+  int a = 0, b = 0;      // bodies; a == b: with itself
+  bool averaged = true;  // depths are averaged at the nodes of one side; else pointwise on both
+  // At the nodes of a side whose triangles look for faces, times `share` [Pa/m]; else empty.
   Eigen::VectorXd stiffness_a, stiffness_b;
   // What an iteration that comes from afar starts with, of the same sizes: softer.
   Eigen::VectorXd soft_a, soft_b;
   double mean_stiffness = 0;  // of the two sides in series [Pa/m]
-  double share = 1;           // ½ for a body with itself: each of two folds meets the other
+  double share = 1;           // ½ where both sides, or both folds of one body, look for the other
   SurfaceLaw law;             // its damping times `share`
 };
 

@@ -103,35 +103,6 @@ double NewtonSystem::step_fraction(double gamma) const {
   return motion > dynamics_.trusted_motion() ? dynamics_.trusted_motion() / motion : 1;
 }
 
-/// Where contacts close, forces rise far above what the matrix foresees, and iterations that answer
-/// with the opposite overshoot cycle. The part of the correction x, up to `scale`, at which the
-/// residual's work along it has not turned to more than kSlopeFall of what it was [Crisfield 1991].
-double NewtonSystem::line_search(const double* y, double gamma, const double* x, double scale,
-                                 SolverCounts& counts) {
-  constexpr double kSlopeFall = 0.8;
-  constexpr int kMostTrials = 4;
-  const Eigen::Index n = w_.size();
-  const double slope = w_.dot(mass_rhs_);
-  if (!(slope > 0)) return scale;
-  forces_before_ = dynamics_.forces().head(n);
-  dynamics_.multiply_mass(w_, mass_w_);
-  const double inertia = w_.dot(mass_w_);
-  const double t = dynamics_.configuration().t;
-  const Eigen::Map<const Eigen::VectorXd> state(y, model_.layout.size()),
-      correction(x, model_.layout.size());
-  for (int trial = 0; trial < kMostTrials; ++trial) {
-    trial_ = state + scale * correction;
-    dynamics_.evaluate(trial_.data(), t);
-    ++counts.force_evaluations;
-    const double there =
-        slope - scale * inertia + gamma * w_.dot(dynamics_.forces().head(n) - forces_before_);
-    if (there >= -kSlopeFall * slope) return scale;
-    const double secant = std::isfinite(there) ? slope / (slope - there) : 0.25;
-    scale *= std::clamp(secant, 0.1, 0.5);
-  }
-  return scale;
-}
-
 bool NewtonSystem::solve(const double* y, double gamma, const double* b, double* x,
                          SolverCounts& counts) {
   const Layout& layout = model_.layout;
@@ -178,7 +149,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   residual_ = mass_rhs_.norm();
   w_.resize(num_velocities);
   if (num_velocities > 0 && !find_correction(gamma, counts)) return false;
-  double scale = step_fraction(gamma);
+  const double scale = step_fraction(gamma);
 
   Eigen::Map<Eigen::VectorXd>(x, 3 * layout.num_free_nodes) =
       gamma * w_.head(3 * layout.num_free_nodes);
@@ -200,7 +171,6 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     x_q[3] = dq.z() + growth * q.z();
   }
   dynamics_.correct_lags(b, gamma, w_, x);
-  if (dynamics_.touches()) scale = line_search(y, gamma, x, scale, counts);
   shortened_ = scale < 1;
   if (shortened_) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;
   return true;

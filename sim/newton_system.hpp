@@ -40,8 +40,6 @@ class NewtonSystem {
   bool needs_matrix(double gamma) const;
   /// Part of the correction w that stays within Dynamics::trusted_motion().
   double step_fraction(double gamma) const;
-  double line_search(const double* y, double gamma, const double* x, double scale,
-                     SolverCounts& counts);
   [[nodiscard]] bool prepare(double gamma, fem::Tangent tangent, SolverCounts& counts);
   [[nodiscard]] bool solve_linear(SolverCounts& counts);
   /// w, with the consistent matrix if it is positive definite, else with the projected one.
@@ -51,7 +49,6 @@ class NewtonSystem {
   Dynamics& dynamics_;
   std::unique_ptr<fem::LinearSolver> solver_;
   Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_;
-  Eigen::VectorXd forces_before_, mass_w_, trial_;   // of the line search
   double gamma_ = 0;                                 // of the matrix that is factored; 0: none
   std::uint64_t pattern_ = 0;                        // of that matrix
   fem::Tangent tangent_ = fem::Tangent::Consistent;  // of that matrix

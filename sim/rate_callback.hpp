@@ -10,10 +10,8 @@ namespace articular::sim::sundials {
 inline int evaluate_rate(Dynamics& dynamics, SolverCounts& counts, std::exception_ptr& error,
                          double t, N_Vector y, N_Vector y_dot) {
   return guarded(error, [&] {
-    if (!dynamics.is_known(N_VGetArrayPointer(y), t)) {
-      ++counts.force_evaluations;
-      dynamics.evaluate(N_VGetArrayPointer(y), t);
-    }
+    ++counts.force_evaluations;
+    dynamics.evaluate(N_VGetArrayPointer(y), t);
     dynamics.rate(N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
     return dynamics.forces().allFinite() ? 0 : 1;
   });

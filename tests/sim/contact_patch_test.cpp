@@ -295,6 +295,56 @@ TEST(ContactPatch, UnderALargeFaceTheTangentIsTheDerivativeOfTheGradient) {
   }
 }
 
+/// ½ k ∫ d² dA over what lies behind the face: where depths are not averaged.
+constexpr DepthRange kBehind{0, 10};
+
+double point_energy(const Pair& pair) {
+  ContactPatch patch;
+  if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kBehind, patch))
+    return 0;
+  return 0.5 * kStiffness * patch.depth.dot(depth_integrals(patch));
+}
+
+Vec18 point_gradient(const Pair& pair) {
+  ContactPatch patch;
+  if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kBehind, patch))
+    return Vec18::Zero();
+  return patch_gradient(patch, kStiffness * patch.depth);
+}
+
+// Where the triangle dips in and out, the energy vanishes at the polygon's moving edge.
+TEST(ContactPatch, PointwiseGradientAndTangentAreDerivativesToWhereTheTriangleComesOut) {
+  Random random(2);
+  int crossing = 0;
+  for (int n = 0; n < 50; ++n) {
+    Pair pair = covered_pair(random);
+    pair.s.row(2).array() += 0.5;
+    ContactPatch patch;
+    if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kBehind, patch))
+      continue;
+    if (patch.area < 0.1 || patch.turning != 0) continue;
+    crossing += patch.area < 0.99 * kRestArea ? 1 : 0;
+    const Vec18 g = point_gradient(pair);
+    const Mat18 H = kStiffness * (patch_hessian(patch) + patch_curvature(patch, patch.depth));
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Mat18>(patch_hessian(patch)).eigenvalues().minCoeff(),
+              -1e-12 * patch_hessian(patch).norm());
+    double gradient_best = std::numeric_limits<double>::infinity(), tangent_best = gradient_best;
+    for (const double h : {1e-4, 1e-5, 1e-6}) {
+      Vec18 numeric;
+      Mat18 numeric_tangent;
+      for (int i = 0; i < 18; ++i) {
+        numeric[i] = difference(point_energy, pair, i, h);
+        numeric_tangent.col(i) = difference(point_gradient, pair, i, h);
+      }
+      gradient_best = std::min(gradient_best, (numeric - g).norm() / g.norm());
+      tangent_best = std::min(tangent_best, (numeric_tangent - H).norm() / H.norm());
+    }
+    EXPECT_LT(gradient_best, 1e-6);  // the energy's third derivative jumps
+    EXPECT_LT(tangent_best, 1e-4);
+  }
+  EXPECT_GT(crossing, 10);
+}
+
 TEST(ContactPatch, AParallelTriangleHasTheWholeAreaAndTheUniformDepth) {
   ContactPatch patch;
   ASSERT_TRUE(contact_patch(flat_triangle(small_triangle(0.25)), flat_triangle(large_face()),
