@@ -216,6 +216,44 @@ void ContactSearch::collect(const std::vector<collision::Penetration>& found, co
   }
 }
 
+namespace {
+
+/// What a collider sweeps, and the range of its nodes' displacements.
+struct Sweep {
+  Eigen::AlignedBox3d way, displacement;
+};
+
+Sweep sweep_of(const Collider& collider, const Configuration& from, const Configuration& to) {
+  Sweep sweep;
+  for (const NodeRef& node : collider.nodes) {
+    const Vec3 a = from.position(node), b = to.position(node);
+    sweep.way.extend(a).extend(b);
+    sweep.displacement.extend(Vec3(b - a));
+  }
+  return sweep;
+}
+
+}  // namespace
+
+bool ContactSearch::passes_unseen(const Configuration& from, const Configuration& to) const {
+  std::vector<Sweep> sweeps;
+  for (const Moving& moving : moving_)
+    sweeps.push_back(
+        sweep_of(*model_.bodies[static_cast<std::size_t>(moving.body)].collider, from, to));
+  return std::any_of(model_.contacts.begin(), model_.contacts.end(), [&](const ContactModel& pair) {
+    if (pair.a == pair.b) return false;
+    const auto a = static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(pair.a)]);
+    const auto b = static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(pair.b)]);
+    if (!sweeps[a].way.intersects(sweeps[b].way)) return false;
+    const Vec3 most = (sweeps[a].displacement.max() - sweeps[b].displacement.min())
+                          .cwiseMax(sweeps[b].displacement.max() - sweeps[a].displacement.min());
+    const Collider& A = *model_.bodies[static_cast<std::size_t>(pair.a)].collider;
+    const Collider& B = *model_.bodies[static_cast<std::size_t>(pair.b)].collider;
+    return most.norm() >
+           std::max(depth_range(A, B, pair.averaged).reach, depth_range(B, A, pair.averaged).reach);
+  });
+}
+
 double ContactSearch::motion_since(const Configuration& configuration) const {
   double largest = 0;
   for (const Moving& moving : moving_) {

@@ -62,6 +62,10 @@ class ContactSearch {
   const SearchCounts& counts() const { return counts_; }
   SearchCounts& counts() { return counts_; }
 
+  /// Between the two, some pair of bodies that meet on the way move past each other farther than a
+  /// face can be found behind a triangle: one could be through the other at the end.
+  bool passes_unseen(const Configuration& from, const Configuration& to) const;
+
   /// Largest distance of a node of any collider from where find() had it [m].
   double motion_since(const Configuration& configuration) const;
 

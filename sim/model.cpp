@@ -32,8 +32,6 @@ constexpr double kOpenDepth = 0.25;
 constexpr double kTissueReach = 0.5;
 /// Cortical bone, where a bone meets a bone without a layer between: E [Pa], nu.
 constexpr double kBoneModulus = 15e9, kBonePoisson = 0.3;
-/// Depth of the collision elements under a bone's surface where the scenario names none [m].
-constexpr double kDefaultShell = 1e-3;
 /// Of the elements at the surface: what friction at 0.7 of its limit creeps in the whole scene.
 constexpr double kCreep = 0.05;
 /// A muscle that gives less than this part of its maximal force at rest and full activation is
@@ -56,6 +54,7 @@ class Builder {
     make_contacts();
     make_probes();
     model_.position_tolerance = position_tolerance(model_);
+    model_.detection_margin = detection_margin();
     return std::move(model_);
   }
 
@@ -251,7 +250,7 @@ class Builder {
       const MeshData& surface =
           geometry_[b].contact.X.cols() > 0 ? geometry_[b].contact : geometry_[b].mesh;
       if (surface.triangles.cols() == 0) throw InputError("its mesh has no triangles");
-      depth = body.shell_thickness.value_or(kDefaultShell);
+      depth = body.shell_thickness.value_or(mean_edge(surface));
       collider.X = surface.X;
       Triangles triangles = surface.triangles;
       collider.tets = shell_under(collider.X, triangles, depth);
@@ -277,6 +276,16 @@ class Builder {
           constrained_modulus(body.layer->young_modulus, body.layer->poisson_ratio);
     collider.compliance.setConstant(collider.X.cols(), collider.mean_compliance);
     return collider;
+  }
+
+  /// Of a surface's triangles [m]: the depth of the collision elements under it where the scenario
+  /// names none.
+  static double mean_edge(const MeshData& surface) {
+    double sum = 0;
+    for (const auto& triangle : surface.triangles.colwise())
+      for (int k = 0; k < 3; ++k)
+        sum += (surface.X.col(triangle[(k + 1) % 3]) - surface.X.col(triangle[k])).norm();
+    return sum / (3 * static_cast<double>(surface.triangles.cols()));
   }
 
   /// Creases and slivers of a scanned surface that can't take part in contact: a few are told, many
@@ -529,6 +538,15 @@ class Builder {
       throw InputError(probe.given.where,
                        fmt::format("[[probe]] `{}`: no node of `{}` is attached to `{}`",
                                    probe.given.name, probe.given.body, probe.given.other));
+  }
+
+  double detection_margin() const {
+    constexpr double kMarginOfElement = 0.1;
+    if (scenario().detection.margin) return *scenario().detection.margin;
+    double least = std::numeric_limits<double>::infinity();
+    for (const BodyModel& body : model_.bodies)
+      if (body.collider) least = std::min(least, body.collider->size);
+    return std::isfinite(least) ? kMarginOfElement * least : 0;
   }
 
   void make_probes() {

@@ -161,6 +161,7 @@ struct Model {
   Vec3 gravity = Vec3::Zero();  // [m/s²]
   Layout layout;
   double position_tolerance = 0;  // [m], of the Newton iteration
+  double detection_margin = 0;    // [m], least one
   int num_blocks = 0;             // with the blocks of fixed and driven bones
   std::vector<std::string> warnings;
 };

@@ -251,7 +251,7 @@ struct Integrator {
 };
 
 struct Detection {
-  double margin = 0.05e-3;  // [m], least distance at which pairs are kept as candidates
+  std::optional<double> margin;  // [m], least distance at which pairs are kept as candidates
   collision::NarrowTest narrow_test = collision::NarrowTest::SeparatingAxes;
 };
 

@@ -144,9 +144,10 @@ std::string settings_as_json(const Scenario& scenario) {
   else
     json["integrator"]["position_tolerance_of_element"] = integrator.element_tolerance;
   json["detection"] = {
-      {"margin_m", scenario.detection.margin},
+      {"margin_m", nullptr},  // chosen by the elements
       {"narrow_test",
        scenario.detection.narrow_test == collision::NarrowTest::Gjk ? "gjk" : "separating-axes"}};
+  if (scenario.detection.margin) json["detection"]["margin_m"] = *scenario.detection.margin;
   json["output"] = {{"interval_s", output.interval},
                     {"length_unit", output.length_unit_name},
                     {"contact_surfaces", output.contact_surfaces}};

