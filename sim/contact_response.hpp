@@ -9,15 +9,19 @@
 #include "sim/contact_search.hpp"
 #include "sim/system_matrix.hpp"
 
-/// The penalty response on contact candidates. In each direction of a pair that its ContactModel
-/// names, the depth of side s behind the other side's faces is averaged at the nodes a of s,
+/// The penalty response on contact candidates: patches of a side's triangles opposite the other
+/// side's faces (contact_patch.hpp) make an energy of their depths.
 ///
-///   g_a = G_a / W_a,   E = ½ Σ k_a W_a <g_a>²,   p_a = k_a <g_a>,
+/// In statics depths are averaged at the nodes a of one side,
 ///
-/// with G_a and W_a summed over the patches around a (contact_patch.hpp). An averaged depth lets a
+///   g_a = G_a / A_a,   E = ½ Σ k_a A_a <g_a>²,   p_a = k_a <g_a>,
+///
+/// G_a summed over the patches around a, A_a = Σ √(W_a T/3) over the triangles (area T) there: the
+/// node's share of them where they are covered; a covered sliver counts little. A mean depth lets a
 /// faceted soft surface rest on a round bone where a pointwise one would carry on a few spots only,
-/// so that k may be large: a mortar method with the multipliers p_a eliminated by the penalty
-/// [Puso 2004].
+/// so that k may be large: a mortar method whose multipliers p_a the penalty gives [Puso 2004].
+///
+/// In time depths count pointwise, E = ½ k ∫ <d>² dA, from either side with half of k.
 ///
 /// [Puso 2004] Puso, Laursen. A mortar segment-to-segment contact method for large deformation
 /// solid mechanics. Comput Methods Appl Mech Eng 193:601.
