@@ -56,6 +56,19 @@ std::set<std::string> names_in(const std::filesystem::path& folder) {
   return names;
 }
 
+TEST(Check, TellsWhichBodiesOverlapAtTheStartAndByHowMuch) {
+  const TemporaryFolder folder;
+  const std::string block =
+      "geometry = { box = { size = \"4 4 4 mm\", cells = [2, 2, 2], center = \"1 1 3.9 mm\" } }\n";
+  std::string other = kTissue.substr(kTissue.rfind("[[body]]"));
+  other = with(other, "disc", "upper");
+  folder.file("scene.toml", kScene + other + block);
+  const ProgramResult result = run_program(folder, "check scene.toml");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.out.find("`disc` and `upper` overlap at the start by 0.1 mm"), std::string::npos)
+      << result.out;
+}
+
 TEST_P(BadInputs, GiveOneClearLineAndExitCode2AndWriteNothing) {
   const TemporaryFolder folder;
   folder.file("scene.toml", GetParam().scene);

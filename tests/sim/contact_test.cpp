@@ -6,6 +6,7 @@
 
 #include "scene.hpp"
 #include "sim/history.hpp"
+#include "sim/initial_overlap.hpp"
 
 namespace articular::sim {
 namespace {
@@ -305,6 +306,25 @@ TEST(Contact, AFixedBodyIsMappedOnceForAMargin) {
   run.advance(0.02);
   EXPECT_EQ(run.state.counts.steps, 20);
   EXPECT_EQ(run.state.counts.tree_updates, 20);
+}
+
+// A corner of the upper block, a hundredth of a side deep in the lower one; the third block, flush
+// with the lower one, does not overlap it.
+TEST(Contact, OverlapsAtTheStartAreFoundWithTheirDepth) {
+  Scenario s = scene(1e-3);
+  s.contact = true;
+  const Vec3 size = Vec3::Constant(kSide);
+  s.bodies = {box_body("lower", Body::Kind::Tissue, size, Vec3::Zero(), {3, 3, 3}),
+              box_body("upper", Body::Kind::Tissue, size, Vec3(0.8, 0.7, 0.99) * kSide, {2, 2, 2}),
+              box_body("flush", Body::Kind::Tissue, size, Vec3(-1, 0, 0) * kSide, {2, 2, 2})};
+  const std::vector<InitialOverlap> overlaps = initial_overlaps(build_model(s));
+  ASSERT_EQ(overlaps.size(), 1U);
+  EXPECT_EQ(overlaps[0].a, 0);
+  EXPECT_EQ(overlaps[0].b, 1);
+  EXPECT_NEAR(overlaps[0].depth, 0.01 * kSide, 1e-12);
+  // Its lower corner, and the upper corner of the lower block.
+  EXPECT_EQ(overlaps[0].num_nodes, 2);
+  EXPECT_NEAR(std::abs(overlaps[0].place.z() - 0.495 * kSide), 0.005 * kSide, 1e-12);
 }
 
 TEST(Contact, TwoFixedBodiesDoNotTouch) {
