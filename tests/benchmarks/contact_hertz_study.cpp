@@ -13,6 +13,7 @@
 
 #include "fem/any_material.hpp"
 #include "tests/benchmarks/contact_study.hpp"
+#include "tests/sim/scene.hpp"
 
 namespace articular::sim {
 namespace {
@@ -111,13 +112,6 @@ MeshData half_cylinder(double h, int across) {
     node.z() -= sagitta * (1 + node.z() / kDepth);
   }
   return mesh;
-}
-
-Body stand(const std::string& name) {
-  Body body;
-  body.name = name;
-  body.kind = Body::Kind::Fixed;
-  return body;
 }
 
 void add_lower(Scene& scene, const MeshData& mesh) {

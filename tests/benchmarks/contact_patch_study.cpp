@@ -5,6 +5,7 @@
 
 #include "fem/any_material.hpp"
 #include "tests/benchmarks/contact_study.hpp"
+#include "tests/sim/scene.hpp"
 
 namespace articular::sim {
 namespace {
@@ -22,13 +23,6 @@ MeshData cube(int cells, double z_low, double part, unsigned seed) {
   return mesh;
 }
 
-Body plain_stand(const std::string& name) {
-  Body body;
-  body.name = name;
-  body.kind = Body::Kind::Fixed;
-  return body;
-}
-
 /// Corotated elasticity with ν = 0 has F = diag(1, 1, s) without any lateral stress, at every s, so
 /// that the sides may be free and the ends tied: σ_zz = E (s − 1) is the exact solution.
 /// (A neo-Hookean solid of ν = 0 presses sideways with (1 − s)/2 of that.)
@@ -36,19 +30,19 @@ fem::Material without_lateral_stress() { return fem::Corotated(kYoung, 0); }
 
 void add_lower(Scene& scene, int cells, double part) {
   scene.tissue("lower", cube(cells, -kSide, part, 1), without_lateral_stress());
-  scene.add(plain_stand("floor"));
+  scene.add(stand("floor"));
   scene.tie("lower", "floor", -1.001 * kSide, -0.999 * kSide);
 }
 
 void press_tissue(Scene& scene, int cells, double part) {
   scene.tissue("upper", cube(cells, 0, part, 2), without_lateral_stress());
-  scene.add(plain_stand("press"));
+  scene.add(stand("press"));
   scene.tie("upper", "press", 0.999 * kSide, 1.001 * kSide);
   scene.drive("press", {Vec3::Zero(), Vec3(0, 0, -2 * kSide * kPress)});
 }
 
 void press_plate(Scene& scene, int cells) {
-  Body plate = plain_stand("upper");
+  Body plate = stand("upper");
   plate.box =
       BoxGeometry{{1.3 * kSide, 1.3 * kSide, kSide / 4}, {cells, cells, 1}, {0, 0, kSide / 8}};
   scene.add(plate);
