@@ -12,7 +12,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 3\n";
+constexpr char kMagic[] = "articular checkpoint 4\n";
 
 /// FNV-1a: a plain hash is enough to notice damage and mix-ups.
 std::uint64_t hash_bytes(const char* data, std::size_t size) {
@@ -28,6 +28,12 @@ void put(const T& value, std::string& bytes) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
+void put_vector(const Eigen::VectorXd& values, std::string& bytes) {
+  put(values.size(), bytes);
+  bytes.append(reinterpret_cast<const char*>(values.data()),
+               static_cast<std::size_t>(values.size()) * sizeof(double));
+}
+
 /// Takes values off the front of a file's bytes.
 class Reader {
  public:
@@ -36,6 +42,13 @@ class Reader {
   void get(T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
     std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
+  }
+  void get_vector(Eigen::VectorXd& values) {
+    Eigen::Index size = 0;
+    get(size);
+    const auto doubles = take(static_cast<std::size_t>(size) * sizeof(double));
+    values.resize(size);
+    std::memcpy(values.data(), doubles.data(), doubles.size());
   }
   std::string_view take(std::size_t size) {
     if (rest_.size() < size) throw InputError("");
@@ -84,9 +97,12 @@ void write_checkpoint(const std::filesystem::path& file, const State& state,
   put(state.frames, bytes);
   put(state.energy, bytes);
   put(state.counts, bytes);
-  put(state.y.size(), bytes);
-  bytes.append(reinterpret_cast<const char*>(state.y.data()),
-               static_cast<std::size_t>(state.y.size()) * sizeof(double));
+  put(state.settling.solutions, bytes);
+  put(state.settling.largest_motion, bytes);
+  put(state.settling.overlaps.size(), bytes);
+  for (const SettledOverlap& overlap : state.settling.overlaps) put(overlap, bytes);
+  put_vector(state.stiffening, bytes);
+  put_vector(state.y, bytes);
   put(hash_bytes(bytes.data(), bytes.size()), bytes);
   write_text_file(file, bytes);
 }
@@ -119,11 +135,14 @@ std::optional<State> read_checkpoint(const std::filesystem::path& file,
     reader.get(state.frames);
     reader.get(state.energy);
     reader.get(state.counts);
-    Eigen::Index size = 0;
-    reader.get(size);
-    state.y.resize(size);
-    const auto doubles = reader.take(static_cast<std::size_t>(size) * sizeof(double));
-    std::memcpy(state.y.data(), doubles.data(), doubles.size());
+    reader.get(state.settling.solutions);
+    reader.get(state.settling.largest_motion);
+    std::size_t num_overlaps = 0;
+    reader.get(num_overlaps);
+    for (std::size_t k = 0; k < num_overlaps; ++k)
+      reader.get(state.settling.overlaps.emplace_back());
+    reader.get_vector(state.stiffening);
+    reader.get_vector(state.y);
   } catch (const InputError& error) {
     if (*error.what() != '\0') throw;
     throw InputError(damaged);

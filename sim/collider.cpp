@@ -177,6 +177,7 @@ void complete_collider(Collider& collider, const std::vector<char>& is_outer) {
   const auto num_tets = static_cast<std::size_t>(collider.tets.cols());
   std::vector<std::vector<int>> nearby(num_tets);
   std::vector<int> ring_of(num_tets, -1), ring;
+  collider.is_inner.assign(num_tets, 0);
   const auto sort_unique = [&](int t) {
     auto& list = nearby[static_cast<std::size_t>(t)];
     std::sort(list.begin(), list.end());
@@ -188,6 +189,7 @@ void complete_collider(Collider& collider, const std::vector<char>& is_outer) {
       const auto& faces_here = faces_of_node[static_cast<std::size_t>(node)];
       nearby[t].insert(nearby[t].end(), faces_here.begin(), faces_here.end());
     }
+    collider.is_inner[t] = nearby[t].empty() ? 1 : 0;
     if (nearby[t].empty()) continue;
     ring_of[t] = 0;
     ring.push_back(static_cast<int>(t));

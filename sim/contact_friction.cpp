@@ -77,7 +77,7 @@ NodalDrag nodal_drag(const SurfaceLaw& law, double pressure, double closing, con
 
 Vec18 slip_gradient(const ContactPatch& patch, const Mat3& t) {
   const Mat3 q = t * patch.Q;  // of u_i
-  const Vec3 lever = q * patch.depth;
+  const Vec3 lever = q * patch.height;
   Vec18 g;
   for (int i = 0; i < 3; ++i) {
     g.segment<3>(3 * i) = q.col(i) + lever.dot(patch.g.col(i)) * patch.normal;
@@ -89,7 +89,7 @@ Vec18 slip_gradient(const ContactPatch& patch, const Mat3& t) {
 Mat3 slip_integrals(const ContactPatch& patch, const SixVectors& v) {
   const Vec3 turning = -patch.g * (v.leftCols<3>().transpose() * patch.normal);
   const Mat3 u =
-      v.leftCols<3>() - turning * patch.depth.transpose() - v.rightCols<3>() * patch.beta;
+      v.leftCols<3>() - turning * patch.height.transpose() - v.rightCols<3>() * patch.beta;
   return u * patch.Q;
 }
 

@@ -17,37 +17,36 @@ constexpr int kOwnSide = -1, kDepthSide = 3;  // 0 to 2: β_m = 0
 /// 9, 13.
 struct Polygon {
   std::array<Vec3, 13> corner;
-  std::array<double, 13> level;
   std::array<int, 13>
       side;  // which cut the edge from a corner to the next lies on, kOwnSide if none
   int count = 0;
 };
 
-/// Keeps the part where the affine function with the values `at_nodes` at the triangle's nodes is
-/// >= 0.
-void clip(const Vec3& at_nodes, int side, Polygon& polygon, Polygon& scratch) {
+/// The part of a polygon where the affine function with the values `at_nodes` at the triangle's
+/// nodes is >= 0: in `room`, or, where that is all of it, the polygon itself.
+const Polygon& clipped(const Vec3& at_nodes, int side, const Polygon& polygon, Polygon& room) {
+  std::array<double, 13> level;
   bool all_inside = true;
   for (int i = 0; i < polygon.count; ++i) {
-    polygon.level[static_cast<std::size_t>(i)] =
-        at_nodes.dot(polygon.corner[static_cast<std::size_t>(i)]);
-    all_inside = all_inside && polygon.level[static_cast<std::size_t>(i)] >= 0;
+    level[static_cast<std::size_t>(i)] = at_nodes.dot(polygon.corner[static_cast<std::size_t>(i)]);
+    all_inside = all_inside && level[static_cast<std::size_t>(i)] >= 0;
   }
-  if (all_inside) return;
-  scratch.count = 0;
+  if (all_inside) return polygon;
+  room.count = 0;
   const auto keep = [&](const Vec3& N, int edge) {
-    scratch.corner[static_cast<std::size_t>(scratch.count)] = N;
-    scratch.side[static_cast<std::size_t>(scratch.count++)] = edge;
+    room.corner[static_cast<std::size_t>(room.count)] = N;
+    room.side[static_cast<std::size_t>(room.count++)] = edge;
   };
   for (int i = 0; i < polygon.count; ++i) {
     const auto a = static_cast<std::size_t>(i);
     const auto b = static_cast<std::size_t>(i + 1 == polygon.count ? 0 : i + 1);
-    const double la = polygon.level[a], lb = polygon.level[b];
+    const double la = level[a], lb = level[b];
     if (la >= 0) keep(polygon.corner[a], polygon.side[a]);
     if ((la >= 0) != (lb >= 0))
       keep(polygon.corner[a] + la / (la - lb) * (polygon.corner[b] - polygon.corner[a]),
            la >= 0 ? side : polygon.side[a]);
   }
-  std::swap(polygon, scratch);
+  return room;
 }
 
 /// ∫ N Nᵀ over the polygon in units of the triangle's area: a fan of triangles, each
@@ -127,8 +126,9 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
   if (!(facing.weight > 0)) return false;
 
   patch.c = n_F / cosine;
-  patch.depth = patch.c.transpose() * (s.x.colwise() - f.x.col(0));
-  if (!(patch.depth.maxCoeff() > -range.open && patch.depth.minCoeff() <= range.reach))
+  patch.height = patch.c.transpose() * (s.x.colwise() - f.x.col(0));
+  patch.depth = patch.height.array() - range.allowance;
+  if (!(patch.depth.maxCoeff() > -range.open && patch.height.minCoeff() <= range.reach))
     return false;
 
   // Weights of the face's nodes at each node of s: signed areas of the projected triangles (the
@@ -140,17 +140,18 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
     if (!(patch.beta.row(m).maxCoeff() > 0)) return false;
   }
 
-  Polygon polygon, scratch;
-  polygon.count = 3;
-  for (int i = 0; i < 3; ++i) {
-    polygon.corner[static_cast<std::size_t>(i)] = Vec3::Unit(i);
-    polygon.side[static_cast<std::size_t>(i)] = kOwnSide;
+  std::array<Polygon, 5> rooms;
+  rooms[0].count = 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    rooms[0].corner[i] = Vec3::Unit(static_cast<Eigen::Index>(i));
+    rooms[0].side[i] = kOwnSide;
   }
+  const Polygon* shared = rooms.data();
   for (int m = 0; m < 3; ++m) {
-    clip(patch.beta.row(m), m, polygon, scratch);
-    if (polygon.count < 3) return false;
+    shared = &clipped(patch.beta.row(m), m, *shared, rooms[static_cast<std::size_t>(m + 1)]);
+    if (shared->count < 3) return false;
   }
-  clip(patch.depth.array() + range.open, kDepthSide, polygon, scratch);
+  const Polygon& polygon = clipped(patch.depth.array() + range.open, kDepthSide, *shared, rooms[4]);
   if (polygon.count < 3) return false;
   const double fraction = integrate(polygon, patch.Q);
   if (!(fraction > 0)) return false;
@@ -158,7 +159,7 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
   for (int i = 0; i < polygon.count; ++i)
     patch.depth_max =
         std::max(patch.depth_max, patch.depth.dot(polygon.corner[static_cast<std::size_t>(i)]));
-  if (patch.depth_max > range.reach) return false;
+  if (patch.depth_max + range.allowance > range.reach) return false;
 
   find_edges(polygon, patch);
   for (PatchEdge& edge : patch.edge) edge.length *= facing.weight * rest_area;
@@ -181,14 +182,15 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
 }
 
 // δd at N: Σ_i (N_i c + d e_i n)·δx_i − Σ_m β_m c·δf_m, from d = c·(x − Σ β_m f_m) with the
-// triangle's normal turning by δn = −Σ ∇N_i (n·δx_i). With it w changes by
+// triangle's normal turning by δn = −Σ ∇N_i (n·δx_i); d is the height, which an allowance does not
+// change. With it w changes by
 // δ(n_F·n) = −Σ (n_F·∇N_i) n·δx_i − Σ (n·∇β_m) n_F·δf_m.
 
 Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p) {
   const Vec3 q = patch.Q * p;
-  const double tilting = q.dot(patch.depth);
+  const double tilting = q.dot(patch.height);
   const Vec3 reaction = patch.beta * q;
-  const double turning = patch.turning * tilting * patch.cosine;
+  const double turning = patch.turning * q.dot(patch.depth) * patch.cosine;
   Vec18 g;
   for (int i = 0; i < 3; ++i) {
     g.segment<3>(3 * i) = q[i] * patch.c + (tilting - turning) * patch.e[i] * patch.normal;
@@ -213,7 +215,7 @@ Mat18x3 opposite(const ContactPatch& patch, const Vec3& direction) {
   const Vec3 tilt = patch.g.transpose() * direction;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      rows.block<3, 1>(3 * j, i) = patch.depth[i] * tilt[j] * patch.normal;
+      rows.block<3, 1>(3 * j, i) = patch.height[i] * tilt[j] * patch.normal;
       rows.block<3, 1>(9 + 3 * j, i) = -patch.beta(j, i) * direction;
     }
     rows.block<3, 1>(3 * i, i) += direction;
@@ -230,7 +232,7 @@ Mat18 patch_hessian(const ContactPatch& patch) {
 
 Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p) {
   const Vec3 q = patch.Q * p;
-  const double tilting = q.dot(patch.depth);
+  const double tilting = q.dot(patch.height);
   Vec18 tilt = Vec18::Zero();  // −c·δn
   for (int j = 0; j < 3; ++j) tilt.segment<3>(3 * j) = patch.e[j] * patch.normal;
 

@@ -14,7 +14,8 @@
 ///
 ///   W_a = w ∫ N_a dA,   G_a = w ∫ N_a d dA.
 ///
-/// Sums of G_a over the patches around a node give its mean depth (contact_response.hpp).
+/// Sums of G_a over the patches around a node give its mean depth (contact_response.hpp). Bodies
+/// that overlap from the start may be allowed a part of it: an allowance [m] is taken from d.
 ///
 /// w(n_F·n) is 1 for faces that oppose the triangle and falls smoothly to 0 where they stand
 /// oblique to it: along an oblique normal a shallow overlap reads deep, and a hard limit would make
@@ -40,7 +41,8 @@ struct ContactPatch {
   double depth_max = 0;        // [m]
   Mat3 Q = Mat3::Zero();       // w ∫ N Nᵀ dA [m²]
   Mat3 beta = Mat3::Zero();    // beta(m, i): weight of face node m opposite node i of s
-  Vec3 depth = Vec3::Zero();   // at the nodes of s [m]
+  Vec3 depth = Vec3::Zero();   // at the nodes of s, without the allowance [m]
+  Vec3 height = Vec3::Zero();  // with it [m]
   Vec3 c = Vec3::Zero();       // n_F / (n_F·n)
   Vec3 e = Vec3::Zero();       // e_i = c·∇N_i [1/m]
   Vec3 normal = Vec3::Zero();  // n, unit
@@ -59,8 +61,9 @@ inline constexpr double kFacingNone = 0.5, kFacingFull = 0.8;
 
 /// Depths that count [m].
 struct DepthRange {
-  double open;   // in front of the face up to here
-  double reach;  // a patch with a larger depth anywhere did not come in through this face
+  double open;           // in front of the face up to here
+  double reach;          // a patch deeper than this anywhere did not come in through this face
+  double allowance = 0;  // up to here behind the face is none; then depths count from there
 };
 
 /// A triangle where it is now; without an area its normal is zero.

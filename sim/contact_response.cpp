@@ -104,14 +104,40 @@ void ContactResponse::evaluate(const Configuration& configuration,
     direction.nodes.clear();
     find_patches(d, configuration);
     const Eigen::VectorXd& stiffness = sides(d).stiffness;
-    direction.point_stiffness = contact_of(d).averaged ? 0 : stiffness[0];
+    direction.point_stiffness = contact_of(d).averaged ? 0 : stiffness[0] * stiffening_of(d);
     for (const int node : direction.nodes) {
       direction.depth[node] /= direction.measure[node];
-      direction.pressure[node] = stiffness[node] * std::max(0.0, direction.depth[node]);
+      const double k = stiffness[node] * stiffening_of(d);
+      const double multiplier = direction.multiplier.size() > 0 ? direction.multiplier[node] : 0;
+      direction.pressure[node] = std::max(0.0, multiplier + k * direction.depth[node]);
     }
     if (const SurfaceLaw& law = contact_of(d).law; law.acts())
       find_drag(law, sides(d).triangles, sides(d).faces, configuration, direction);
   }
+}
+
+double ContactResponse::stiffening_of(std::size_t direction) const {
+  return stiffening_.size() > 0 ? stiffening_[(*candidates_)[direction].contact] : 1;
+}
+
+bool ContactResponse::augment() {
+  bool any = false;
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    DirectionMoment& direction = directions_[d];
+    const ContactModel& contact = contact_of(d);
+    if (!contact.is_bounded || !contact.averaged) continue;
+    const bool exceeds = std::any_of(direction.nodes.begin(), direction.nodes.end(), [&](int node) {
+      return direction.pressure[node] > 0 && direction.depth[node] > contact.max_penetration;
+    });
+    if (!exceeds) continue;
+    direction.multiplier = direction.pressure;
+    any = true;
+  }
+  return any;
+}
+
+void ContactResponse::drop_multipliers() {
+  for (DirectionMoment& direction : directions_) direction.multiplier.resize(0);
 }
 
 const FlatTriangle& ContactResponse::face_now(const Configuration& configuration,
@@ -135,7 +161,9 @@ void ContactResponse::find_patches(std::size_t d, const Configuration& configura
     met_.resize(side.faces.face_area.size(), 0);
   }
   const bool averaged = contact_of(d).averaged;
-  const DepthRange range = depth_range(side.triangles, side.faces, averaged);
+  DepthRange range = depth_range(side.triangles, side.faces, averaged);
+  if (!allowances_.empty())
+    range.allowance = allowances_[static_cast<std::size_t>((*candidates_)[d].contact)];
   const std::vector<ContactCandidate>& pairs = (*candidates_)[d].pairs;
   for (std::size_t first = 0; first < pairs.size();) {  // they come sorted by triangle
     const int triangle = pairs[first].triangle;
@@ -144,6 +172,7 @@ void ContactResponse::find_patches(std::size_t d, const Configuration& configura
     Vec3 covered = Vec3::Zero(), integrals = Vec3::Zero();
     for (; first < pairs.size() && pairs[first].triangle == triangle; ++first) {
       const int face = pairs[first].face;
+      range.reach = pairs[first].reach;
       if (direction.num_patches == direction.stored.size()) direction.stored.emplace_back();
       DirectionMoment::Patch& entry = direction.stored[direction.num_patches];
       if (!contact_patch(s, face_now(configuration, side.faces, face), rest_area, range,
@@ -234,7 +263,8 @@ std::vector<ContactSummary> ContactResponse::summaries(const Configuration& conf
       const double damping =
           direction.drag.empty() ? 0 : direction.drag[static_cast<std::size_t>(node)].pressure;
       if (!(direction.point_stiffness > 0))
-        sum.energy += 0.5 * (p - damping) * direction.depth[node] * direction.measure[node];
+        sum.energy +=
+            0.5 * (p - damping) * std::max(0.0, direction.depth[node]) * direction.measure[node];
       if (direction.depth[node] > sum.max_depth) {
         sum.max_depth = direction.depth[node];
         sum.deepest = x;
@@ -466,7 +496,8 @@ void ContactResponse::add_node_stiffness(std::size_t d, const Configuration& con
   };
   for (const int a : direction.nodes) {
     if (!(direction.pressure[a] > 0)) continue;
-    const double penalty = scale.stiffness * side.stiffness[a] / direction.measure[a];
+    const double penalty =
+        scale.stiffness * side.stiffness[a] * stiffening_of(d) / direction.measure[a];
     if (direction.drag.empty()) {
       add_rank_one(d, a, configuration, penalty, of_depth, A);
       continue;

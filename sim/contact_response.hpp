@@ -21,7 +21,11 @@
 /// faceted soft surface rest on a round bone where a pointwise one would carry on a few spots only,
 /// so that k may be large: a mortar method whose multipliers p_a the penalty gives [Puso 2004].
 ///
-/// In time depths count pointwise, E = ½ k ∫ <d>² dA, from either side with half of k.
+/// Where a g_a exceeds the contact's max_penetration all the same, multipliers λ_a take over what
+/// the penalty carried, p_a = <λ_a + k_a g_a> (augment(): Uzawa's method).
+///
+/// In time depths count pointwise, E = ½ k ∫ <d>² dA, from either side with half of k; where a
+/// mean depth at a node exceeds a bound that the scenario sets, k is raised (set_stiffening()).
 ///
 /// [Puso 2004] Puso, Laursen. A mortar segment-to-segment contact method for large deformation
 /// solid mechanics. Comput Methods Appl Mech Eng 193:601.
@@ -37,11 +41,12 @@ struct DirectionMoment {
   std::size_t num_patches = 0;
   std::span<const Patch> patches() const { return {stored.data(), num_patches}; }
   // By node of the side whose triangles these are; zero where it meets nothing:
-  Eigen::VectorXd area;      // W [m²]
-  Eigen::VectorXd measure;   // A [m²]
-  Eigen::VectorXd depth;     // g [m]
-  Eigen::VectorXd pressure;  // p [Pa], with that of damping
-  std::vector<int> nodes;    // that have an area
+  Eigen::VectorXd area;        // W [m²]
+  Eigen::VectorXd measure;     // A [m²]
+  Eigen::VectorXd depth;       // g [m]
+  Eigen::VectorXd pressure;    // p [Pa], with that of damping
+  Eigen::VectorXd multiplier;  // λ [Pa]; empty: none
+  std::vector<int> nodes;      // that have an area
   /// Where depths are not averaged, of each point [Pa/m]; then g and p above are but means.
   double point_stiffness = 0;
   std::vector<NodalDrag> drag;  // empty: neither friction nor damping
@@ -81,6 +86,15 @@ class ContactResponse {
   explicit ContactResponse(const Model& model);
   /// From the next evaluate() on, with the soft stiffness of the ContactModel.
   void set_soft(bool soft) { soft_ = soft; }
+  /// From the next evaluate() on, k of each contact is that of the model times these; empty: 1.
+  void set_stiffening(const Eigen::VectorXd& factors) { stiffening_ = factors; }
+  /// Where averaged depths exceed a bounded contact's max_penetration: from the next evaluate() on,
+  /// λ = p. @return whether any does
+  bool augment();
+  /// From the next evaluate() on, λ = 0.
+  void drop_multipliers();
+  /// From the next evaluate() on, this part of each contact's depth is allowed [m]; empty: none.
+  void set_allowances(std::vector<double> allowances) { allowances_ = std::move(allowances); }
 
   /// Depths and pressures of the candidates in a configuration; what follows is about it.
   void evaluate(const Configuration& configuration, const std::vector<CandidateList>& candidates);
@@ -114,6 +128,7 @@ class ContactResponse {
   struct Sides;
   Sides sides(std::size_t direction) const;
   const ContactModel& contact_of(std::size_t direction) const;
+  double stiffening_of(std::size_t direction) const;
   void find_patches(std::size_t direction, const Configuration& configuration);
   const FlatTriangle& face_now(const Configuration& configuration, const Collider& faces, int face);
   void find_patches_of_nodes(std::size_t direction);
@@ -125,6 +140,8 @@ class ContactResponse {
 
   const Model& model_;
   bool soft_ = false;
+  std::vector<double> allowances_;
+  Eigen::VectorXd stiffening_;
   const std::vector<CandidateList>* candidates_ = nullptr;
   std::vector<DirectionMoment> directions_;  // one a candidate list
 

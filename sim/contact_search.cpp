@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <tuple>
 
 namespace articular::sim {
 namespace {
@@ -14,34 +15,9 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Extent extent(const Mat3& triangle, const Vec3& direction) {
-  const double p = direction.dot(triangle.col(0)), q = direction.dot(triangle.col(1)),
-               r = direction.dot(triangle.col(2));
-  return {std::min({p, q, r}), std::max({p, q, r})};
-}
-
-bool apart(const Extent& a, const Extent& b, double distance) {
-  return a.low - b.high > distance || b.low - a.high > distance;
-}
-
-/// The face F can't come to lie opposite the triangle s by motion over a distance: it is farther
-/// in front of it or deeper behind it than the range goes, or beside it when seen along the
-/// triangle's normal.
-bool cannot_meet(const FacePlace& s, const FacePlace& F, const DepthRange& range, double distance) {
-  const double plane = s.normal.dot(s.corners.col(0));
-  const Extent height = extent(F.corners, s.normal);
-  if (height.low - plane > range.open + distance || plane - height.high > range.reach + distance)
-    return true;
-  for (int k = 0; k < 3; ++k)
-    if (apart(s.along[static_cast<std::size_t>(k)], extent(F.corners, s.sides.col(k)), distance))
-      return true;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 side =
-        (F.corners.col((k + 1) % 3) - F.corners.col(k)).cross(s.normal);  // of any length
-    if (apart(extent(s.corners, side), extent(F.corners, side), distance * side.norm()))
-      return true;
-  }
-  return false;
+/// Or, not yet, but it may turn until the step's end.
+bool may_face(const FacePlace& s, const FacePlace& face) {
+  return s.normal.dot(face.normal) <= -0.5 * kFacingNone;
 }
 
 /// A triangle and a face that move with the same bone, or share a node, do not touch: tissue tied
@@ -68,6 +44,25 @@ void drop_far_faces(const std::vector<collision::Penetration>& faces_in_triangle
   std::erase_if(pairs, [&](const ContactCandidate& candidate) {
     return meets[static_cast<std::size_t>(candidate.face)] == 0;
   });
+}
+
+std::vector<ContactCandidate> swapped(std::vector<ContactCandidate> pairs) {
+  for (ContactCandidate& pair : pairs) std::swap(pair.triangle, pair.face);
+  return pairs;
+}
+
+/// More candidates, sorted by triangle as the response takes them; of a pair that was found twice
+/// the one that reaches deeper.
+void merge(const std::vector<ContactCandidate>& more, std::vector<ContactCandidate>& pairs) {
+  if (more.empty()) return;
+  pairs.insert(pairs.end(), more.begin(), more.end());
+  std::sort(pairs.begin(), pairs.end(), [](const ContactCandidate& p, const ContactCandidate& q) {
+    return std::tuple(p.triangle, p.face, -p.reach) < std::tuple(q.triangle, q.face, -q.reach);
+  });
+  const auto same = [](const ContactCandidate& p, const ContactCandidate& q) {
+    return p.triangle == q.triangle && p.face == q.face;
+  };
+  pairs.erase(std::unique(pairs.begin(), pairs.end(), same), pairs.end());
 }
 
 }  // namespace
@@ -119,16 +114,8 @@ void ContactSearch::fit(Moving& moving) {
   const BodyModel& body = model_.bodies[static_cast<std::size_t>(moving.body)];
   const Eigen::Matrix3Xi& faces = body.collider->surface.faces;
   moving.faces.resize(static_cast<std::size_t>(faces.cols()));
-  for (Eigen::Index f = 0; f < faces.cols(); ++f) {
-    FacePlace& face = moving.faces[static_cast<std::size_t>(f)];
-    for (int k = 0; k < 3; ++k) face.corners.col(k) = moving.x.col(faces(k, f));
-    const Mat3& p = face.corners;
-    face.normal = (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0)).normalized();
-    for (int k = 0; k < 3; ++k) {
-      face.sides.col(k) = (p.col((k + 1) % 3) - p.col(k)).cross(face.normal).normalized();
-      face.along[static_cast<std::size_t>(k)] = extent(p, face.sides.col(k));
-    }
-  }
+  for (Eigen::Index f = 0; f < faces.cols(); ++f)
+    moving.faces[static_cast<std::size_t>(f)] = face_place(moving.x(Eigen::all, faces.col(f)));
 }
 
 void ContactSearch::update(Moving& moving, const Configuration& configuration, double margin) {
@@ -147,34 +134,12 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
   const auto query_start = Clock::now();
   collision::BlockQueryCounts query;
   for (CandidateList& list : candidates_) list.pairs.clear();
-  int searched = -1;  // the contact that what was found belongs to
-  for (CandidateList& list : candidates_) {
-    const ContactModel& contact = model_.contacts[static_cast<std::size_t>(list.contact)];
-    Moving& a =
-        moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(contact.a)])];
-    Moving& b =
-        moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(contact.b)])];
-    if (contact.a == contact.b) {
-      fit(a);
-      collision::faces_in_own_body(*a.tree, faces_of_a_, query, scratch_, options_);
-      collision::sort_pairs(faces_of_a_, *a.tree, *a.tree, sort_scratch_);
-      fill(list, faces_of_a_, faces_of_a_, a, a, margin);
-      continue;
-    }
-    if (!overlap(a.tree->bounds(), b.tree->bounds())) continue;
-    if (searched != list.contact) {
-      fit(a);
-      fit(b);
-      collision::faces_in_body(*a.tree, *b.tree, faces_of_a_, query, scratch_, options_);
-      collision::faces_in_body(*b.tree, *a.tree, faces_of_b_, query, scratch_, options_);
-      collision::sort_pairs(faces_of_a_, *a.tree, *b.tree, sort_scratch_);
-      collision::sort_pairs(faces_of_b_, *b.tree, *a.tree, sort_scratch_);
-      searched = list.contact;
-    }
-    if (list.reversed)
-      fill(list, faces_of_b_, faces_of_a_, b, a, margin);
-    else
-      fill(list, faces_of_a_, faces_of_b_, a, b, margin);
+  for (std::size_t first = 0; first < candidates_.size();) {  // those of a contact lie side by side
+    std::size_t end = first + 1;
+    while (end < candidates_.size() && candidates_[end].contact == candidates_[first].contact)
+      ++end;
+    search({candidates_.data() + first, end - first}, margin, query);
+    first = end;
   }
   counts_.narrow_tests += query.candidates;
   counts_.reported_pairs += query.pairs;
@@ -182,36 +147,103 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
   counts_.traversal_seconds += seconds_since(query_start) - query.narrow_seconds;
 }
 
-void ContactSearch::fill(CandidateList& list, const std::vector<collision::Penetration>& found,
-                         const std::vector<collision::Penetration>& reverse, const Moving& a,
-                         const Moving& b, double margin) {
-  const bool averaged = model_.contacts[static_cast<std::size_t>(list.contact)].averaged;
-  collect(found, a, b, averaged, margin, list.pairs);
-  const auto& faces = model_.bodies[static_cast<std::size_t>(b.body)].collider->face_area;
-  drop_far_faces(reverse, faces.size(), list.pairs);
+/// The lists of one contact.
+void ContactSearch::search(std::span<CandidateList> lists, double margin,
+                           collision::BlockQueryCounts& query) {
+  const ContactModel& contact = model_.contacts[static_cast<std::size_t>(lists[0].contact)];
+  const auto moving = [this](int body) -> Moving& {
+    return moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(body)])];
+  };
+  Moving &a = moving(contact.a), &b = moving(contact.b);
+  if (contact.a == contact.b) {
+    fit(a);
+    collision::faces_in_own_body(*a.tree, found_of_a_, query, scratch_, options_);
+    collision::sort_pairs(found_of_a_, *a.tree, *a.tree, sort_scratch_);
+    collect(found_of_a_, found_of_a_, a, a, contact.averaged, margin, of_a_);
+    lists[0].pairs = of_a_.near;
+    merge(of_a_.deep, lists[0].pairs);
+    return;
+  }
+  if (!overlap(a.tree->bounds(), b.tree->bounds())) return;
+  fit(a);
+  fit(b);
+  collision::faces_in_body(*a.tree, *b.tree, found_of_a_, query, scratch_, options_);
+  collision::faces_in_body(*b.tree, *a.tree, found_of_b_, query, scratch_, options_);
+  collision::sort_pairs(found_of_a_, *a.tree, *b.tree, sort_scratch_);
+  collision::sort_pairs(found_of_b_, *b.tree, *a.tree, sort_scratch_);
+  // In both directions, even if one side alone looks for the other: what lies deep shows in either.
+  collect(found_of_a_, found_of_b_, a, b, contact.averaged, margin, of_a_);
+  collect(found_of_b_, found_of_a_, b, a, contact.averaged, margin, of_b_);
+  for (CandidateList& list : lists) {
+    const Direction &own = list.reversed ? of_b_ : of_a_, &other = list.reversed ? of_a_ : of_b_;
+    list.pairs = own.near;
+    merge(own.deep, list.pairs);
+    merge(swapped(other.deep), list.pairs);
+  }
 }
 
-void ContactSearch::collect(const std::vector<collision::Penetration>& found, const Moving& a,
-                            const Moving& b, bool averaged, double margin,
-                            std::vector<ContactCandidate>& pairs) {
+void ContactSearch::collect(const std::vector<collision::Penetration>& found,
+                            const std::vector<collision::Penetration>& reverse, const Moving& a,
+                            const Moving& b, bool averaged, double margin, Direction& direction) {
   const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
   const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
   const DepthRange range = depth_range(A, B, averaged);
+  std::vector<ContactCandidate>& pairs = direction.near;
+  pairs.clear();
+  direction.deep.clear();
+  deep_.clear();
   std::fill(seen_.begin(), seen_.end(), -1);
-  for (const collision::Penetration& p : found) {
-    const FacePlace& s = a.faces[static_cast<std::size_t>(p.face)];
-    const int begin = B.nearby_begin[static_cast<std::size_t>(p.tetrahedron)];
-    const int end = B.nearby_begin[static_cast<std::size_t>(p.tetrahedron) + 1];
-    for (int k = begin; k < end; ++k) {
-      const int f = B.nearby[static_cast<std::size_t>(k)];
-      if (seen_[static_cast<std::size_t>(f)] == p.face) continue;
-      seen_[static_cast<std::size_t>(f)] = p.face;
-      const FacePlace& face = b.faces[static_cast<std::size_t>(f)];
-      // Not yet facing, but it may turn until the step's end.
-      if (s.normal.dot(face.normal) > -0.5 * kFacingNone) continue;
-      if (cannot_meet(s, face, range, margin)) continue;
-      if (tied(A, p.face, B, f)) continue;
-      pairs.push_back({p.face, f});
+  for (std::size_t first = 0, end = 0; first < found.size(); first = end) {
+    const int triangle = found[first].face;
+    const FacePlace& s = a.faces[static_cast<std::size_t>(triangle)];
+    bool deep = false;
+    for (end = first; end < found.size() && found[end].face == triangle; ++end) {
+      const auto tetrahedron = static_cast<std::size_t>(found[end].tetrahedron);
+      deep = deep || B.is_inner[tetrahedron] != 0;
+      for (int k = B.nearby_begin[tetrahedron]; k < B.nearby_begin[tetrahedron + 1]; ++k) {
+        const int f = B.nearby[static_cast<std::size_t>(k)];
+        if (seen_[static_cast<std::size_t>(f)] == triangle) continue;
+        seen_[static_cast<std::size_t>(f)] = triangle;
+        const FacePlace& face = b.faces[static_cast<std::size_t>(f)];
+        if (!may_face(s, face)) continue;
+        const Meeting what = meeting(s, face, range, margin);
+        deep = deep || what.deeper;
+        if (what.may && !tied(A, triangle, B, f)) pairs.push_back({triangle, f, range.reach});
+      }
+    }
+    if (deep) deep_.push_back({first, end});
+  }
+  drop_far_faces(reverse, B.face_area.size(), pairs);
+  add_deep_pairs(found, a, b, range, margin, direction.deep);
+}
+
+/// For triangles that lie deeper below the other surface than the range reaches: the faces behind
+/// them up to about that depth. Faces farther off are seen from beyond an edge.
+void ContactSearch::add_deep_pairs(const std::vector<collision::Penetration>& found,
+                                   const Moving& a, const Moving& b, const DepthRange& range,
+                                   double margin, std::vector<ContactCandidate>& pairs) {
+  constexpr double kOfDepth = 1.5;  // along a triangle's normal it is farther than straight up
+  const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
+  const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
+  for (const DeepTriangle& deep : deep_) {
+    const int triangle = found[deep.begin].face;
+    const FacePlace& s = a.faces[static_cast<std::size_t>(triangle)];
+    const bool inside =
+        std::any_of(found.begin() + static_cast<std::ptrdiff_t>(deep.begin),
+                    found.begin() + static_cast<std::ptrdiff_t>(deep.end),
+                    [&](const collision::Penetration& p) {
+                      return has_corner_in(s, b.x(Eigen::all, B.tets.col(p.tetrahedron)));
+                    });
+    if (!inside) continue;
+    const double depth = depth_below(s, b.faces);
+    if (!(kOfDepth * depth > range.reach)) continue;
+    const DepthRange deeper{range.open, kOfDepth * depth + margin};
+    for (std::size_t f = 0; f < b.faces.size(); ++f) {
+      const auto face = static_cast<int>(f);
+      if (!may_face(s, b.faces[f]) || tied(A, triangle, B, face)) continue;
+      if (!meeting(s, b.faces[f], deeper, margin).may) continue;
+      pairs.push_back({triangle, face, deeper.reach});
+      ++counts_.deep_pairs;
     }
   }
 }

@@ -2,11 +2,12 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "collision/block_collide.hpp"
 #include "sim/configuration.hpp"
-#include "sim/contact_patch.hpp"
+#include "sim/face_place.hpp"
 
 /// Who may touch whom during the next step: from the BlockTrees' penetrations with a margin to
 /// pairs of a surface triangle and a facing face of the other body.
@@ -16,6 +17,7 @@ namespace articular::sim {
 /// of b and face of a).
 struct ContactCandidate {
   int triangle = 0, face = 0;
+  double reach = 0;  // [m] up to this depth the triangle came in through this face
 };
 
 struct CandidateList {
@@ -32,20 +34,8 @@ struct SearchCounts {
   std::int64_t tree_updates = 0;
   std::int64_t reported_pairs = 0;  // by the BlockTrees, within the margin
   std::int64_t narrow_tests = 0;
+  std::int64_t deep_pairs = 0;  // candidates deeper than depth_range() reaches
   double update_seconds = 0, traversal_seconds = 0, narrow_seconds = 0;
-};
-
-/// Extent along a direction [m].
-struct Extent {
-  double low, high;
-};
-
-/// A face where it is now.
-struct FacePlace {
-  Mat3 corners;                 // one a column, counter-clockwise from outside [m]
-  Vec3 normal;                  // unit
-  Mat3 sides;                   // in the plane, perpendicular to the edges, unit
-  std::array<Extent, 3> along;  // of the face, along these
 };
 
 class ContactSearch {
@@ -80,23 +70,37 @@ class ContactSearch {
   /// What a body needs that may touch another: done once a detection, if at all.
   void fit(Moving& moving);
   bool needs_update(const Moving& moving, double margin) const;
-  /// The candidates of a list among triangles of a in tetrahedra of b; `reverse`: of b in a.
-  void fill(CandidateList& list, const std::vector<collision::Penetration>& found,
-            const std::vector<collision::Penetration>& reverse, const Moving& a, const Moving& b,
-            double margin);
-  void collect(const std::vector<collision::Penetration>& found, const Moving& a, const Moving& b,
-               bool averaged, double margin, std::vector<ContactCandidate>& pairs);
+  /// Candidates among triangles of one body and faces of another.
+  struct Direction {
+    std::vector<ContactCandidate> near, deep;
+  };
+  void search(std::span<CandidateList> lists, double margin, collision::BlockQueryCounts& query);
+  /// @param found    triangles of a in tetrahedra of b
+  /// @param reverse  of b in a
+  void collect(const std::vector<collision::Penetration>& found,
+               const std::vector<collision::Penetration>& reverse, const Moving& a, const Moving& b,
+               bool averaged, double margin, Direction& direction);
+  void add_deep_pairs(const std::vector<collision::Penetration>& found, const Moving& a,
+                      const Moving& b, const DepthRange& range, double margin,
+                      std::vector<ContactCandidate>& pairs);
 
   const Model& model_;
   std::vector<Moving> moving_;       // one a collider
   std::vector<int> moving_of_body_;  // -1: none
   std::vector<CandidateList> candidates_;
   double open_depth_ = 0;  // [m] largest of all sides that are averaged over
-  std::vector<collision::Penetration> faces_of_a_, faces_of_b_;
+  std::vector<collision::Penetration> found_of_a_, found_of_b_;
+  Direction of_a_, of_b_;
   collision::BlockQueryScratch scratch_;
   collision::BlockQueryOptions options_;
   collision::SortScratch sort_scratch_;
   std::vector<int> seen_;  // per face: last triangle that it was paired with
+  /// Triangles that may lie deeper in the other body than the range reaches, with what was found of
+  /// each: found[begin .. end).
+  struct DeepTriangle {
+    std::size_t begin = 0, end = 0;
+  };
+  std::vector<DeepTriangle> deep_;
   SearchCounts counts_;
 };
 

@@ -122,7 +122,7 @@ void Dynamics::evaluate(const double* y, double t) {
         const auto column = static_cast<Eigen::Index>(i);
         Vec3 force = -f.col(column);
         enters(force.norm());
-        if (carries_own_weight(tissue.nodes[i])) {
+        if (!unloaded_ && carries_own_weight(tissue.nodes[i])) {
           const Vec3 weight = tissue.lumped_mass[column] * model_.gravity;
           enters(weight.norm());
           force += weight;
@@ -134,27 +134,39 @@ void Dynamics::evaluate(const double* y, double t) {
       }
     }
   }
-  for (int r = 0; r < model_.layout.num_rigid; ++r) {
-    const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
-    f_.segment<3>(3 * bone.block) += bone.mass.mass * model_.gravity;
-    enters(bone.mass.mass * model_.gravity.norm());
-  }
-  for (const ForceModel& force : model_.forces) {
-    const Vec3 now = value_at(force.profile, t) * force.force;
-    add_force(configuration_, force.point, now, f_);
-    enters(now.norm());
-  }
-  lines_.resize(model_.lines.size());
-  for (std::size_t l = 0; l < model_.lines.size(); ++l) {
-    lines_[l] = line_state(model_, model_.lines[l], configuration_);
-    add_line_force(model_.lines[l], configuration_, lines_[l].tension, f_);
-    enters(lines_[l].tension);
+  lines_.assign(model_.lines.size(), {});
+  if (!unloaded_) {
+    add_loads(t);
+    add_lines();
   }
   if (candidates_ != nullptr) {
     const Stopwatch watch(times_.contact_force);
     contact_.evaluate(configuration_, *candidates_);
     contact_.add_force(configuration_, f_);
     enters(contact_.largest_force());
+  }
+}
+
+/// Those of bones, and forces.
+void Dynamics::add_loads(double t) {
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
+    const Vec3 weight = bone.mass.mass * model_.gravity;
+    f_.segment<3>(3 * bone.block) += weight;
+    largest_force_ = std::max(largest_force_, weight.norm());
+  }
+  for (const ForceModel& force : model_.forces) {
+    const Vec3 now = value_at(force.profile, t) * force.force;
+    add_force(configuration_, force.point, now, f_);
+    largest_force_ = std::max(largest_force_, now.norm());
+  }
+}
+
+void Dynamics::add_lines() {
+  for (std::size_t l = 0; l < model_.lines.size(); ++l) {
+    lines_[l] = line_state(model_, model_.lines[l], configuration_);
+    add_line_force(model_.lines[l], configuration_, lines_[l].tension, f_);
+    largest_force_ = std::max(largest_force_, lines_[l].tension);
   }
 }
 

@@ -20,7 +20,10 @@ class Dynamics {
   /// The candidates for the coming step; their couplings enter the pattern.
   void set_candidates(const std::vector<CandidateList>& candidates);
   /// Drops what depends on the past (couplings of earlier candidates).
-  void forget() { matrix_.forget(); }
+  void forget() {
+    matrix_.forget();
+    contact_.drop_multipliers();
+  }
 
   /// Reads y and computes all forces there. Block forces: 3 entries a block, reactions included.
   void evaluate(const double* y, double t);
@@ -34,6 +37,17 @@ class Dynamics {
   bool touches() const { return candidates_ != nullptr && contact_.has_patches(); }
   /// From the next evaluate() on, see ContactResponse::set_soft().
   void set_soft_contact(bool soft) { contact_.set_soft(soft); }
+  /// From the next evaluate() on, see ContactResponse::set_allowances().
+  void set_allowances(std::vector<double> allowances) {
+    contact_.set_allowances(std::move(allowances));
+  }
+  /// From the next evaluate() on, see ContactResponse::set_stiffening(), augment() and
+  /// drop_multipliers().
+  void set_stiffening(const Eigen::VectorXd& factors) { contact_.set_stiffening(factors); }
+  bool augment_contact() { return candidates_ != nullptr && contact_.augment(); }
+  void drop_multipliers() { contact_.drop_multipliers(); }
+  /// From the next evaluate() on, without gravity, loads and lines.
+  void set_unloaded(bool unloaded) { unloaded_ = unloaded; }
   const ContactResponse& contact() const { return contact_; }
   /// One a contact of the model.
   std::vector<ContactSummary> contacts() const {
@@ -112,6 +126,8 @@ class Dynamics {
   Eigen::VectorXd predicted(std::size_t t, double part) const;
   void find_pressure(std::size_t t);
   void read_lags(std::size_t t, const double* y);
+  void add_loads(double t);
+  void add_lines();
   double activation_of(std::size_t tissue) const;
   /// All tissue nodes but those whose mass a rigid bone has taken over.
   bool carries_own_weight(const NodeRef& node) const;
@@ -119,6 +135,7 @@ class Dynamics {
   const Model& model_;
   const std::vector<CandidateList>* candidates_ = nullptr;
   Configuration configuration_;
+  bool unloaded_ = false;
   Eigen::VectorXd f_;
   mutable Positions v_, damping_;                    // at the nodes of a tissue
   mutable Eigen::VectorXd lag_part_, stress_there_;  // of a tissue

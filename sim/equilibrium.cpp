@@ -67,6 +67,7 @@ class Equilibrium::Solver {
   static int correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype);
   int run(double tolerance);
   [[nodiscard]] bool balance(bool soft);
+  [[nodiscard]] bool balance_within_bounds();
   void move(const Eigen::VectorXd& u, Eigen::VectorXd& y) const;
   /// r at u; kept, as KINSOL asks again for what the line search has seen.
   const Eigen::VectorXd& residual_at(const Eigen::VectorXd& u);
@@ -313,6 +314,15 @@ bool Equilibrium::Solver::balance(bool soft) {
   return true;
 }
 
+/// With multipliers where contact penetrates too much.
+bool Equilibrium::Solver::balance_within_bounds() {
+  constexpr int kMostUpdates = 10;
+  if (!balance(false)) return false;
+  for (int update = 0; update < kMostUpdates && dynamics_.augment_contact(); ++update)
+    if (!balance(false)) return false;
+  return true;
+}
+
 bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
   predicted_part_.reset();
   start_ = y;
@@ -326,10 +336,11 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
     ++counts.steps;
     return true;
   }
+  dynamics_.drop_multipliers();
   residual_at(view(solution_));
   // Contact that is as stiff as it should be throws what is far from equilibrium back and forth.
   if (dynamics_.touches() && !balance(true)) view(solution_).setZero();
-  if (!balance(false)) {
+  if (!balance_within_bounds()) {
     ++counts.rejected_newton;
     return false;
   }

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "sim/body_collider.hpp"
 #include "sim/body_geometry.hpp"
-#include "sim/collider.hpp"
+#include "sim/contact_model.hpp"
 #include "sim/muscle_law.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/region.hpp"
@@ -18,22 +18,6 @@
 namespace articular::sim {
 namespace {
 
-/// Contact stiffness of a side is this times constrained modulus / element height. Statics ends at
-/// a thousand, where forces no longer depend on it, and begins softer: from afar a stiff iteration
-/// is thrown back and forth. In time, where Newton's iteration ends by how far things still move, a
-/// stiffer contact would turn that into noise of its forces.
-constexpr double kStaticFactor = 1000, kSoftFactor = 10, kDynamicFactor = 10;
-/// How far in front of a face a triangle's depth counts in the averages, in heights of the elements
-/// at its surface: more than a facet's sagitta under a round bone.
-constexpr double kOpenDepth = 0.25;
-/// A tissue's face counts as crossed up to this part of an element's height. Contact keeps depths
-/// far below it; what lies deeper is seen from beyond an edge, and was not entered through that
-/// face.
-constexpr double kTissueReach = 0.5;
-/// Cortical bone, where a bone meets a bone without a layer between: E [Pa], nu.
-constexpr double kBoneModulus = 15e9, kBonePoisson = 0.3;
-/// Of the elements at the surface: what friction at 0.7 of its limit creeps in the whole scene.
-constexpr double kCreep = 0.05;
 /// A muscle that gives less than this part of its maximal force at rest and full activation is
 /// probably a table applied to another subject.
 constexpr double kLeastForceAtRest = 0.1;
@@ -48,24 +32,20 @@ class Builder {
     make_tissues();
     number_blocks();
     carry_tissue_mass();
-    make_colliders();
+    make_colliders(geometry_, model_);
     make_lines();
     make_loads();
-    make_contacts();
+    make_contacts(model_);
     make_probes();
     model_.position_tolerance = position_tolerance(model_);
-    model_.detection_margin = detection_margin();
+    model_.detection_margin = detection_margin(model_);
     return std::move(model_);
   }
 
  private:
   const Scenario& scenario() const { return model_.scenario; }
 
-  int body_index(const std::string& name) const {
-    for (std::size_t b = 0; b < scenario().bodies.size(); ++b)
-      if (scenario().bodies[b].name == name) return static_cast<int>(b);
-    throw InputError(fmt::format("no body `{}`", name));
-  }
+  int body_index(const std::string& name) const { return sim::body_index(scenario(), name); }
 
   void read_bodies() {
     for (const Body& body : scenario().bodies) {
@@ -190,115 +170,6 @@ class Builder {
       model_.bodies[b].X = geometry_[b].mesh.X.colwise() - bone.rest.p;
       model_.bodies[b].triangles = geometry_[b].mesh.triangles;
     }
-  }
-
-  bool can_touch(std::size_t b) const {
-    if (!scenario().contact || !scenario().bodies[b].collides) return false;
-    if (!scenario().contacts.empty()) {
-      return std::any_of(
-          scenario().contacts.begin(), scenario().contacts.end(), [&](const ContactPair& pair) {
-            return pair.a == scenario().bodies[b].name || pair.b == scenario().bodies[b].name;
-          });
-    }
-    return scenario().bodies.size() > 1;
-  }
-
-  void make_colliders() {
-    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-      if (!can_touch(b)) continue;
-      const Body& body = scenario().bodies[b];
-      try {
-        if (model_.bodies[b].tissue >= 0)
-          model_.bodies[b].collider = tissue_collider(b);
-        else if (geometry_[b].mesh.X.cols() > 0 || geometry_[b].contact.X.cols() > 0)
-          model_.bodies[b].collider = bone_collider(b);
-      } catch (const std::exception& error) {
-        throw InputError(body.mesh ? body.mesh->where : body.where,
-                         fmt::format("body `{}`: {}", body.name, error.what()));
-      }
-    }
-  }
-
-  double contact_factor() const {
-    return scenario().analysis == Scenario::Analysis::Static ? kStaticFactor : kDynamicFactor;
-  }
-
-  Collider tissue_collider(std::size_t b) const {
-    const Tissue& tissue = model_.tissues[static_cast<std::size_t>(model_.bodies[b].tissue)];
-    const Material& material = *scenario().bodies[b].material;
-    Collider collider;
-    collider.X = tissue.X;
-    collider.tets = tissue.elements.tets();
-    collider.nodes = tissue.nodes;
-    complete_collider(collider, {});
-    const double compliance = 1 / (contact_factor() * constrained_modulus(material));
-    collider.compliance = compliance * collider.height;
-    collider.mean_compliance = compliance * collider.size;
-    collider.reach = kTissueReach * collider.size;
-    collider.open_depth = kOpenDepth * collider.size;
-    return collider;
-  }
-
-  Collider bone_collider(std::size_t b) {
-    const Body& body = scenario().bodies[b];
-    const Bone& bone = model_.bones[static_cast<std::size_t>(model_.bodies[b].bone)];
-    const bool shell = geometry_[b].contact.X.cols() > 0 || geometry_[b].mesh.tets.cols() == 0;
-    Collider collider;
-    std::vector<char> is_outer;
-    double depth = 0;
-    if (shell) {
-      const MeshData& surface =
-          geometry_[b].contact.X.cols() > 0 ? geometry_[b].contact : geometry_[b].mesh;
-      if (surface.triangles.cols() == 0) throw InputError("its mesh has no triangles");
-      depth = body.shell_thickness.value_or(mean_edge(surface));
-      collider.X = surface.X;
-      Triangles triangles = surface.triangles;
-      collider.tets = shell_under(collider.X, triangles, depth);
-      report_dropped(body, surface.triangles.cols(), triangles.cols());
-      is_outer.assign(static_cast<std::size_t>(collider.X.cols()), 0);
-      std::fill_n(is_outer.begin(), surface.X.cols(), 1);
-    } else {
-      collider.X = geometry_[b].mesh.X;
-      collider.tets = geometry_[b].mesh.tets;
-    }
-    complete_collider(collider, is_outer);
-    if (!shell) depth = 2 * collider.size;
-    collider.reach = depth;
-    for (Eigen::Index i = 0; i < collider.X.cols(); ++i)
-      collider.nodes.push_back(
-          {bone.block, model_.bodies[b].bone, collider.X.col(i) - bone.rest.p});
-    collider.open_depth = kOpenDepth * depth;
-    collider.mean_compliance =
-        depth / (contact_factor() * constrained_modulus(kBoneModulus, kBonePoisson));
-    if (body.layer)
-      collider.layer_compliance =
-          body.layer->thickness /
-          constrained_modulus(body.layer->young_modulus, body.layer->poisson_ratio);
-    collider.compliance.setConstant(collider.X.cols(), collider.mean_compliance);
-    return collider;
-  }
-
-  /// Of a surface's triangles [m]: the depth of the collision elements under it where the scenario
-  /// names none.
-  static double mean_edge(const MeshData& surface) {
-    double sum = 0;
-    for (const auto& triangle : surface.triangles.colwise())
-      for (int k = 0; k < 3; ++k)
-        sum += (surface.X.col(triangle[(k + 1) % 3]) - surface.X.col(triangle[k])).norm();
-    return sum / (3 * static_cast<double>(surface.triangles.cols()));
-  }
-
-  /// Creases and slivers of a scanned surface that can't take part in contact: a few are told, many
-  /// are an error.
-  void report_dropped(const Body& body, Eigen::Index given, Eigen::Index kept) {
-    constexpr double kMostDropped = 0.03;
-    if (kept == given) return;
-    const std::string what =
-        fmt::format("{} of {} faces of the contact surface of `{}` are slivers or lie in creases",
-                    given - kept, given, body.name);
-    if (static_cast<double>(given - kept) > kMostDropped * static_cast<double>(given))
-      throw InputError(what + "; expected a smooth surface with outward normals");
-    model_.warnings.push_back(prefix(body.where) + what + " and are left out of contact");
   }
 
   WeightedPoint resolve(const Anchor& anchor) const {
@@ -447,88 +318,6 @@ class Builder {
     return point;
   }
 
-  /// Whose nodes depths are averaged at: of tissue where it meets bone, of the softer or, much
-  /// alike, the finer of two tissues, of the finer of two bones. Both sides at once would hold the
-  /// bodies apart at more nodes than the coarser one has to give way with.
-  bool averages_first(int a, int b, const Collider& A, const Collider& B) const {
-    constexpr double kMuchSofter = 3;
-    const auto modulus = [this](int body) {
-      return constrained_modulus(*scenario().bodies[static_cast<std::size_t>(body)].material);
-    };
-    const bool soft_a = model_.bodies[static_cast<std::size_t>(a)].tissue >= 0;
-    const bool soft_b = model_.bodies[static_cast<std::size_t>(b)].tissue >= 0;
-    if (soft_a != soft_b) return soft_a;
-    if (soft_a && modulus(a) > kMuchSofter * modulus(b)) return false;
-    if (soft_a && modulus(b) > kMuchSofter * modulus(a)) return true;
-    return mean_face_area(A) <= mean_face_area(B);
-  }
-
-  void add_contact(int a, int b, const ContactPair& pair) {
-    const auto& A = model_.bodies[static_cast<std::size_t>(a)].collider;
-    const auto& B = model_.bodies[static_cast<std::size_t>(b)].collider;
-    if (!A || !B) return;
-    ContactModel contact;
-    contact.a = a;
-    contact.b = b;
-    contact.averaged = scenario().analysis == Scenario::Analysis::Static;
-    contact.share = a == b || !contact.averaged ? 0.5 : 1;
-    const double layers = A->layer_compliance + B->layer_compliance;
-    contact.mean_stiffness =
-        pair.stiffness.value_or(1 / (A->mean_compliance + B->mean_compliance + layers));
-    const auto at_nodes = [&](const Collider& side, const Collider& other, double softer) {
-      if (pair.stiffness)
-        return Eigen::VectorXd::Constant(side.X.cols(), contact.share * *pair.stiffness).eval();
-      if (!contact.averaged)
-        return Eigen::VectorXd::Constant(side.X.cols(), contact.share * contact.mean_stiffness)
-            .eval();
-      return (contact.share / (softer * (side.compliance.array() + other.mean_compliance) + layers))
-          .matrix()
-          .eval();
-    };
-    const bool first = a == b || (contact.averaged && averages_first(a, b, *A, *B));
-    if (first || !contact.averaged) {
-      contact.stiffness_a = at_nodes(*A, *B, 1);
-      contact.soft_a = at_nodes(*A, *B, contact_factor() / kSoftFactor);
-    }
-    if (!first) {
-      contact.stiffness_b = at_nodes(*B, *A, 1);
-      contact.soft_b = at_nodes(*B, *A, contact_factor() / kSoftFactor);
-    }
-    contact.law.friction = pair.friction;
-    contact.law.damping = contact.share * pair.damping;
-    contact.law.slip_velocity =
-        pair.slip_velocity.value_or(kCreep * std::min(A->size, B->size) / scenario().duration);
-    model_.contacts.push_back(std::move(contact));
-  }
-
-  static double mean_face_area(const Collider& collider) {
-    return std::accumulate(collider.face_area.begin(), collider.face_area.end(), 0.0) /
-           static_cast<double>(std::max<std::size_t>(1, collider.face_area.size()));
-  }
-
-  void make_contacts() {
-    if (!scenario().contact) return;
-    for (const ContactPair& pair : scenario().contacts) {
-      const int a = body_index(pair.a), b = body_index(pair.b);
-      for (const int body : {a, b})
-        if (!model_.bodies[static_cast<std::size_t>(body)].collider)
-          throw InputError(pair.where,
-                           fmt::format("body `{}` has nothing to touch with: it needs a mesh and "
-                                       "must not have collides = false",
-                                       model_.bodies[static_cast<std::size_t>(body)].name));
-      add_contact(a, b, pair);
-    }
-    if (!scenario().contacts.empty()) return;
-    const auto n = static_cast<int>(model_.bodies.size());
-    for (int a = 0; a < n; ++a)
-      for (int b = a + 1; b < n; ++b) {
-        const auto fixed = [&](int body) {
-          return model_.bodies[static_cast<std::size_t>(body)].kind == Body::Kind::Fixed;
-        };
-        if (!(fixed(a) && fixed(b))) add_contact(a, b, ContactPair{});
-      }
-  }
-
   void check_tied(const ProbeModel& probe) const {
     const int bone = model_.bodies[static_cast<std::size_t>(probe.other)].bone;
     const int tissue = model_.bodies[static_cast<std::size_t>(probe.body)].tissue;
@@ -538,15 +327,6 @@ class Builder {
       throw InputError(probe.given.where,
                        fmt::format("[[probe]] `{}`: no node of `{}` is attached to `{}`",
                                    probe.given.name, probe.given.body, probe.given.other));
-  }
-
-  double detection_margin() const {
-    constexpr double kMarginOfElement = 0.1;
-    if (scenario().detection.margin) return *scenario().detection.margin;
-    double least = std::numeric_limits<double>::infinity();
-    for (const BodyModel& body : model_.bodies)
-      if (body.collider) least = std::min(least, body.collider->size);
-    return std::isfinite(least) ? kMarginOfElement * least : 0;
   }
 
   void make_probes() {
@@ -571,6 +351,12 @@ class Builder {
 };
 
 }  // namespace
+
+int body_index(const Scenario& scenario, const std::string& name) {
+  for (std::size_t b = 0; b < scenario.bodies.size(); ++b)
+    if (scenario.bodies[b].name == name) return static_cast<int>(b);
+  throw InputError(fmt::format("no body `{}`", name));
+}
 
 Model build_model(Scenario scenario) { return Builder(std::move(scenario)).build(); }
 

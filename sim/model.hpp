@@ -46,8 +46,9 @@ struct Collider {
   std::vector<NodeRef> nodes;             // what moves each node
   std::vector<double> face_area;          // at the start [m²]
   std::vector<int> nearby_begin, nearby;  // per tetrahedron: faces around it
-  Eigen::VectorXd compliance;             // by penalty, at each node [m/Pa]
-  double mean_compliance = 0;             // by penalty, of its surface [m/Pa]
+  std::vector<char> is_inner;             // per tetrahedron: no node of it is on the surface
+  Eigen::VectorXd compliance;             // of an element at the surface, h/M, at each node [m/Pa]
+  double mean_compliance = 0;             // the same of the whole surface [m/Pa]
   double layer_compliance = 0;            // of the layer on it [m/Pa]
   double reach = 0;                       // [m] depth up to which a crossed face is found
   double open_depth = 0;   // [m] how far in front of a face this side's surface counts
@@ -118,9 +119,11 @@ struct ContactModel {
   Eigen::VectorXd stiffness_a, stiffness_b;
   // What an iteration that comes from afar starts with, of the same sizes: softer.
   Eigen::VectorXd soft_a, soft_b;
-  double mean_stiffness = 0;  // of the two sides in series [Pa/m]
-  double share = 1;           // ½ where both sides, or both folds of one body, look for the other
-  SurfaceLaw law;             // its damping times `share`
+  double mean_stiffness = 0;   // of the two sides in series [Pa/m]
+  double max_penetration = 0;  // [m] mean depth at a node that the penalty may take
+  bool is_bounded = false;     // where it takes more, it is helped: see ContactResponse
+  double share = 1;            // ½ where both sides, or both folds of one body, look for the other
+  SurfaceLaw law;              // its damping times `share`
 };
 
 struct ProbeModel {
@@ -169,6 +172,9 @@ struct Model {
 /// Reads the meshes, resolves names and checks what only the geometry can tell.
 /// @throws InputError
 Model build_model(Scenario scenario);
+
+/// @throws InputError when there is none of that name
+int body_index(const Scenario& scenario, const std::string& name);
 
 /// y at t = 0.
 Eigen::VectorXd initial_state(const Model& model);

@@ -10,6 +10,7 @@
 #include "sim/convergence.hpp"
 #include "sim/frames.hpp"
 #include "sim/history.hpp"
+#include "sim/settling.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/summary.hpp"
 
@@ -103,10 +104,19 @@ class Run {
         return;
       }
     }
+    if (model_.scenario.settling) settle_start();
     std::error_code ignored;
     std::filesystem::remove(checkpoint_file(), ignored);
     history_.record(state_, stepper_);
     output_frame();
+  }
+
+  void settle_start() {
+    state_.settling = settle(model_, state_.y);
+    if (state_.settling.overlaps.empty()) return;
+    stepper_.restart(state_);
+    state_.energy.start = stepper_.stored_energy().total();
+    if (options_.after_settling) options_.after_settling(state_.settling);
   }
 
   double next_event() const {

@@ -11,6 +11,8 @@ namespace articular::sim {
 struct RunOptions {
   std::filesystem::path directory;  // of the results
   bool resume = false;
+  /// Called once bodies that overlapped at the start have been pushed apart.
+  std::function<void(const Settling&)> after_settling;
   /// Called after every step; true stops the run (as after Ctrl-C).
   std::function<bool(const State&, double duration)> after_step;
 };

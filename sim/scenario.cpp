@@ -23,10 +23,10 @@ Scenario read_scenario(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides) {
   Node root = read_toml(file);
   for (const std::string& text : overrides) apply_override(root, text);
-  const TableReader document(
-      root, "scenario",
-      {"title", "duration", "analysis", "accuracy", "contact", "integrator", "detection", "output",
-       "body", "attach", "muscle", "muscle_table", "ligament", "load", "probe"});
+  const TableReader document(root, "scenario",
+                             {"title", "duration", "analysis", "accuracy", "settling", "contact",
+                              "integrator", "detection", "output", "body", "attach", "muscle",
+                              "muscle_table", "ligament", "load", "probe"});
   Scenario scenario;
   scenario.file = file;
   scenario.name = file.stem().string();

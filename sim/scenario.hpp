@@ -223,6 +223,7 @@ struct ContactPair {
   double friction = 0;                       // coefficient; dynamic analysis only
   std::optional<double> slip_velocity = {};  // [m/s] that friction takes for rest; default: chosen
   double damping = 0;                        // pressure per closing velocity [Pa s/m]
+  std::optional<double> max_penetration = {};  // [m]; default: see ContactModel
 };
 
 struct Probe {
@@ -251,6 +252,8 @@ struct Integrator {
 };
 
 struct Detection {
+  /// Of a pair in a dynamic analysis, whose triangles look for the other's faces.
+  enum class Sides { Both, One } sides = Sides::Both;
   std::optional<double> margin;  // [m], least distance at which pairs are kept as candidates
   collision::NarrowTest narrow_test = collision::NarrowTest::SeparatingAxes;
 };
@@ -279,7 +282,8 @@ struct Scenario {
   std::vector<Muscle> muscles;
   std::vector<Ligament> ligaments;
   std::vector<Load> loads;
-  bool contact = true;  // `contact = false`: nothing touches
+  bool contact = true;   // `contact = false`: nothing touches
+  bool settling = true;  // bodies that overlap at the start are pushed apart first
   std::vector<ContactPair> contacts;
   std::vector<Probe> probes;
   Output output;

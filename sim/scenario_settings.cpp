@@ -63,8 +63,14 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
                                  integrator.min_step, integrator.step));
 }
 
-void read_detection(const Node& node, Detection& detection) {
-  const TableReader table(node, "[detection]", {"margin", "narrow_test"});
+void read_detection(const Node& node, Scenario::Analysis analysis, Detection& detection) {
+  const TableReader table(node, "[detection]", {"sides", "margin", "narrow_test"});
+  if (analysis == Scenario::Analysis::Static)
+    table.refuse({"sides"}, "a static analysis looks from one side");
+  table.may("sides", detection.sides, [](const Node& n) {
+    return read_choice<Detection::Sides>(
+        n, {{"both", Detection::Sides::Both}, {"one", Detection::Sides::One}});
+  });
   table.may("margin", detection.margin, as_quantity(kLength, kPositive));
   table.may("narrow_test", detection.narrow_test, [](const Node& n) {
     return read_choice<collision::NarrowTest>(
@@ -97,6 +103,7 @@ nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
     if (pair.friction > 0) entry["friction"] = pair.friction;
     if (pair.slip_velocity) entry["slip_velocity_m_per_s"] = *pair.slip_velocity;
     if (pair.damping > 0) entry["damping_Pa_s_per_m"] = pair.damping;
+    if (pair.max_penetration) entry["max_penetration_m"] = *pair.max_penetration;
     pairs.push_back(std::move(entry));
   }
   return pairs;
@@ -117,10 +124,13 @@ void read_settings(const TableReader& document, Scenario& scenario) {
     return read_choice<Scenario::Analysis>(
         n, {{"dynamic", Scenario::Analysis::Dynamic}, {"static", Scenario::Analysis::Static}});
   });
+  document.may("settling", scenario.settling, read_boolean);
   scenario.integrator = preset(scenario.accuracy);
+  if (scenario.accuracy == Accuracy::Fast) scenario.detection.sides = Detection::Sides::One;
   if (const Node* node = document.find("integrator"))
     read_integrator(*node, scenario.analysis, scenario.integrator);
-  if (const Node* node = document.find("detection")) read_detection(*node, scenario.detection);
+  if (const Node* node = document.find("detection"))
+    read_detection(*node, scenario.analysis, scenario.detection);
   if (const Node* node = document.find("output")) read_output(*node, scenario.output);
 }
 
@@ -133,6 +143,7 @@ std::string settings_as_json(const Scenario& scenario) {
   json["duration_s"] = scenario.duration;
   json["accuracy"] = kAccuracies[static_cast<int>(scenario.accuracy)];
   json["analysis"] = scenario.analysis == Scenario::Analysis::Static ? "static" : "dynamic";
+  json["settling"] = scenario.settling;
   json["contact"] = contact_as_json(scenario);
   json["integrator"] = {{"scheme", kSchemes[static_cast<int>(integrator.scheme)].first},
                         {"step_s", integrator.step},
@@ -144,6 +155,7 @@ std::string settings_as_json(const Scenario& scenario) {
   else
     json["integrator"]["position_tolerance_of_element"] = integrator.element_tolerance;
   json["detection"] = {
+      {"sides", scenario.detection.sides == Detection::Sides::One ? "one" : "both"},
       {"margin_m", nullptr},  // chosen by the elements
       {"narrow_test",
        scenario.detection.narrow_test == collision::NarrowTest::Gjk ? "gjk" : "separating-axes"}};

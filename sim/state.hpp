@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 namespace articular::sim {
 
@@ -36,6 +37,21 @@ struct Counts : SolverCounts {
   std::int64_t tree_updates = 0;
   std::int64_t narrow_tests = 0;
   std::int64_t reported_pairs = 0;
+  std::int64_t stiffened = 0;   // steps done again with a contact's stiffness doubled
+  std::int64_t deep_pairs = 0;  // contact candidates deeper than usual: see ContactSearch
+};
+
+/// How far two bodies overlapped before and after settling [m], the deepest point of either.
+struct SettledOverlap {
+  int contact = 0;  // index into Model::contacts
+  double before = 0, after = 0;
+};
+
+/// What the settling phase did before the start.
+struct Settling {
+  std::vector<SettledOverlap> overlaps;
+  int solutions = 0;          // equilibria
+  double largest_motion = 0;  // [m] of a node
 };
 
 /// All that changes: a copy of it at a checkpoint is a restart point.
@@ -48,6 +64,8 @@ struct State {
   int frames = 0;              // written
   EnergyLedger energy;
   Counts counts;
+  Settling settling;
+  Eigen::VectorXd stiffening;  // of each contact's stiffness, by max_penetration; ≥ 1
 };
 
 }  // namespace articular::sim

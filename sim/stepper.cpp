@@ -6,15 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/contact_hooks.hpp"
+
 namespace articular::sim {
-namespace {
-
-/// The next detection covers this times what something strayed from where this one looked; half of
-/// it would just do.
-constexpr double kMarginPerStray = 4;
-
-}  // namespace
-
 double numerical_loss(const State& state, const StoredEnergy& now) {
   const EnergyLedger& l = state.energy;
   return l.start + l.muscle_work + l.load_work + l.motion_work - l.ligament_loss - l.tissue_loss -
@@ -35,6 +29,7 @@ State Stepper::initial() {
   state.y = initial_state(model_);
   state.next_step = model_.scenario.integrator.step;
   state.next_margin = model_.detection_margin;
+  state.stiffening = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(model_.contacts.size()));
   restart(state);
   state.energy.start = stored_energy().total();
   return state;
@@ -42,6 +37,7 @@ State Stepper::initial() {
 
 void Stepper::restart(const State& state) {
   dynamics_->forget();
+  dynamics_->set_stiffening(state.stiffening);
   if (integrator_) integrator_->restart(state.next_step);
   if (equilibrium_) equilibrium_->restart();
   Configuration now;
@@ -86,6 +82,7 @@ void Stepper::step(State& state, double t_target) {
     state.counts.tree_updates += search_->counts().tree_updates - search_before.tree_updates;
     state.counts.narrow_tests += search_->counts().narrow_tests - search_before.narrow_tests;
     state.counts.reported_pairs += search_->counts().reported_pairs - search_before.reported_pairs;
+    state.counts.deep_pairs += search_->counts().deep_pairs - search_before.deep_pairs;
   }
 }
 
@@ -104,16 +101,12 @@ void Stepper::remember_start(const State& state) {
   for (std::size_t t = 0; t < model_.tissues.size(); ++t)
     if (model_.tissues[t].muscle >= 0)
       fibre_energy_before_[t] = dynamics_->energy_per_activation(t);
+  contact_energy_before_.clear();
+  for (const ContactSummary& contact : dynamics_->contacts())
+    contact_energy_before_.push_back(contact.energy);
   loads_before_.clear();
   for (const ForceModel& force : model_.forces)
     loads_before_.push_back(start_.position(force.point));
-}
-
-double Stepper::margin_for(double stray) const {
-  // In steps of two, so that what stands still need not be mapped again for every new margin.
-  double margin = model_.detection_margin;
-  while (margin < kMarginPerStray * stray) margin *= 2;
-  return margin;
 }
 
 bool Stepper::try_step(State& state, double h) {
@@ -150,15 +143,35 @@ bool Stepper::try_time_step(State& state, double h) {
         return false;
       }
       covered = stray <= 0.5 * state.next_margin;
-      state.next_margin = margin_for(stray);
+      state.next_margin = margin_for(model_, stray);
     }
-    if (covered) {
+    if (covered && !stiffen(state)) {
       state.y = y_;
       state.t = *reached;
       return true;
     }
-    ++state.counts.rejected_motion;
+    state.counts.rejected_motion += covered ? 0 : 1;
   }
+}
+
+/// Doubles the stiffness of contacts that penetrate by more than they may. What that adds to the
+/// energy stored at the start of the step is a loss below zero.
+bool Stepper::stiffen(State& state) const {
+  constexpr double kMostStiffening =
+      128;  // beyond, Newton's tolerance would be all of the pressure
+  const std::vector<ContactSummary> contacts = dynamics_->contacts();
+  bool any = false;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    double& factor = state.stiffening[static_cast<Eigen::Index>(c)];
+    if (!model_.contacts[c].is_bounded || factor >= kMostStiffening) continue;
+    if (contacts[c].max_depth <= model_.contacts[c].max_penetration) continue;
+    factor *= 2;
+    state.energy.contact_loss -= contact_energy_before_[c];
+    any = true;
+  }
+  state.counts.stiffened += any ? 1 : 0;
+  if (any) dynamics_->set_stiffening(state.stiffening);
+  return any;
 }
 
 bool Stepper::try_load_step(State& state, double h) {
@@ -167,19 +180,9 @@ bool Stepper::try_load_step(State& state, double h) {
     y_[model_.layout.activations() + static_cast<int>(m)] =
         steady_activation(model_.muscles[m], state.t + h);
   ContactHooks contacts;
-  if (search_) {
-    contacts.find = [&](const Configuration& where, double motion) {
-      state.next_margin = std::max(state.next_margin, 2 * motion);
-      find_contacts(where, state.next_margin);
-    };
-    contacts.covered = [&] {
-      const double stray = search_->motion_since(dynamics_->configuration());
-      const bool covered = stray <= 0.5 * state.next_margin;
-      state.next_margin = std::min(margin_for(stray), dynamics_->trusted_motion());
-      if (!covered) ++state.counts.rejected_motion;
-      return covered;
-    };
-  }
+  if (search_)
+    contacts = contact_hooks(model_, *search_, *dynamics_, state.next_margin,
+                             state.counts.rejected_motion);
   const LoadStepResult result = take_load_step(model_, *dynamics_, *equilibrium_, contacts, state.t,
                                                state.t + h, y_, convergence_);
   loose_ = result.loose;

@@ -58,8 +58,8 @@ class Stepper {
   bool try_step(State& state, double h);
   bool try_time_step(State& state, double h);
   bool try_load_step(State& state, double h);
+  bool stiffen(State& state) const;
   SolverCounts solver_counts() const;
-  double margin_for(double stray) const;
   void account(State& after);
   [[noreturn]] void fail(const State& state, double h) const;
 
@@ -78,6 +78,7 @@ class Stepper {
   std::vector<LineState> lines_before_;
   std::vector<Vec3> loads_before_;
   Eigen::VectorXd forces_before_;
+  std::vector<double> contact_energy_before_;  // [J] of each contact
   double t_before_ = 0;
   double damping_before_ = 0;                // [W]
   double contact_power_before_ = 0;          // [W]

@@ -47,7 +47,25 @@ Json counts(const Counts& c) {
           {"force_evaluations", c.force_evaluations},
           {"tree_updates", c.tree_updates},
           {"narrow_tests", c.narrow_tests},
-          {"reported_pairs", c.reported_pairs}};
+          {"reported_pairs", c.reported_pairs},
+          {"stiffened", c.stiffened},
+          {"deep_pairs", c.deep_pairs}};
+}
+
+Json settling(const Model& model, const Settling& settling) {
+  if (settling.overlaps.empty()) return nullptr;
+  Json overlaps = Json::array();
+  for (const SettledOverlap& overlap : settling.overlaps) {
+    const ContactModel& contact = model.contacts[static_cast<std::size_t>(overlap.contact)];
+    overlaps.push_back({{"bodies",
+                         {model.bodies[static_cast<std::size_t>(contact.a)].name,
+                          model.bodies[static_cast<std::size_t>(contact.b)].name}},
+                        {"before_m", overlap.before},
+                        {"after_m", overlap.after}});
+  }
+  return {{"overlaps", overlaps},
+          {"solutions", settling.solutions},
+          {"largest_motion_m", settling.largest_motion}};
 }
 
 Json energy(const State& state, const StoredEnergy& now) {
@@ -90,6 +108,7 @@ std::string summary_json(const Model& model, const State& state, const Stepper& 
       {"linear_solver", linear_solver(model)},
       {"threads", model.scenario.threads},
       {"counts", counts(state.counts)},
+      {"settling", settling(model, state.settling)},
       {"frames", state.frames},
       {"max_penetration_m", state.max_penetration},
       {"energy", energy(state, stepper.stored_energy())},

@@ -25,6 +25,20 @@ struct RunArguments {
   bool resume = false, quiet = false;
 };
 
+void print(const sim::Model& model, const sim::Settling& settling) {
+  const auto name = [&](int body) { return model.bodies[static_cast<std::size_t>(body)].name; };
+  for (const sim::SettledOverlap& overlap : settling.overlaps) {
+    const sim::ContactModel& contact = model.contacts[static_cast<std::size_t>(overlap.contact)];
+    fmt::print(stderr,
+               "articular: settling: `{}` and `{}` overlapped by {:.3g} mm, now {:.2g} mm\n",
+               name(contact.a), name(contact.b), 1e3 * overlap.before, 1e3 * overlap.after);
+  }
+  fmt::print(stderr,
+             "articular: settling moved nodes by up to {:.3g} mm ({} equilibria); "
+             "settling = false starts without\n",
+             1e3 * settling.largest_motion, settling.solutions);
+}
+
 int run_scenario(const RunArguments& arguments) {
   sim::Scenario scenario = sim::read_scenario(arguments.scenario, arguments.overrides);
   scenario.threads = arguments.threads;
@@ -42,6 +56,9 @@ int run_scenario(const RunArguments& arguments) {
   options.after_step = [&](const sim::State& state, double duration) {
     progress.update(state, duration);
     return interrupted.load();
+  };
+  options.after_settling = [&](const sim::Settling& settling) {
+    if (!arguments.quiet) print(model, settling);
   };
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });

@@ -1,0 +1,124 @@
+#include "sim/contact_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "sim/tissue.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Contact stiffness of a side is this times constrained modulus / element height. Statics ends at
+/// a thousand, where forces no longer depend on it, and begins softer: from afar a stiff iteration
+/// is thrown back and forth. In time, where Newton's iteration ends by how far things still move, a
+/// stiffer contact would turn that into noise of its forces.
+constexpr double kStaticFactor = 1000, kSoftFactor = 10, kDynamicFactor = 10;
+/// Of the elements at the surface: what friction at 0.7 of its limit creeps in the whole scene.
+constexpr double kCreep = 0.05;
+
+/// Of the elements at the surface.
+constexpr double kMaxPenetration = 0.01;
+
+double mean_face_area(const Collider& collider) {
+  return std::accumulate(collider.face_area.begin(), collider.face_area.end(), 0.0) /
+         static_cast<double>(std::max<std::size_t>(1, collider.face_area.size()));
+}
+
+/// Whose triangles look for the other's faces where only one side's do, and at whose nodes depths
+/// are averaged: of tissue where it meets bone, of the softer or, much
+/// alike, the finer of two tissues, of the finer of two bones. Both sides at once would hold the
+/// bodies apart at more nodes than the coarser one has to give way with.
+bool looks_first(const Model& model, int a, int b, const Collider& A, const Collider& B) {
+  constexpr double kMuchSofter = 3;
+  const auto modulus = [&](int body) {
+    return constrained_modulus(*model.scenario.bodies[static_cast<std::size_t>(body)].material);
+  };
+  const bool soft_a = model.bodies[static_cast<std::size_t>(a)].tissue >= 0;
+  const bool soft_b = model.bodies[static_cast<std::size_t>(b)].tissue >= 0;
+  if (soft_a != soft_b) return soft_a;
+  if (soft_a && modulus(a) > kMuchSofter * modulus(b)) return false;
+  if (soft_a && modulus(b) > kMuchSofter * modulus(a)) return true;
+  return mean_face_area(A) <= mean_face_area(B);
+}
+
+void add_contact(int a, int b, const ContactPair& pair, Model& model) {
+  const auto& A = model.bodies[static_cast<std::size_t>(a)].collider;
+  const auto& B = model.bodies[static_cast<std::size_t>(b)].collider;
+  if (!A || !B) return;
+  ContactModel contact;
+  contact.a = a;
+  contact.b = b;
+  contact.averaged = model.scenario.analysis == Scenario::Analysis::Static;
+  const bool one_side = contact.averaged || model.scenario.detection.sides == Detection::Sides::One;
+  contact.share = a == b || !one_side ? 0.5 : 1;
+  const double factor = contact.averaged ? kStaticFactor : kDynamicFactor;
+  const double layers = A->layer_compliance + B->layer_compliance;
+  contact.mean_stiffness =
+      pair.stiffness.value_or(1 / ((A->mean_compliance + B->mean_compliance) / factor + layers));
+  contact.max_penetration =
+      pair.max_penetration.value_or(kMaxPenetration * std::min(A->size, B->size));
+  // The depth of a layer is its own compression.
+  contact.is_bounded = layers == 0 && (contact.averaged || pair.max_penetration);
+  const auto at_nodes = [&](const Collider& side, const Collider& other, double c) {
+    if (pair.stiffness || !contact.averaged)
+      return Eigen::VectorXd::Constant(side.X.cols(), contact.share * contact.mean_stiffness)
+          .eval();
+    return (contact.share / ((side.compliance.array() + other.mean_compliance) / c + layers))
+        .matrix()
+        .eval();
+  };
+  const bool first = a == b || (one_side && looks_first(model, a, b, *A, *B));
+  if (first || !one_side) {
+    contact.stiffness_a = at_nodes(*A, *B, factor);
+    contact.soft_a = at_nodes(*A, *B, kSoftFactor);
+  }
+  if (!first) {
+    contact.stiffness_b = at_nodes(*B, *A, factor);
+    contact.soft_b = at_nodes(*B, *A, kSoftFactor);
+  }
+  contact.law.friction = pair.friction;
+  contact.law.damping = contact.share * pair.damping;
+  contact.law.slip_velocity =
+      pair.slip_velocity.value_or(kCreep * std::min(A->size, B->size) / model.scenario.duration);
+  model.contacts.push_back(std::move(contact));
+}
+
+}  // namespace
+
+void make_contacts(Model& model) {
+  if (!model.scenario.contact) return;
+  for (const ContactPair& pair : model.scenario.contacts) {
+    const int a = body_index(model.scenario, pair.a), b = body_index(model.scenario, pair.b);
+    for (const int body : {a, b})
+      if (!model.bodies[static_cast<std::size_t>(body)].collider)
+        throw InputError(pair.where,
+                         fmt::format("body `{}` has nothing to touch with: it needs a mesh and "
+                                     "must not have collides = false",
+                                     model.bodies[static_cast<std::size_t>(body)].name));
+    add_contact(a, b, pair, model);
+  }
+  if (!model.scenario.contacts.empty()) return;
+  const auto n = static_cast<int>(model.bodies.size());
+  for (int a = 0; a < n; ++a)
+    for (int b = a + 1; b < n; ++b) {
+      const auto fixed = [&](int body) {
+        return model.bodies[static_cast<std::size_t>(body)].kind == Body::Kind::Fixed;
+      };
+      if (!(fixed(a) && fixed(b))) add_contact(a, b, ContactPair{}, model);
+    }
+}
+
+double detection_margin(const Model& model) {
+  constexpr double kMarginOfElement = 0.1;
+  if (model.scenario.detection.margin) return *model.scenario.detection.margin;
+  double least = std::numeric_limits<double>::infinity();
+  for (const BodyModel& body : model.bodies)
+    if (body.collider) least = std::min(least, body.collider->size);
+  return std::isfinite(least) ? kMarginOfElement * least : 0;
+}
+
+}  // namespace articular::sim

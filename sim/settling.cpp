@@ -1,0 +1,209 @@
+#include "sim/settling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/contact_hooks.hpp"
+#include "sim/initial_overlap.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Of the allowance, in elements at the surface.
+constexpr double kStepOfElement = 0.25;
+constexpr int kMostHalvings = 3;
+constexpr double kRoundOff = 1e-9;
+/// Solutions in pseudo-time for one step, and by how much of the trusted motion they move things.
+constexpr int kMostSolutions = 50;
+constexpr double kFirstMotion = 0.25, kMotionRise = 4, kMotionFall = 0.2;
+/// Of the largest force, what is left unbalanced where tissue is held between bodies.
+constexpr double kHeld = 1e-3;
+
+/// Without velocities and activation: dampers and muscles rest.
+Eigen::VectorXd at_rest(const Model& model, const Eigen::VectorXd& y) {
+  Eigen::VectorXd resting = y;
+  resting.tail(y.size() - model.layout.velocities()).setZero();
+  return resting;
+}
+
+std::string names(const Model& model, const ContactModel& contact) {
+  return fmt::format("`{}` and `{}`", model.bodies[static_cast<std::size_t>(contact.a)].name,
+                     model.bodies[static_cast<std::size_t>(contact.b)].name);
+}
+
+/// What lies so deep in another body that contact can't tell the way out is no start.
+void refuse_lost_bodies(const Model& model, const std::vector<double>& depths) {
+  for (const InitialOverlap& overlap : initial_overlaps(model)) {
+    const auto same = [&](const ContactModel& c) { return c.a == overlap.a && c.b == overlap.b; };
+    const auto contact = std::find_if(model.contacts.begin(), model.contacts.end(), same);
+    if (overlap.depth <= contact->max_penetration) continue;
+    if (depths[static_cast<std::size_t>(contact - model.contacts.begin())] > 0) continue;
+    throw SimulationError(
+        fmt::format("{} overlap at the start by {:.3g} mm, at ({:.3f} {:.3f} {:.3f}) mm, and "
+                    "contact can't tell "
+                    "the way out: move one of them, or start as they are with settling = false",
+                    names(model, *contact), 1e3 * overlap.depth, 1e3 * overlap.place.x(),
+                    1e3 * overlap.place.y(), 1e3 * overlap.place.z()));
+  }
+}
+
+class Settler {
+ public:
+  explicit Settler(const Model& model)
+      : model_(model),
+        dynamics_(model),
+        search_(model),
+        equilibrium_(model, dynamics_),
+        margin_(model.detection_margin) {
+    dynamics_.set_unloaded(true);
+    hooks_ = contact_hooks(model, search_, dynamics_, margin_, rejected_);
+  }
+
+  /// Deeper than they may be.
+  std::vector<SettledOverlap> overlaps(const Eigen::VectorXd& y) {
+    const std::vector<double> depth = depths(at_rest(model_, y));
+    refuse_lost_bodies(model_, depth);
+    std::vector<SettledOverlap> overlaps;
+    for (std::size_t c = 0; c < depth.size(); ++c)
+      if (depth[c] > model_.contacts[c].max_penetration)
+        overlaps.push_back({static_cast<int>(c), depth[c], 0});
+    return overlaps;
+  }
+
+  Settling settle(Eigen::VectorXd& y) {
+    settling_.overlaps = overlaps(y);
+    Eigen::VectorXd moving = at_rest(model_, y);
+    const Eigen::VectorXd start = moving;
+    double done = 0, step = 1.0 / num_steps();
+    for (int halvings = 0; done < 1;) {
+      const double target = done + step > 1 - kRoundOff ? 1 : done + step;
+      if (relax(1 - target, moving)) {
+        done = target;
+      } else if (++halvings > kMostHalvings) {
+        fail(1 - done);
+      } else {
+        step *= 0.5;
+      }
+    }
+    finish(start, moving);
+    y.head(model_.layout.velocities()) = moving.head(model_.layout.velocities());
+    return settling_;
+  }
+
+ private:
+  std::vector<double> depths(const Eigen::VectorXd& y) {
+    dynamics_.set_allowances({});
+    look(y, 0);
+    std::vector<double> depths;
+    for (const ContactSummary& contact : dynamics_.contacts())
+      depths.push_back(contact.max_point_depth);
+    return depths;
+  }
+
+  double num_steps() const {
+    double count = 1;
+    for (const SettledOverlap& overlap : settling_.overlaps) {
+      const ContactModel& contact = model_.contacts[static_cast<std::size_t>(overlap.contact)];
+      const auto size = [&](int body) {
+        return model_.bodies[static_cast<std::size_t>(body)].collider->size;
+      };
+      const double step = kStepOfElement * std::min(size(contact.a), size(contact.b));
+      count = std::max(count, std::ceil(overlap.before / step));
+    }
+    return count;
+  }
+
+  /// Moves bodies on from rest in pseudo-time, each solution by no more than an element, until what
+  /// is deeper than this part of the overlaps is gone, or held by bodies that can't give way.
+  bool relax(double allowed, Eigen::VectorXd& y) {
+    std::vector<double> allowances(model_.contacts.size(), 0);
+    for (const SettledOverlap& overlap : settling_.overlaps)
+      allowances[static_cast<std::size_t>(overlap.contact)] = allowed * overlap.before;
+    dynamics_.set_allowances(std::move(allowances));
+    const double reach = dynamics_.trusted_motion();
+    double motion = kFirstMotion * reach;
+    for (int k = 0; k < kMostSolutions; ++k) {
+      look(y, motion);
+      if (is_settled()) return true;
+      Eigen::VectorXd trial = y;
+      const bool solved =
+          equilibrium_.solve(trial, 0, equilibrium_.largest_acceleration() / motion);
+      ++settling_.solutions;
+      if (solved) dynamics_.evaluate(trial.data(), 0);
+      if (!solved || !hooks_.covered()) {
+        motion *= kMotionFall;
+        continue;
+      }
+      y = trial;
+      motion = std::min(kMotionRise * motion, reach);
+    }
+    return false;
+  }
+
+  bool is_settled() const {
+    const std::vector<ContactSummary> contacts = dynamics_.contacts();
+    bool apart = true;
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      apart = apart && contacts[c].max_point_depth <= model_.contacts[c].max_penetration;
+    return apart || equilibrium_.residual() <= kHeld * dynamics_.largest_force();
+  }
+
+  /// Finds contacts at y, for things that will move so far [m], and evaluates there.
+  void look(const Eigen::VectorXd& y, double motion) {
+    dynamics_.evaluate(y.data(), 0);
+    hooks_.find(dynamics_.configuration(), motion);
+    dynamics_.evaluate(y.data(), 0);
+  }
+
+  void finish(const Eigen::VectorXd& start, const Eigen::VectorXd& y) {
+    const std::vector<double> depth = depths(y);
+    for (SettledOverlap& overlap : settling_.overlaps)
+      overlap.after = depth[static_cast<std::size_t>(overlap.contact)];
+    Configuration before;
+    read_state(model_, start.data(), 0, before);
+    for (const BodyModel& body : model_.bodies)
+      if (body.collider)
+        for (const NodeRef& node : body.collider->nodes)
+          settling_.largest_motion =
+              std::max(settling_.largest_motion,
+                       (dynamics_.configuration().position(node) - before.position(node)).norm());
+  }
+
+  [[noreturn]] void fail(double left) const {
+    const auto worst = std::max_element(
+        settling_.overlaps.begin(), settling_.overlaps.end(),
+        [](const SettledOverlap& p, const SettledOverlap& q) { return p.before < q.before; });
+    throw SimulationError(fmt::format(
+        "{} overlap at the start by {:.3g} mm, and settling could not push them apart by more than "
+        "{:.3g} mm: move one of them, or start as they are with settling = false",
+        names(model_, model_.contacts[static_cast<std::size_t>(worst->contact)]),
+        1e3 * worst->before, 1e3 * (1 - left) * worst->before));
+  }
+
+  const Model& model_;
+  Dynamics dynamics_;
+  ContactSearch search_;
+  Equilibrium equilibrium_;
+  ContactHooks hooks_;
+  double margin_;
+  std::int64_t rejected_ = 0;
+  Settling settling_;
+};
+
+}  // namespace
+
+Settling settle(const Model& model, Eigen::VectorXd& y) {
+  if (model.contacts.empty() || y.size() == 0) return {};
+  Settler settler(model);
+  if (settler.overlaps(y).empty()) return {};
+  if (model.scenario.analysis == Scenario::Analysis::Dynamic) return settler.settle(y);
+  // The soft pointwise contact of a dynamic analysis gets bodies out of each other more easily.
+  Scenario scenario = model.scenario;
+  scenario.analysis = Scenario::Analysis::Dynamic;
+  const Model pointwise = build_model(std::move(scenario));
+  return Settler(pointwise).settle(y);
+}
+
+}  // namespace articular::sim
