@@ -1,0 +1,113 @@
+// How far contact may penetrate, and contact that looks from one side only.
+#include <gtest/gtest.h>
+
+#include "contact_scene.hpp"
+
+namespace articular::sim {
+namespace {
+
+constexpr double kSide = 0.1;  // [m]
+
+/// A plate comes down on a block that stands on the floor, by a twentieth of its height.
+Scenario pressed(std::optional<double> stiffness, std::optional<double> max_penetration) {
+  Scenario s = contact_scene(0.1);
+  s.analysis = Scenario::Analysis::Static;
+  s.bodies = {
+      box_body("floor", Body::Kind::Fixed, {0.2, 0.2, 0.02}, {0, 0, -0.01}),
+      box_body("block", Body::Kind::Tissue, Vec3::Constant(kSide), {0, 0, kSide / 2}, {4, 4, 4}),
+      box_body("plate", Body::Kind::Fixed, {0.2, 0.2, 0.02}, {0, 0, kSide + 0.01}, {3, 3, 1})};
+  s.attachments = {attach("block", "floor", {-1, -1, -1e-3}, {1, 1, 1e-3})};
+  s.loads = {shift("plate", 0.1, {0, 0, -kSide / 20})};
+  ContactPair pair;
+  pair.a = "block";
+  pair.b = "plate";
+  pair.stiffness = stiffness;
+  pair.max_penetration = max_penetration;
+  s.contacts = {pair};
+  return s;
+}
+
+struct Press {
+  double force = 0, depth = 0;  // [N], [m]
+};
+
+Press press(const Scenario& scenario) {
+  Simulation run(scenario);
+  run.advance(0.1);
+  const ContactSummary contact = run.stepper.dynamics().contacts()[0];
+  return {contact.force.norm(), contact.max_depth};
+}
+
+// As soft as the block is, a penalty lets the plate sink in; with a bound it presses as a stiff
+// one.
+TEST(MaxPenetration, MultipliersTakeOverWhatASoftPenaltyCannotCarry) {
+  const double soft = 20e3 / kSide, bound = 1e-6;
+  const Press stiff = press(pressed({}, {}));
+  const Press sunk = press(pressed(soft, 1.0));
+  const Press bounded = press(pressed(soft, bound));
+  EXPECT_GT(sunk.depth, 1000 * bound);
+  EXPECT_LT(sunk.force, 0.7 * stiff.force);
+  EXPECT_LE(bounded.depth, bound);
+  EXPECT_NEAR(bounded.force, stiff.force, 2e-3 * stiff.force);
+}
+
+// By default the bound is a hundredth of an element.
+TEST(MaxPenetration, IsAHundredthOfAnElementInStatics) {
+  const double element = kSide / 4;
+  const Press sunk = press(pressed(20e3 / kSide, {}));
+  EXPECT_LE(sunk.depth, 0.0101 * element);
+  EXPECT_GT(sunk.force, 0.95 * press(pressed({}, {})).force);
+}
+
+/// A block dropped on a table from half its height.
+Scenario dropped(std::optional<double> max_penetration, Detection::Sides sides) {
+  Scenario s = contact_scene(2e-3);
+  s.detection.sides = sides;
+  s.bodies = {box_body("table", Body::Kind::Fixed, {0.3, 0.3, 0.1}, {0, 0, -0.05}, {3, 3, 1}),
+              box_body("block", Body::Kind::Tissue, Vec3::Constant(kSide), {0, 0, kSide / 2 + 0.01},
+                       {4, 4, 4})};
+  s.bodies[1].material->mass_damping = 10;
+  s.loads = {gravity({0, 0, -9.81})};
+  ContactPair pair;
+  pair.a = "table";
+  pair.b = "block";
+  pair.max_penetration = max_penetration;
+  s.contacts = {pair};
+  return s;
+}
+
+// In time the penalty grows until it holds; what that adds to the energy is accounted for.
+TEST(MaxPenetration, APenaltyInTimeGetsStifferUntilItHolds) {
+  constexpr double kBound = 20e-6;
+  double deepest = 0;
+  Simulation free(dropped({}, Detection::Sides::Both));
+  free.advance(
+      0.3, [&] { deepest = std::max(deepest, free.stepper.dynamics().contacts()[0].max_depth); });
+  EXPECT_GT(deepest, 2 * kBound);
+  EXPECT_EQ(free.state.counts.stiffened, 0);
+  deepest = 0;
+  Simulation run(dropped(kBound, Detection::Sides::Both));
+  run.advance(0.3,
+              [&] { deepest = std::max(deepest, run.stepper.dynamics().contacts()[0].max_depth); });
+  EXPECT_LE(deepest, kBound);
+  EXPECT_GT(run.state.counts.stiffened, 1);
+  EXPECT_GT(run.state.stiffening[0], 2);
+  EXPECT_GT(run.loss(), 0);  // of implicit Euler: nothing is made out of nothing
+}
+
+// At rest: the weight, whichever side looks.
+TEST(ContactFromOneSide, CarriesTheWeight) {
+  const double weight = 1000 * kSide * kSide * kSide * 9.81;
+  for (const auto sides : {Detection::Sides::One, Detection::Sides::Both}) {
+    Simulation run(dropped({}, sides));
+    EXPECT_EQ(run.model.contacts[0].stiffness_a.size() > 0, sides == Detection::Sides::Both);
+    run.advance(1.5);
+    const ContactSummary contact = run.stepper.dynamics().contacts()[0];
+    EXPECT_NEAR(contact.force.norm(), weight, 1e-3 * weight);
+    EXPECT_NEAR(contact.area, kSide * kSide, 0.02 * kSide * kSide);
+    EXPECT_LT(contact.moment.norm(), 1e-3 * weight * kSide);
+  }
+}
+
+}  // namespace
+}  // namespace articular::sim
