@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "sim/held_bone.hpp"
 #include "sim/linear_solver.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/stopwatch.hpp"
@@ -240,6 +241,7 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
         self.solve_linear() || (self.tangent_ == fem::Tangent::Consistent &&
                                 self.prepare(fem::Tangent::Projected) && self.solve_linear());
     if (!solved) return 1;
+    keep_free_part(self.model_, self.correction_);  // round-off out of what is held
     self.dynamics_.predict_pressures(self.correction_);
     // A bone's correction is a rotation on top of where it is.
     for (int r = 0; r < self.model_.layout.num_rigid; ++r) {
