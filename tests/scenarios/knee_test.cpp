@@ -42,19 +42,20 @@ TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
   EXPECT_NEAR(results.column("femur.force.z [N]").back(), load, 1e-3 * load);
   EXPECT_LT(std::abs(results.column("femur.force.x [N]").back()), 1e-3 * load);
   EXPECT_LT(std::abs(results.column("femur.force.y [N]").back()), 1e-3 * load);
-  // Contact passes from the femur's cartilage into the bone; ligaments press the joint together too.
-  const double contact = sum_of(
-      results, {"cartilage_medial.force.z [N]", "cartilage_lateral.force.z [N]",
-                "above_meniscus_medial.force.z [N]", "above_meniscus_lateral.force.z [N]"});
+  // Contact passes from the femur's cartilage into the bone; ligaments press the joint together
+  // too.
+  const double contact =
+      sum_of(results, {"cartilage_medial.force.z [N]", "cartilage_lateral.force.z [N]",
+                       "above_meniscus_medial.force.z [N]", "above_meniscus_lateral.force.z [N]"});
   const double bone = sum_of(
       results, {"cartilage_of_femur_medial.force.z [N]", "cartilage_of_femur_lateral.force.z [N]"});
   EXPECT_NEAR(contact, bone, 1e-3 * load);
   const double ligaments = sum_of(
-      results, {"acl_anterior.force [N]", "acl_posterior.force [N]", "pcl_anterior.force [N]",
-                "pcl_posterior.force [N]", "lcl_anterior.force [N]", "lcl_superior.force [N]",
-                "lcl_posterior.force [N]", "mcl_anterior.force [N]", "mcl_intermediate.force [N]",
-                "mcl_posterior.force [N]", "capsule_anterior.force [N]",
-                "capsule_posterior.force [N]"});
+      results,
+      {"acl_anterior.force [N]", "acl_posterior.force [N]", "pcl_anterior.force [N]",
+       "pcl_posterior.force [N]", "lcl_anterior.force [N]", "lcl_superior.force [N]",
+       "lcl_posterior.force [N]", "mcl_anterior.force [N]", "mcl_intermediate.force [N]",
+       "mcl_posterior.force [N]", "capsule_anterior.force [N]", "capsule_posterior.force [N]"});
   EXPECT_GT(contact, load);
   EXPECT_LT(contact, load + ligaments);
   // Both menisci and both pairs of cartilage carry.
