@@ -11,6 +11,7 @@ namespace articular::sim {
 
 Dynamics::Dynamics(const Model& model) : model_(model), contact_(model), matrix_(model) {
   f_.resize(3 * model.num_blocks);
+  all_force_.resize(static_cast<std::size_t>(model.layout.num_rigid));
   tissues_.resize(model.tissues.size());
   predicted_.resize(model.tissues.size());
   mass_nodes_.resize(static_cast<std::size_t>(model.layout.num_free_nodes));
@@ -145,6 +146,18 @@ void Dynamics::evaluate(const double* y, double t) {
     contact_.add_force(configuration_, f_);
     enters(contact_.largest_force());
   }
+  for (std::size_t r = 0; r < all_force_.size(); ++r)
+    all_force_[r] = f_.segment<6>(3 * model_.bones[r].block);
+  keep_free_part(model_, f_);
+}
+
+Vec6 Dynamics::reaction(int bone) const {
+  const auto b = static_cast<std::size_t>(bone);
+  const Bone& held = model_.bones[b];
+  if (!held.unknown) return f_.segment<6>(3 * held.block);
+  if (model_.scenario.analysis == Scenario::Analysis::Static)
+    return all_force_[b] - free_part(held, all_force_[b]);
+  return force_on_hold(held, configuration_.poses[b], configuration_.velocities[b], all_force_[b]);
 }
 
 /// Those of bones, and forces.
@@ -153,6 +166,10 @@ void Dynamics::add_loads(double t) {
     const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
     const Vec3 weight = bone.mass.mass * model_.gravity;
     f_.segment<3>(3 * bone.block) += weight;
+    if (bone.hold)
+      f_.segment<3>(3 * bone.block + 3) +=
+          (configuration_.poses[static_cast<std::size_t>(r)].R * (bone.mass.center - bone.rest.p))
+              .cross(weight);
     largest_force_ = std::max(largest_force_, weight.norm());
   }
   for (const ForceModel& force : model_.forces) {
@@ -201,6 +218,14 @@ void Dynamics::rate(const double* y, double* y_dot) const {
     q_dot[1] = 0.5 * turned.x();
     q_dot[2] = 0.5 * turned.y();
     q_dot[3] = 0.5 * turned.z();
+    if (bone.hold) {
+      const auto b = static_cast<std::size_t>(r);
+      const Vec6 rate = rigid_acceleration(bone, configuration_.poses[b],
+                                           configuration_.velocities[b], all_force_[b]);
+      acceleration(bone.block) = rate.head<3>();
+      acceleration(bone.block + 1) = rate.tail<3>();
+      continue;
+    }
     const Mat3 inertia = world_inertia(model_, configuration_, r);
     acceleration(bone.block) = f_.segment<3>(3 * bone.block) / bone.mass.mass;
     acceleration(bone.block + 1) =
@@ -245,6 +270,12 @@ void Dynamics::multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const
   }
   for (int k = 0; k < model_.layout.num_rigid; ++k) {
     const Bone& bone = model_.bones[static_cast<std::size_t>(k)];
+    if (bone.hold) {
+      r.segment<6>(3 * bone.block) =
+          free_part(bone, rigid_mass(bone, configuration_.poses[static_cast<std::size_t>(k)]) *
+                              b.segment<6>(3 * bone.block));
+      continue;
+    }
     r.segment<3>(3 * bone.block) = bone.mass.mass * b.segment<3>(3 * bone.block);
     r.segment<3>(3 * bone.block + 3) =
         world_inertia(model_, configuration_, k) * b.segment<3>(3 * bone.block + 3);
@@ -265,6 +296,14 @@ double Dynamics::kinetic_energy() const {
   }
   for (int r = 0; r < model_.layout.num_rigid; ++r) {
     const auto& velocity = configuration_.velocities[static_cast<std::size_t>(r)];
+    const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
+    if (bone.hold) {
+      Vec6 both;
+      both << velocity.linear, velocity.angular;
+      energy += 0.5 * both.dot(rigid_mass(bone, configuration_.poses[static_cast<std::size_t>(r)]) *
+                               both);
+      continue;
+    }
     energy +=
         0.5 * model_.bones[static_cast<std::size_t>(r)].mass.mass * velocity.linear.squaredNorm();
     energy +=
@@ -375,9 +414,12 @@ double Dynamics::gravity_energy() const {
       if (carries_own_weight(tissue.nodes[i]))
         energy -= tissue.lumped_mass[static_cast<Eigen::Index>(i)] *
                   model_.gravity.dot(configuration_.position(tissue.nodes[i]));
-  for (int r = 0; r < model_.layout.num_rigid; ++r)
-    energy -= model_.bones[static_cast<std::size_t>(r)].mass.mass *
-              model_.gravity.dot(configuration_.poses[static_cast<std::size_t>(r)].p);
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
+    const Pose& pose = configuration_.poses[static_cast<std::size_t>(r)];
+    const Vec3 center = pose.p + pose.R * (bone.mass.center - bone.rest.p);
+    energy -= bone.mass.mass * model_.gravity.dot(center);
+  }
   return energy;
 }
 

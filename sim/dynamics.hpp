@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "sim/held_bone.hpp"
 #include "sim/newton_matrix.hpp"
 
 /// Forces, rates and the Newton matrix of the whole scene.
@@ -25,13 +26,17 @@ class Dynamics {
     contact_.drop_multipliers();
   }
 
-  /// Reads y and computes all forces there. Block forces: 3 entries a block, reactions included.
+  /// Reads y and computes all forces there. Block forces: 3 entries a block, reactions of fixed and
+  /// driven bones included; of held bones the part along their free freedoms.
   void evaluate(const double* y, double t);
   const Configuration& configuration() const { return configuration_; }
   const Eigen::VectorXd& forces() const { return f_; }
   /// Force [N] on a bone of the tissue that is tied to it, and its moment [N m] about the bone's
   /// reference point.
   std::pair<Vec3, Vec3> attachment_force(int tissue, int bone) const;
+  /// Force [N] and moment [N m], about its reference point, that a fixed, driven or held bone puts
+  /// on what holds it.
+  Vec6 reaction(int bone) const;
   const std::vector<LineState>& lines() const { return lines_; }
   /// Whether any contact candidates are there.
   bool touches() const { return candidates_ != nullptr && contact_.has_patches(); }
@@ -137,6 +142,7 @@ class Dynamics {
   Configuration configuration_;
   bool unloaded_ = false;
   Eigen::VectorXd f_;
+  std::vector<Vec6> all_force_;                      // of each rigid bone, held freedoms too
   mutable Positions v_, damping_;                    // at the nodes of a tissue
   mutable Eigen::VectorXd lag_part_, stress_there_;  // of a tissue
   double largest_force_ = 0;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "sim/held_bone.hpp"
 #include "sim/linear_solver.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/stopwatch.hpp"
@@ -72,6 +73,7 @@ class Equilibrium::Solver {
   /// r at u; kept, as KINSOL asks again for what the line search has seen.
   const Eigen::VectorXd& residual_at(const Eigen::VectorXd& u);
   bool prepare(fem::Tangent tangent);
+  bool solve_linear();
   /// How far things move [m].
   double motion_scale() const {
     return std::isfinite(dynamics_.trusted_motion()) ? dynamics_.trusted_motion() : 1;
@@ -85,7 +87,8 @@ class Equilibrium::Solver {
   std::unique_ptr<fem::LinearSolver> linear_;
   Eigen::VectorXd start_, y_, u_, r_, before_, r_before_, trial_, rhs_, correction_, inertia_;
   double t_ = 0, damping_ = 0;
-  bool known_ = false;                    // r_ belongs to u_
+  fem::Tangent tangent_ = fem::Tangent::Consistent;  // of the last matrix
+  bool known_ = false;                               // r_ belongs to u_
   std::optional<double> predicted_part_;  // of the pressures that the last correction took
   std::exception_ptr error_;
   sundials::Context context_;
@@ -177,8 +180,17 @@ bool Equilibrium::Solver::prepare(fem::Tangent tangent) {
   const fem::BlockMatrix& A = dynamics_.matrix({damping_, 0, 1}, tangent);
   const Stopwatch watch(seconds);
   ++counts.factorizations;
+  tangent_ = tangent;
   if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
   return prepare_linear(*linear_, A, dynamics_.configuration().x, dynamics_.pressure_part());
+}
+
+bool Equilibrium::Solver::solve_linear() {
+  const Stopwatch watch(seconds);
+  correction_.setZero(rhs_.size());
+  const fem::SolveReport report = linear_->solve(rhs_, correction_);
+  counts.linear_iterations += report.iterations;
+  return report.converged && correction_.allFinite();
 }
 
 int Equilibrium::Solver::assemble(N_Vector u, N_Vector, SUNMatrix, void* data, N_Vector, N_Vector) {
@@ -225,13 +237,12 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
   return guarded(self.error_, [&] {
     ++self.counts.newton_iterations;
     self.rhs_ = view(b);
-    {
-      const Stopwatch watch(self.seconds);
-      self.correction_.setZero(self.rhs_.size());
-      const fem::SolveReport report = self.linear_->solve(self.rhs_, self.correction_);
-      self.counts.linear_iterations += report.iterations;
-      if (!report.converged || !self.correction_.allFinite()) return 1;
-    }
+    // Not positive definite: a factorization says so at once, iterations when they meet it.
+    const bool solved =
+        self.solve_linear() || (self.tangent_ == fem::Tangent::Consistent &&
+                                self.prepare(fem::Tangent::Projected) && self.solve_linear());
+    if (!solved) return 1;
+    keep_free_part(self.model_, self.correction_);  // round-off out of what is held
     self.dynamics_.predict_pressures(self.correction_);
     // A bone's correction is a rotation on top of where it is.
     for (int r = 0; r < self.model_.layout.num_rigid; ++r) {

@@ -53,9 +53,12 @@ void append_motions(const Model& model, const Configuration& now, int b,
   }
   for (int k = 0; k < 6; ++k) {
     Eigen::VectorXd column = Eigen::VectorXd::Zero(3 * model.layout.num_unknown_blocks());
-    const Vec3 axis = Vec3::Unit(k % 3);
+    Vec3 axis = Vec3::Unit(k % 3);
     if (rigid) {
-      const int row = 3 * model.bones[static_cast<std::size_t>(body.bone)].block;
+      const Bone& bone = model.bones[static_cast<std::size_t>(body.bone)];
+      const int row = 3 * bone.block;
+      if (bone.hold) axis = bone.hold->axes.col(k % 3);
+      if (bone.hold && bone.hold->held[static_cast<std::size_t>(k)]) axis.setZero();
       if (k < 3) column.segment<3>(row) = axis;
       if (k >= 3) column.segment<3>(row + 3) = axis / motions.radius;
     }
@@ -112,17 +115,19 @@ std::optional<FreeMotion> find_free_motion(const Model& model, Dynamics& dynamic
   const auto n = static_cast<Eigen::Index>(columns.size());
   Eigen::MatrixXd projected(n, n);
   Eigen::VectorXd product, drive(n);
+  const double stiffest = stiffest_node(model, K);
   for (Eigen::Index j = 0; j < n; ++j) {
     const Eigen::VectorXd& column = columns[static_cast<std::size_t>(j)];
     K.multiply(column, product);
     for (Eigen::Index i = 0; i < n; ++i)
       projected(i, j) = columns[static_cast<std::size_t>(i)].dot(product);
     drive[j] = column.dot(dynamics.forces().head(column.size()));
+    if (column.isZero(0)) projected(j, j) = stiffest;  // held
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 *
                                                              (projected + projected.transpose()));
   Eigen::Index num_free = 0;
-  const double limit = kFree * stiffest_node(model, K);
+  const double limit = kFree * stiffest;
   while (num_free < n && eigen.eigenvalues()[num_free] <= limit) ++num_free;
   if (num_free == 0) return std::nullopt;
 

@@ -152,9 +152,9 @@ void History::append(const ProbeModel& probe, const State& state, const Stepper&
     }
     case Probe::Kind::Reaction: {
       const int bone = model_.bodies[static_cast<std::size_t>(probe.body)].bone;
-      const int row = 3 * model_.bones[static_cast<std::size_t>(bone)].block;
-      push(stepper.dynamics().forces().segment<3>(row));
-      push(stepper.dynamics().forces().segment<3>(row + 3));
+      const Vec6 reaction = stepper.dynamics().reaction(bone);
+      push(reaction.head<3>());
+      push(reaction.tail<3>());
       return;
     }
   }

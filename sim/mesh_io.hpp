@@ -28,8 +28,8 @@ struct MeshData {
 ///         not finite
 MeshData read_mesh(const std::filesystem::path& file, double unit);
 
-/// Writes tetrahedra (and triangles, if there are both) as .vtu, or triangles alone as .vtp:
-/// binary, compressed, whole or not at all (write beside, then rename).
+/// Writes tetrahedra (and triangles, if there are both) with their cell arrays as .vtu, or
+/// triangles alone as .vtp: binary, compressed, whole or not at all (write beside, then rename).
 /// @throws SystemError when it can't be written, InputError when the file's ending is another
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh, double unit);
 

@@ -45,6 +45,10 @@ class Builder {
  private:
   const Scenario& scenario() const { return model_.scenario; }
 
+  static Vec3 reference_point(const Bone& bone) {
+    return bone.hold && bone.hold->at ? *bone.hold->at : bone.mass.center;
+  }
+
   int body_index(const std::string& name) const { return sim::body_index(scenario(), name); }
 
   void read_bodies() {
@@ -68,7 +72,8 @@ class Builder {
         bone.unknown = kind == Body::Kind::Rigid;
         if (bone.unknown) {
           bone.mass = rigid_mass(body, geometry_[b].mesh);
-          bone.rest.p = bone.mass.center;
+          bone.hold = body.hold;
+          bone.rest.p = reference_point(bone);
           bone.start = {body.velocity, body.angular_velocity};
           ++model_.layout.num_rigid;
         } else if (geometry_[b].mesh.X.cols() > 0) {
@@ -159,7 +164,7 @@ class Builder {
           if (tissue.nodes[i].bone == static_cast<int>(r))
             bone.mass = join(bone.mass, {tissue.lumped_mass[static_cast<Eigen::Index>(i)],
                                          tissue.X.col(static_cast<Eigen::Index>(i)), Mat3::Zero()});
-      bone.rest.p = bone.mass.center;
+      bone.rest.p = reference_point(bone);
       bone.start.linear += bone.start.angular.cross(bone.rest.p - old_center);
       for (Tissue& tissue : model_.tissues)
         for (NodeRef& node : tissue.nodes)

@@ -31,9 +31,11 @@ struct Bone {
   int body = 0;          // index into Model::bodies
   int block = 0;         // translation; rotation is the next
   bool unknown = false;  // rigid: its motion is solved for
-  Pose rest;             // p: centre of mass (rigid) or origin of the mesh's box (fixed); R = I
-  RigidVelocity start;   // at t = 0
-  MassProperties mass;   // with the tissue that it carries
+  // p: centre of mass (rigid), the held point, or the middle of the mesh's box (fixed); R = I.
+  Pose rest;
+  RigidVelocity start;  // at t = 0
+  MassProperties mass;  // with the tissue that it carries; centre at the start, world
+  std::optional<Hold> hold;
   std::optional<Motion> motion;  // driven
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fem/smoothed_elasticity.hpp"
+#include "sim/held_bone.hpp"
 #include "sim/linear_solver.hpp"
 
 namespace articular::sim {
@@ -187,6 +188,7 @@ void NewtonMatrix::set_pressure_gradient(std::size_t t, const Moment& now) {
         work.G.block(work.G.slot(node.block + 1, c)) += now.configuration.lever(node).cross(g);
     }
   }
+  keep_free_part(model_, work.G);
 }
 
 void NewtonMatrix::add(const TissueMatrix& from, const Tissue& tissue, const Configuration& now,
@@ -275,8 +277,11 @@ void NewtonMatrix::add_masses(const Configuration& now, const SystemScale& scale
   }
   for (int r = 0; r < model_.layout.num_rigid; ++r) {
     const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
-    A.block(A.slot(bone.block, bone.block)).diagonal().array() += scale.mass * bone.mass.mass;
-    A.block(A.slot(bone.block + 1, bone.block + 1)) += scale.mass * world_inertia(model_, now, r);
+    const Mat6 mass = rigid_mass(bone, now.poses[static_cast<std::size_t>(r)]);
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
+        A.block(A.slot(bone.block + i, bone.block + j)) +=
+            scale.mass * mass.block<3, 3>(3 * i, 3 * j);
   }
 }
 
@@ -290,11 +295,16 @@ const fem::BlockMatrix& NewtonMatrix::assemble(const Moment& now, const SystemSc
     add_line_stiffness(model_, model_.lines[l], now.configuration, now.lines[l], scale, common);
   if (now.contact != nullptr) now.contact->add_stiffness(now.configuration, tangent, scale, common);
   pressure_terms_.clear();
-  if (!smoothed_) return A_;
+  if (!smoothed_) {
+    keep_free_part(model_, A_);
+    return A_;
+  }
   A_.set_zero();
   for (std::size_t s = 0; s < slot_of_plain_.size(); ++s)
     A_.block(slot_of_plain_[s]) = plain_.block(static_cast<int>(s));
   for (std::size_t t = 0; t < tissues_.size(); ++t) add_smoothed(t, now, scale, tangent);
+  keep_free_part(model_, A_);
+  keep_free_part(model_, plain_);
   return A_;
 }
 

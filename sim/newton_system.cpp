@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/held_bone.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/stopwatch.hpp"
 
@@ -144,11 +145,13 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   dynamics_.add_damping_product(shift_, 1 / gamma, pull_);
   dynamics_.add_lag_force(b, gamma, pull_);
   mass_rhs_ += gamma * pull_.head(num_velocities);
+  keep_free_part(model_, mass_rhs_);
 
   last_residual_ = residual_;
   residual_ = mass_rhs_.norm();
   w_.resize(num_velocities);
   if (num_velocities > 0 && !find_correction(gamma, counts)) return false;
+  keep_free_part(model_, w_);  // round-off out of what is held
   const double scale = step_fraction(gamma);
 
   Eigen::Map<Eigen::VectorXd>(x, 3 * layout.num_free_nodes) =

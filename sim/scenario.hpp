@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -126,6 +127,14 @@ struct MeshFile {
   Location where;
 };
 
+/// Freedoms of a rigid body that are held: of the motion of its point `at`, along axes that stand
+/// in space.
+struct Hold {
+  std::array<bool, 6> held{};  // translation along each axis, rotation about each
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // columns
+  std::optional<Vec3> at;  // [m], world at the start; default: the centre of mass
+};
+
 struct Body {
   enum class Kind { Fixed, Rigid, Tissue };
   std::string name;
@@ -150,6 +159,7 @@ struct Body {
       shell_thickness;           // [m], depth of the collision elements under a bone's surface
   Vec3 velocity = Vec3::Zero();  // [m/s] at the start
   Vec3 angular_velocity = Vec3::Zero();  // [rad/s] at the start, rigid
+  std::optional<Hold> hold;              // rigid
   Location where;
 };
 

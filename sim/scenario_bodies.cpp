@@ -1,7 +1,11 @@
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
 
 #include "sim/data_path.hpp"
+#include "sim/rigid_body.hpp"
 #include "sim/scenario_reader.hpp"
 
 namespace articular::sim {
@@ -131,6 +135,33 @@ Eigen::Matrix3d read_inertia(const Node& node) {
   return inertia;
 }
 
+/// Velocities along axes that stand in space: rotations about two of them, with the third held, add
+/// up to one about the third after all. So one rotation alone is never held.
+Hold read_hold(const Node& node) {
+  static constexpr std::array<std::string_view, 6> kNames = {
+      "translation.x", "translation.y", "translation.z", "rotation.x", "rotation.y", "rotation.z"};
+  const TableReader table(node, "hold", {"freedoms", "at", "turned"});
+  Hold hold;
+  const Node& freedoms = table.at("freedoms");
+  for (const Node& freedom : read_list(freedoms, "a list such as [\"translation.x\"]")) {
+    const auto i = read_choice<std::size_t>(freedom, {{kNames[0], 0},
+                                                      {kNames[1], 1},
+                                                      {kNames[2], 2},
+                                                      {kNames[3], 3},
+                                                      {kNames[4], 4},
+                                                      {kNames[5], 5}});
+    hold.held[i] = true;
+  }
+  if (std::count(hold.held.begin() + 3, hold.held.end(), true) == 1)
+    fail(freedoms,
+         "one rotation alone cannot be held: hold two, which leaves a hinge, or three; of two "
+         "bones that move against each other, one can be the hinge of the other's third rotation");
+  if (table.find("at") != nullptr) hold.at = read_vector(table.at("at"), kLength);
+  if (const Node* turned = table.find("turned"))
+    hold.axes = rotation_matrix(read_vector(*turned, kAngle));
+  return hold;
+}
+
 std::vector<MeshFile> read_contact_meshes(const Node& node, const std::filesystem::path& folder) {
   std::vector<MeshFile> meshes;
   for (const Node& element : read_list(node, "a list of meshes such as [{ file = \"fossa.vtp\" }]"))
@@ -138,11 +169,26 @@ std::vector<MeshFile> read_contact_meshes(const Node& node, const std::filesyste
   return meshes;
 }
 
+/// What is held starts at rest.
+void check_held_velocity(const TableReader& table, const Body& body) {
+  if (!body.hold) return;
+  const auto check = [&](const char* key, const Vec3& velocity, std::size_t first) {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (body.hold->held[first + i] &&
+          std::abs(body.hold->axes.col(static_cast<Eigen::Index>(i)).dot(velocity)) >
+              1e-12 * velocity.norm())
+        fail(table.at(key), "moves along a freedom that `hold` holds");
+  };
+  check("velocity", body.velocity, 0);
+  check("angular_velocity", body.angular_velocity, 3);
+}
+
 /// Which keys go with a kind of body, and which it needs.
 void check_kind(const TableReader& table, const Body& body) {
   switch (body.kind) {
     case Body::Kind::Fixed:
       table.refuse({"material"}, "only tissue has a material");
+      table.refuse({"hold"}, "a fixed body is held as a whole");
       table.refuse({"mass", "density", "center_of_mass", "inertia"}, "a fixed body has no inertia");
       table.refuse({"velocity", "angular_velocity"},
                    "a fixed body has no velocity; a [[load]] of kind \"motion\" moves it");
@@ -152,12 +198,14 @@ void check_kind(const TableReader& table, const Body& body) {
       table.refuse({"material"}, "only tissue has a material");
       table.exactly_one({"mesh", "geometry"});
       table.exactly_one({"mass", "density"});
+      check_held_velocity(table, body);
       break;
     case Body::Kind::Tissue:
       table.refuse({"mass", "center_of_mass", "inertia"}, "tissue has a density instead");
       table.refuse({"contact_meshes", "layer", "shell_thickness"},
                    "tissue touches with its own surface");
       table.refuse({"angular_velocity"}, "only a rigid body has an angular velocity");
+      table.refuse({"hold"}, "only a rigid body has freedoms to hold; tissue is attached");
       table.exactly_one({"mesh", "geometry"});
       table.at("density");
       table.at("material");
@@ -166,10 +214,10 @@ void check_kind(const TableReader& table, const Body& body) {
 }
 
 Body read_body(const Node& node, const std::filesystem::path& folder) {
-  const TableReader table(
-      node, label(node, "body"),
-      {"name", "kind", "mesh", "geometry", "contact_meshes", "layer", "shell_thickness", "collides",
-       "mass", "density", "center_of_mass", "inertia", "velocity", "angular_velocity", "material"});
+  const TableReader table(node, label(node, "body"),
+                          {"name", "kind", "mesh", "geometry", "contact_meshes", "layer",
+                           "shell_thickness", "collides", "mass", "density", "center_of_mass",
+                           "inertia", "velocity", "angular_velocity", "hold", "material"});
   const auto mesh = [&](const Node& n) { return read_mesh(n, folder, false); };
   const auto contact_meshes = [&](const Node& n) { return read_contact_meshes(n, folder); };
   Body body;
@@ -191,6 +239,7 @@ Body read_body(const Node& node, const std::filesystem::path& folder) {
   table.may("inertia", body.inertia, read_inertia);
   table.may("velocity", body.velocity, as_vector(kVelocity));
   table.may("angular_velocity", body.angular_velocity, as_vector(kAngularVelocity));
+  table.may("hold", body.hold, read_hold);
   table.may("material", body.material, read_material);
   check_kind(table, body);
   return body;

@@ -67,6 +67,15 @@ std::string read_line_reference(const Node& node, const Context& context, const 
   return line;
 }
 
+/// A body that something outside the scene holds, wholly or in part.
+std::string read_held_body(const Node& node, const Context& context) {
+  const Body& body = read_body_reference(node, context);
+  if (body.kind != Body::Kind::Fixed && !body.hold)
+    fail(node, fmt::format("expected a fixed body or a rigid one with `hold`, body `{}` is {}",
+                           body.name, body.kind == Body::Kind::Rigid ? "free" : "tissue"));
+  return body.name;
+}
+
 /// Refuses keys of other kinds of probe.
 void keep_only(const TableReader& table, std::initializer_list<std::string_view> keys) {
   for (const std::string_view key : {"body", "point", "axis", "bodies", "line"})
@@ -114,7 +123,7 @@ void read_target(const TableReader& table, const Context& context, const Names& 
       break;
     case Probe::Kind::Reaction:
       keep_only(table, {"body"});
-      probe.body = read_body_of_kind(table.at("body"), context, Body::Kind::Fixed, "fixed");
+      probe.body = read_held_body(table.at("body"), context);
       break;
   }
 }

@@ -1,7 +1,9 @@
 #include "sim/vtk_files.hpp"
 
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkDataSetReader.h>
+#include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
@@ -211,6 +213,16 @@ vtkSmartPointer<vtkPointSet> make_surface(const Positions& x, double unit,
   surface->SetPoints(make_points(x, unit));
   surface->SetPolys(cells);
   return surface;
+}
+
+void add_cell_vectors(vtkPointSet& set, const std::string& name, const Eigen::Matrix3Xd& values) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(set.GetNumberOfCells());
+  array->Fill(0);
+  for (Eigen::Index e = 0; e < values.cols(); ++e) array->SetTuple(e, values.col(e).data());
+  set.GetCellData()->AddArray(array);
 }
 
 }  // namespace articular::sim

@@ -45,5 +45,7 @@ vtkSmartPointer<vtkPointSet> make_grid(const Positions& x, double unit, const Te
                                        const Triangles& triangles);
 vtkSmartPointer<vtkPointSet> make_surface(const Positions& x, double unit,
                                           const Triangles& triangles);
+/// A cell array with three components: one column a tetrahedron; zero for the other cells.
+void add_cell_vectors(vtkPointSet& set, const std::string& name, const Eigen::Matrix3Xd& values);
 
 }  // namespace articular::sim

@@ -8,6 +8,8 @@
 
 #include "sim/error.hpp"
 #include "sim/mesh_io.hpp"
+#include "tools/anatomy_knee.hpp"
+#include "tools/anatomy_mandible.hpp"
 
 namespace articular::anatomy {
 namespace {
@@ -25,19 +27,21 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   std::filesystem::rename(part, file);
 }
 
-int run_mandible(double size_mm, const std::filesystem::path& folder) {
+template <class Build>
+int run(const Build& build, const std::filesystem::path& folder) {
   try {
-    const Anatomy anatomy = mandible_anatomy(size_mm);
+    const Anatomy anatomy = build();
     write_anatomy(anatomy, folder);
     for (const auto& [name, mesh] : anatomy.meshes)
       fmt::print("{}: {} nodes, {} {}\n", (folder / name).string(), mesh.X_mm.cols(),
                  mesh.tets.cols() > 0 ? mesh.tets.cols() : mesh.triangles.cols(),
                  mesh.tets.cols() > 0 ? "tetrahedra" : "triangles");
-    fmt::print("{}: {} muscles\n", (folder / "muscles.csv").string(), anatomy.muscles.size());
+    if (!anatomy.muscles.empty())
+      fmt::print("{}: {} muscles\n", (folder / "muscles.csv").string(), anatomy.muscles.size());
     fmt::print("{}: {} points\n", (folder / "landmarks.csv").string(), anatomy.landmarks.size());
     return 0;
   } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "--size: {}\n", error.what());
+    fmt::print(stderr, "{}\n", error.what());
     return 2;
   } catch (const std::filesystem::filesystem_error& error) {
     fmt::print(stderr, "{}\n", error.what());
@@ -46,6 +50,44 @@ int run_mandible(double size_mm, const std::filesystem::path& folder) {
     fmt::print(stderr, "{}\n", error.what());
     return 4;
   }
+}
+
+void add_mandible(CLI::App& anatomy, int& exit_code) {
+  CLI::App* mandible = anatomy.add_subcommand(
+      "mandible", "Jaw: mandible, skull parts, joint surfaces, discs, muscle attachments");
+  struct Options {
+    double size_mm = 1.2;
+    std::filesystem::path folder;
+  };
+  const auto options = std::make_shared<Options>();
+  mandible->add_option("--size", options->size_mm, "Element size of the discs in mm (0.3 to 2.5)")
+      ->capture_default_str();
+  mandible->add_option("--out", options->folder, "Folder for the files, made if it is not there")
+      ->required();
+  mandible->callback([options, &exit_code] {
+    exit_code = run([&] { return mandible_anatomy(options->size_mm); }, options->folder);
+  });
+}
+
+void add_knee(CLI::App& anatomy, int& exit_code) {
+  CLI::App* knee = anatomy.add_subcommand(
+      "knee", "Right knee in extension: femur, tibia, their cartilage, menisci");
+  struct Options {
+    KneeResolution resolution;
+    std::filesystem::path folder;
+  };
+  const auto options = std::make_shared<Options>();
+  knee->add_option("--size", options->resolution.size_mm,
+                   "Element size of cartilage and menisci in mm, along the surfaces (0.8 to 4)")
+      ->capture_default_str();
+  knee->add_option("--layers", options->resolution.layers,
+                   "Elements through their thickness (2 to 6)")
+      ->capture_default_str();
+  knee->add_option("--out", options->folder, "Folder for the files, made if it is not there")
+      ->required();
+  knee->callback([options, &exit_code] {
+    exit_code = run([&] { return knee_anatomy(options->resolution); }, options->folder);
+  });
 }
 
 }  // namespace
@@ -57,9 +99,10 @@ void write_anatomy(const Anatomy& anatomy, const std::filesystem::path& folder) 
     data.X = mesh.X_mm * kMillimetre;
     data.tets = mesh.tets;
     data.triangles = mesh.triangles;
+    if (mesh.fibres.cols() > 0) data.cell_vectors.emplace_back("fibres", mesh.fibres);
     sim::write_mesh(folder / name, data, kMillimetre);
   }
-  write_text(folder / "muscles.csv", muscles_csv(anatomy.muscles));
+  if (!anatomy.muscles.empty()) write_text(folder / "muscles.csv", muscles_csv(anatomy.muscles));
   write_text(folder / "landmarks.csv", landmarks_csv(anatomy.landmarks));
 }
 
@@ -67,19 +110,8 @@ void add_anatomy_command(CLI::App& app, int& exit_code) {
   CLI::App* anatomy =
       app.add_subcommand("anatomy", "Builds joint geometry from published dimensions");
   anatomy->require_subcommand(1);
-  CLI::App* mandible = anatomy->add_subcommand(
-      "mandible", "Jaw: mandible, skull parts, joint surfaces, discs, muscle attachments");
-  struct Options {
-    double size_mm = 1.2;
-    std::filesystem::path folder;
-  };
-  const auto options = std::make_shared<Options>();
-  mandible->add_option("--size", options->size_mm, "Element size of the discs in mm (0.3 to 2.5)")
-      ->capture_default_str();
-  mandible->add_option("--out", options->folder, "Folder for the files, made if it is not there")
-      ->required();
-  mandible->callback(
-      [options, &exit_code] { exit_code = run_mandible(options->size_mm, options->folder); });
+  add_mandible(*anatomy, exit_code);
+  add_knee(*anatomy, exit_code);
 }
 
 }  // namespace articular::anatomy

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "tools/anatomy_mandible.hpp"
+#include "tools/anatomy_tables.hpp"
 
 namespace articular::anatomy {
 
@@ -11,7 +11,7 @@ namespace articular::anatomy {
 /// @throws sim::SystemError when that fails
 void write_anatomy(const Anatomy& anatomy, const std::filesystem::path& folder);
 
-/// `articular anatomy mandible [--size H] --out DIR`.
+/// `articular anatomy mandible|knee [--size H] --out DIR`.
 /// @param[out] exit_code  0 done, 2 bad arguments, 4 not writable; set when the command ran
 void add_anatomy_command(CLI::App& app, int& exit_code);
 

@@ -1,77 +1,19 @@
 #include "tools/anatomy_bones.hpp"
 
-#include <vtkCellArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkFlyingEdges3D.h>
-#include <vtkIdList.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkWindowedSincPolyDataFilter.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
+
+#include "tools/anatomy_solids.hpp"
 
 namespace articular::anatomy {
 namespace {
-
-/// A corner of a thick sheet: half the thickness there is r.
-struct Knot {
-  double x, y, z, r;
-};
-
-Vec3 position(const Knot& k) { return {k.x, k.y, k.z}; }
-
-/// A triangle thickened by a radius that varies linearly over it. Two equal corners make a tapered
-/// rod.
-struct ThickTriangle {
-  ThickTriangle(const Knot& a_, const Knot& b_, const Knot& c_) : a(a_), b(b_), c(c_) {
-    center = (position(a) + position(b) + position(c)) / 3;
-    for (const Knot& k : {a, b, c}) reach = std::max(reach, (position(k) - center).norm() + k.r);
-  }
-  Knot a, b, c;
-  Vec3 center;
-  double reach = 0;  // everything of it lies within this distance of the centre
-};
 
 /// A tooth crown: |u/su|^4 + |v/sv|^4 + |w/sw|^4 <= 1, u along the arch, v across it, w up.
 struct Crown {
   Vec3 center, along, half_size;
 };
-
-/// Barycentric coordinates of the point of triangle abc that is nearest to p.
-/// [Ericson 2005, Real-Time Collision Detection, 5.1.5], written with the Voronoi regions in its
-/// order.
-Vec3 nearest_barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a;
-  const double d1 = ab.dot(p - a), d2 = ac.dot(p - a);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const double d3 = ab.dot(p - b), d4 = ac.dot(p - b);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  const double d5 = ab.dot(p - c), d6 = ac.dot(p - c);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0, 1 - w, w};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
-}
-
-double distance(const ThickTriangle& t, const Vec3& p) {
-  const Vec3 a = position(t.a), b = position(t.b), c = position(t.c);
-  const Vec3 w = nearest_barycentric(p, a, b, c);
-  return (p - (w.x() * a + w.y() * b + w.z() * c)).norm() -
-         (w.x() * t.a.r + w.y() * t.b.r + w.z() * t.c.r);
-}
 
 double distance(const Crown& crown, const Vec3& p) {
   const Vec3 across = Vec3::UnitZ().cross(crown.along);
@@ -81,22 +23,6 @@ double distance(const Crown& crown, const Vec3& p) {
   return (level - 1) * crown.half_size.minCoeff();
 }
 
-double smooth_min(double a, double b, double width) {
-  const double h = std::max(width - std::abs(a - b), 0.0) / width;
-  return std::min(a, b) - h * h * width / 4;
-}
-
-using Sheet = std::vector<ThickTriangle>;
-
-constexpr double kFar = 1e3;  // more than any distance that matters
-
-double distance(const Sheet& sheet, const Vec3& p) {
-  double least = kFar;
-  for (const ThickTriangle& t : sheet)
-    if ((p - t.center).norm() - t.reach < least) least = std::min(least, distance(t, p));
-  return least;
-}
-
 double distance(const std::vector<Crown>& crowns, const Vec3& p) {
   constexpr double kNear = 5;  // further off nothing of a crown shows in the surface
   double least = kFar;
@@ -104,42 +30,6 @@ double distance(const std::vector<Crown>& crowns, const Vec3& p) {
     if ((p - crown.center).norm() - crown.half_size.norm() < kNear)
       least = std::min(least, distance(crown, p));
   return least;
-}
-
-/// Two triangles a quadrilateral, between two rows of knots of equal length.
-void add_strip(Sheet& sheet, const std::vector<Knot>& lower, const std::vector<Knot>& upper) {
-  for (std::size_t i = 0; i + 1 < lower.size(); ++i) {
-    sheet.emplace_back(lower[i], lower[i + 1], upper[i + 1]);
-    sheet.emplace_back(lower[i], upper[i + 1], upper[i]);
-  }
-}
-
-void add_rods(Sheet& sheet, const std::vector<Knot>& chain) {
-  for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-    sheet.push_back({chain[i], chain[i + 1], chain[i + 1]});
-}
-
-/// Cubic through the knots (Catmull-Rom), n pieces a span.
-std::vector<Knot> smoothed(const std::vector<Knot>& knots, int n) {
-  std::vector<Knot> out;
-  const auto vec = [](const Knot& k) { return Eigen::Vector4d(k.x, k.y, k.z, k.r); };
-  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    const Eigen::Vector4d p1 = vec(knots[i]), p2 = vec(knots[i + 1]);
-    const Eigen::Vector4d p0 = i > 0             ? vec(knots[i - 1])
-                               : knots[0].x == 0 ? Eigen::Vector4d(-p2.x(), p2.y(), p2.z(), p2.w())
-                                                 : Eigen::Vector4d(2 * p1 - p2);
-    const Eigen::Vector4d p3 =
-        i + 2 < knots.size() ? vec(knots[i + 2]) : Eigen::Vector4d(2 * p2 - p1);
-    const Eigen::Vector4d m1 = (p2 - p0) / 2, m2 = (p3 - p1) / 2;
-    for (int j = 0; j < n + (i + 2 == knots.size() ? 1 : 0); ++j) {
-      const double t = static_cast<double>(j) / n;
-      const Eigen::Vector4d q = (2 * t * t * t - 3 * t * t + 1) * p1 +
-                                (t * t * t - 2 * t * t + t) * m1 +
-                                (3 * t * t - 2 * t * t * t) * p2 + (t * t * t - t * t) * m2;
-      out.push_back({q.x(), q.y(), q.z(), q.w()});
-    }
-  }
-  return out;
 }
 
 /// Crowns of one half of an arch, from the central incisor to the second molar.
@@ -311,57 +201,6 @@ double temporal_block_distance(const Vec3& p) {
   return std::max(top, box_distance);
 }
 
-using Distance = std::function<double(const Vec3&)>;
-
-/// Contours the zero level of a distance that is even in x, on a grid with a plane at x = 0.
-Mesh contour(const Distance& distance, const Vec3& low, const Vec3& high, double h) {
-  const int nx = 2 * static_cast<int>(std::ceil(high.x() / h)) + 1;
-  const int ny = static_cast<int>(std::ceil((high.y() - low.y()) / h)) + 1;
-  const int nz = static_cast<int>(std::ceil((high.z() - low.z()) / h)) + 1;
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(nx, ny, nz);
-  image->SetSpacing(h, h, h);
-  image->SetOrigin(-h * (nx / 2), low.y(), low.z());
-  image->AllocateScalars(VTK_DOUBLE, 1);
-  auto* values = static_cast<double*>(image->GetScalarPointer());
-  for (int k = 0; k < nz; ++k)
-    for (int j = 0; j < ny; ++j)
-      for (int i = nx / 2; i < nx; ++i) {
-        const Vec3 p(h * (i - nx / 2), low.y() + h * j, low.z() + h * k);
-        const Eigen::Index row =
-            static_cast<Eigen::Index>(nx) * (j + static_cast<Eigen::Index>(ny) * k);
-        const double d = distance(p);
-        values[row + i] = d;
-        values[row + nx - 1 - i] = d;
-      }
-  vtkNew<vtkFlyingEdges3D> edges;
-  edges->SetInputData(image);
-  edges->SetValue(0, 0.0);
-  edges->ComputeNormalsOff();
-  edges->ComputeScalarsOff();
-  vtkNew<vtkWindowedSincPolyDataFilter> smooth;
-  smooth->SetInputConnection(edges->GetOutputPort());
-  smooth->SetNumberOfIterations(15);
-  smooth->SetPassBand(0.25);
-  smooth->NormalizeCoordinatesOn();
-  smooth->Update();
-  vtkPolyData* surface = smooth->GetOutput();
-
-  Mesh mesh;
-  mesh.X_mm.resize(3, surface->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
-    surface->GetPoint(i, mesh.X_mm.col(i).data());
-  mesh.triangles.resize(3, surface->GetNumberOfPolys());
-  vtkNew<vtkIdList> cell;
-  vtkCellArray* polys = surface->GetPolys();
-  for (vtkIdType i = 0; i < surface->GetNumberOfPolys(); ++i) {
-    polys->GetCellAtId(i, cell);
-    for (int c = 0; c < 3; ++c) mesh.triangles(c, i) = static_cast<int>(cell->GetId(c));
-  }
-  if (volume_and_center(mesh).first < 0) mesh.triangles.row(1).swap(mesh.triangles.row(2));
-  return mesh;
-}
-
 /// Strip along the arch between two offsets from its middle.
 Mesh arch_strip(double h, double dz, bool normal_up) {
   constexpr double kEnd = 27, kHalfWidth = 4.5;
@@ -421,20 +260,6 @@ Vec3 arch_point(double x) {
   return {x, y, kIncisor.z() + 0.085 * (y + 45)};
 }
 
-std::pair<double, Vec3> volume_and_center(const Mesh& surface) {
-  double volume = 0;
-  Vec3 moment = Vec3::Zero();
-  for (Eigen::Index i = 0; i < surface.triangles.cols(); ++i) {
-    const Vec3 a = surface.X_mm.col(surface.triangles(0, i)),
-               b = surface.X_mm.col(surface.triangles(1, i)),
-               c = surface.X_mm.col(surface.triangles(2, i));
-    const double v = a.cross(b).dot(c) / 6;
-    volume += v;
-    moment += v * (a + b + c) / 4;
-  }
-  return {volume, moment / volume};
-}
-
 Mesh mandible_surface(double h) {
   const Sheet sheet = mandible_sheet();
   const std::vector<Crown> teeth = crowns(false);
@@ -442,7 +267,7 @@ Mesh mandible_surface(double h) {
     const double bone = smooth_min(distance(sheet, p), head_distance(p), 2.5);
     return smooth_min(bone, distance(teeth, p), 0.5);
   };
-  return contour(distance_to, {-62, -56, 0}, {62, 44, 92}, h);
+  return contour_even(distance_to, {-62, -56, 0}, {62, 44, 92}, h);
 }
 
 Mesh skull_surface(double h) {
@@ -456,7 +281,7 @@ Mesh skull_surface(double h) {
         std::abs(d.x()) < 12 && d.y() < 9 && d.y() > -26 && d.z() > -12 && d.z() < 14;
     return joint ? std::max(solid, distance_below_fossa(d)) : solid;
   };
-  return contour(distance_to, {-82, -56, 36}, {82, 66, 160}, h);
+  return contour_even(distance_to, {-82, -56, 36}, {82, 66, 160}, h);
 }
 
 Mesh lower_teeth_sheet(double h) { return arch_strip(h, 0, true); }

@@ -2,8 +2,8 @@
 
 #include "tools/anatomy_joint.hpp"
 
-/// Mandible and skull parts to look at, with teeth. Each is a union of simple solids given by
-/// signed distances (thick triangles, superellipsoids) and contoured; symmetric about x = 0. mm.
+/// Mandible and skull parts to look at, with teeth. Unions of thick
+/// triangles and superellipsoids, symmetric about x = 0. mm.
 namespace articular::anatomy {
 
 /// Closed surface, outward normals: body with chin, both rami with coronoid and condyle, lower
@@ -24,8 +24,5 @@ constexpr double kOcclusalGap = 0.3;
 /// Middle of the lower dental arch at the distance |x| from the midline: occlusal level. x in
 /// 0..27.
 Vec3 arch_point(double x);
-
-/// Volume of a closed surface [mm^3] and its centre of volume.
-std::pair<double, Vec3> volume_and_center(const Mesh& surface);
 
 }  // namespace articular::anatomy

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tools/anatomy_grid.hpp"
+
 namespace articular::anatomy {
 namespace {
 
@@ -233,68 +235,28 @@ Mesh fossa_sheet(double h) {
 
 Mesh disc(double h) {
   if (!(h >= 0.3 && h <= 2.5))
-    throw std::invalid_argument("element size " + std::to_string(h) +
+    throw std::invalid_argument("--size: element size " + std::to_string(h) +
                                 " mm: expected 0.3 to 2.5 mm");
   constexpr double kMiddle = 23 * kDeg;  // -46 to 92 degrees about the head
   constexpr double kHalfAngle = 69 * kDeg;
   constexpr double kArc = 14.3;       // length of that along the mid-surface [mm]
   constexpr double kThickness = 2.4;  // that gives two layers at 1.2 mm
   constexpr double kRound = 0.7;      // outline: 0 rectangle, 1 ellipse
-  const auto half = [h](double l) { return std::max(2, static_cast<int>(std::lround(l / h / 2))); };
-  const int nx = 2 * half(2 * kDiscHalfWidth), ny = 2 * half(kArc);
-  const int nz = std::max(1, static_cast<int>(std::lround(kThickness / h)));
-  const auto id = [nx, ny](int i, int j, int k) { return i + (nx + 1) * (j + (ny + 1) * k); };
-
-  Mesh mesh;
-  mesh.X_mm.resize(3, (nx + 1) * (ny + 1) * (nz + 1));
-  for (int j = 0; j <= ny; ++j)
-    for (int i = 0; i <= nx; ++i) {
-      const double u = 2.0 * i / nx - 1, v = 2.0 * j / ny - 1;
-      const double x = kDiscHalfWidth * u * std::sqrt(1 - kRound * v * v / 2);
-      const double angle = kMiddle + kHalfAngle * v * std::sqrt(1 - kRound * u * u / 2);
-      const auto [inner, outer] = disc_radii(angle, x, std::max(std::abs(u), std::abs(v)));
-      for (int k = 0; k <= nz; ++k) {
-        const double r = inner + (outer - inner) * k / nz;
-        mesh.X_mm.col(id(i, j, k)) = kCondyle + Vec3(x, -r * std::sin(angle), r * std::cos(angle));
-      }
-    }
-
-  // Each cell along its diagonal from the disc's middle outwards: six tetrahedra, one for each
-  // order of the axes. Cells of neighbouring quadrants are mirror images, so their faces agree, and
-  // the obtuse corners of the outline are halved.
-  static constexpr int kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
-                                        {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-  mesh.tets.resize(4, 6 * nx * ny * nz);
-  Eigen::Index e = 0;
-  for (int k = 0; k < nz; ++k)
-    for (int j = 0; j < ny; ++j)
-      for (int i = 0; i < nx; ++i) {
-        const int si = 2 * i >= nx ? 1 : -1, sj = 2 * j >= ny ? 1 : -1;
-        const std::array<int, 3> from = {si > 0 ? i : i + 1, sj > 0 ? j : j + 1, k};
-        const std::array<int, 3> step = {si, sj, 1};
-        for (const auto& order : kOrders) {
-          std::array<int, 3> c = from;
-          Eigen::Vector4i tet;
-          tet(0) = id(c[0], c[1], c[2]);
-          for (int a = 0; a < 3; ++a) {
-            const auto axis = static_cast<std::size_t>(order[a]);
-            c[axis] += step[axis];
-            tet(a + 1) = id(c[0], c[1], c[2]);
-          }
-          const Vec3 x0 = mesh.X_mm.col(tet(0));
-          const double volume = (mesh.X_mm.col(tet(1)) - x0)
-                                    .cross(mesh.X_mm.col(tet(2)) - x0)
-                                    .dot(mesh.X_mm.col(tet(3)) - x0);
-          if (volume < 0) std::swap(tet(2), tet(3));
-          mesh.tets.col(e++) = tet;
-        }
-      }
-  return mesh;
+  const CellGrid grid{even_cells(2 * kDiscHalfWidth, h, 4), even_cells(kArc, h, 4),
+                      std::max(1, static_cast<int>(std::lround(kThickness / h)))};
+  return grid.fill([](double u, double v, double w) -> Vec3 {
+    const double x = kDiscHalfWidth * u * std::sqrt(1 - kRound * v * v / 2);
+    const double angle = kMiddle + kHalfAngle * v * std::sqrt(1 - kRound * u * u / 2);
+    const auto [inner, outer] = disc_radii(angle, x, std::max(std::abs(u), std::abs(v)));
+    const double r = inner + (outer - inner) * w;
+    return kCondyle + Vec3(x, -r * std::sin(angle), r * std::cos(angle));
+  });
 }
 
 Mesh mirrored(const Mesh& mesh) {
   Mesh m = mesh;
   m.X_mm.row(0) *= -1;
+  if (m.fibres.cols() > 0) m.fibres.row(0) *= -1;
   if (m.tets.cols() > 0) m.tets.row(2).swap(m.tets.row(3));
   if (m.triangles.cols() > 0) m.triangles.row(1).swap(m.triangles.row(2));
   return m;

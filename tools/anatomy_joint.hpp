@@ -1,9 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
-#include "fem/types.hpp"
+#include "tools/anatomy_mesh.hpp"
 
 /// The temporomandibular joint as smooth surfaces: condyle head, fossa with eminence, and the disc
 /// that fills the gap between them. Lengths in mm, as published; frame of the jaw: x left,
@@ -22,13 +21,6 @@
 /// head is a body of revolution about the transverse axis, so that hinge rotation alone leaves the
 /// gap as it is.
 namespace articular::anatomy {
-
-/// A mesh in mm: triangles (surface) or tetrahedra (disc).
-struct Mesh {
-  Positions X_mm;
-  Tetrahedra tets;
-  Triangles triangles;
-};
 
 /// Centre of the left condyle head. With the incisor edge at kIncisor: 100 mm between the condyles,
 /// 101 mm from condyle to incisor, 88 mm from the incisor to the condylar axis.

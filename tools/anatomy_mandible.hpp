@@ -1,37 +1,10 @@
 #pragma once
 
-#include <map>
-#include <string>
-#include <vector>
-
 #include "tools/anatomy_joint.hpp"
+#include "tools/anatomy_tables.hpp"
 
 /// The jaw as the scenarios read it: meshes by file name, muscle attachments and landmarks. mm.
 namespace articular::anatomy {
-
-struct MuscleRow {
-  std::string id;      // l or r, and two letters
-  std::string muscle;  // name
-  std::string body_upper;
-  Vec3 upper;
-  std::string body_lower;
-  Vec3 lower;
-  double max_force;             // [N], peak, one side
-  double published_opt_length;  // [mm]
-  double max_over_opt_length;
-  double tendon_ratio;
-};
-
-struct Landmark {
-  std::string name, body;
-  Vec3 point;
-};
-
-struct Anatomy {
-  std::map<std::string, Mesh> meshes;  // by file name: .vtp triangles, .vtu tetrahedra
-  std::vector<MuscleRow> muscles;
-  std::vector<Landmark> landmarks;
-};
 
 /// @param disc_edge  element size of the discs
 /// @throws std::invalid_argument for disc_edge outside [0.3, 2.5] mm
@@ -39,9 +12,5 @@ Anatomy mandible_anatomy(double disc_edge);
 
 /// Left and right muscles, attached to the surfaces of mandible_anatomy.
 std::vector<MuscleRow> mandible_muscles();
-
-/// The text of muscles.csv and landmarks.csv.
-std::string muscles_csv(const std::vector<MuscleRow>& muscles);
-std::string landmarks_csv(const std::vector<Landmark>& landmarks);
 
 }  // namespace articular::anatomy

@@ -29,10 +29,13 @@ Json explain_body(const sim::Model& model, const sim::BodyModel& body) {
     json["unknowns"] = 3 * free;
   } else {
     const sim::Bone& bone = model.bones[static_cast<std::size_t>(body.bone)];
-    json["modelled_as"] = bone.unknown  ? "rigid bone"
-                          : bone.motion ? "driven bone (motion prescribed)"
-                                        : "fixed bone";
-    json["unknowns"] = bone.unknown ? 6 : 0;
+    const auto held =
+        bone.hold ? std::count(bone.hold->held.begin(), bone.hold->held.end(), true) : 0;
+    json["modelled_as"] = held > 0       ? fmt::format("rigid bone, {} of 6 freedoms held", held)
+                          : bone.unknown ? "rigid bone"
+                          : bone.motion  ? "driven bone (motion prescribed)"
+                                         : "fixed bone";
+    json["unknowns"] = bone.unknown ? 6 - held : 0;
     if (bone.unknown) json["mass_kg"] = bone.mass.mass;
   }
   if (body.collider) {

@@ -1,0 +1,115 @@
+#include "sim/held_bone.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace articular::sim {
+namespace {
+
+Vec3 center_of_mass(const Bone& bone, const Pose& pose) {
+  return pose.R * (bone.mass.center - bone.rest.p);
+}
+
+/// ω × (ω × c) m and ω × I ω.
+Vec6 gyroscopic_force(const Bone& bone, const Pose& pose, const Vec3& omega) {
+  const Mat6 mass = rigid_mass(bone, pose);
+  Vec6 force;
+  force << bone.mass.mass * omega.cross(omega.cross(center_of_mass(bone, pose))),
+      omega.cross(mass.bottomRightCorner<3, 3>() * omega);
+  return force;
+}
+
+/// One unit vector a free freedom of translation (k = 0) or rotation (k = 1).
+Eigen::Matrix3Xd free_axes(const Hold& hold, std::size_t k) {
+  Eigen::Matrix3Xd axes(3, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (hold.held[3 * k + i]) continue;
+    axes.conservativeResize(Eigen::NoChange, axes.cols() + 1);
+    axes.rightCols<1>() = hold.axes.col(static_cast<Eigen::Index>(i));
+  }
+  return axes;
+}
+
+Mat3 free_projection(const Hold& hold, std::size_t k) {
+  const Eigen::Matrix3Xd axes = free_axes(hold, k);
+  return axes * axes.transpose();
+}
+
+}  // namespace
+
+Vec6 free_part(const Bone& bone, const Vec6& value) {
+  if (!bone.hold) return value;
+  Vec6 part;
+  part << free_projection(*bone.hold, 0) * value.head<3>(),
+      free_projection(*bone.hold, 1) * value.tail<3>();
+  return part;
+}
+
+void keep_free_part(const Model& model, Eigen::VectorXd& blocks) {
+  for (const Bone& bone : model.bones)
+    if (bone.hold)
+      blocks.segment<6>(3 * bone.block) = free_part(bone, blocks.segment<6>(3 * bone.block));
+}
+
+Mat6 rigid_mass(const Bone& bone, const Pose& pose) {
+  const Mat3 c = skew(center_of_mass(bone, pose));
+  Mat6 mass;
+  mass << bone.mass.mass * Mat3::Identity(), -bone.mass.mass * c, bone.mass.mass * c,
+      pose.R * bone.mass.inertia * pose.R.transpose() - bone.mass.mass * c * c;
+  return mass;
+}
+
+Vec6 rigid_acceleration(const Bone& bone, const Pose& pose, const RigidVelocity& velocity,
+                        const Vec6& force) {
+  const Vec6 drive = force - gyroscopic_force(bone, pose, velocity.angular);
+  const Mat6 mass = rigid_mass(bone, pose);
+  if (!bone.hold) return mass.llt().solve(drive);
+  const Eigen::Matrix3Xd shift = free_axes(*bone.hold, 0), turn = free_axes(*bone.hold, 1);
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(6, shift.cols() + turn.cols());
+  basis.topLeftCorner(3, shift.cols()) = shift;
+  basis.bottomRightCorner(3, turn.cols()) = turn;
+  if (basis.cols() == 0) return Vec6::Zero();
+  const Eigen::MatrixXd free_mass = basis.transpose() * mass * basis;
+  return basis * free_mass.llt().solve(basis.transpose() * drive);
+}
+
+Vec6 force_on_hold(const Bone& bone, const Pose& pose, const RigidVelocity& velocity,
+                   const Vec6& force) {
+  const Vec6 inertial = rigid_mass(bone, pose) * rigid_acceleration(bone, pose, velocity, force) +
+                        gyroscopic_force(bone, pose, velocity.angular);
+  const Vec6 rest = force - inertial;
+  return rest - free_part(bone, rest);
+}
+
+void keep_free_part(const Model& model, fem::BlockMatrix& A) {
+  for (const Bone& bone : model.bones) {
+    if (!bone.hold) continue;
+    for (int k = 0; k < 2; ++k) {
+      const Mat3 P = free_projection(*bone.hold, static_cast<std::size_t>(k));
+      const int row = bone.block + k;
+      for (int s = A.row_begin()[static_cast<std::size_t>(row)];
+           s < A.row_begin()[static_cast<std::size_t>(row) + 1]; ++s) {
+        const int transposed = A.slot(A.column()[static_cast<std::size_t>(s)], row);
+        A.block(s) = (P * A.block(s)).eval();
+        A.block(transposed) = (A.block(transposed) * P).eval();
+      }
+      // Of the size of the others, for the solver's sake: their solution is 0 in any case.
+      Eigen::Map<Mat3> own = A.block(A.slot(row, row));
+      const double size = own.trace();
+      own += (size > 0 ? size : 1) * (Mat3::Identity() - P);
+    }
+  }
+}
+
+void keep_free_part(const Model& model, fem::PressureGradient& G) {
+  for (const Bone& bone : model.bones) {
+    if (!bone.hold) continue;
+    for (int k = 0; k < 2; ++k) {
+      const Mat3 P = free_projection(*bone.hold, static_cast<std::size_t>(k));
+      const auto row = static_cast<std::size_t>(bone.block + k);
+      for (int s = G.row_begin()[row]; s < G.row_begin()[row + 1]; ++s)
+        G.block(s) = (P * G.block(s)).eval();
+    }
+  }
+}
+
+}  // namespace articular::sim

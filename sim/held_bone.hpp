@@ -1,0 +1,44 @@
+#pragma once
+
+#include "fem/block_matrix.hpp"
+#include "fem/pressure_gradient.hpp"
+#include "sim/configuration.hpp"
+
+/// Rigid bones of which some freedoms are held: no velocity along axes that stand in space, of the
+/// point p of the bone's pose. Translations of that point and a rotation about one axis through it
+/// (two held) stay where they are to round-off, as their velocities are none in every stage.
+///
+/// The point need not be the centre of mass, which lies at c = R center from it:
+///
+///   ⎡  m I    −m [c]× ⎤ ⎡ v̇ ⎤   ⎡ f − m ω × (ω × c) ⎤
+///   ⎣ m [c]×   I_p    ⎦ ⎣ ω̇ ⎦ = ⎣ τ − ω × I_p ω     ⎦ + hold,   I_p = I_c − m [c]× [c]×
+namespace articular::sim {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+
+/// Of block forces or velocities of a bone (translation, rotation): the part along its free ones.
+Vec6 free_part(const Bone& bone, const Vec6& value);
+
+/// The same for all bones, in a vector over blocks.
+void keep_free_part(const Model& model, Eigen::VectorXd& blocks);
+
+/// Mass matrix of a bone about the point of its pose [kg, kg m, kg m²].
+Mat6 rigid_mass(const Bone& bone, const Pose& pose);
+
+/// Velocities' rates of a bone under block forces about its point.
+Vec6 rigid_acceleration(const Bone& bone, const Pose& pose, const RigidVelocity& velocity,
+                        const Vec6& force);
+
+/// Force and moment, about the bone's point, that it puts on what holds it.
+Vec6 force_on_hold(const Bone& bone, const Pose& pose, const RigidVelocity& velocity,
+                   const Vec6& force);
+
+/// Rows and columns of held freedoms out of a matrix over the unknown blocks, with something
+/// positive in their place on the diagonal.
+void keep_free_part(const Model& model, fem::BlockMatrix& A);
+
+/// The same for the forces by pressures, one row a block.
+void keep_free_part(const Model& model, fem::PressureGradient& G);
+
+}  // namespace articular::sim

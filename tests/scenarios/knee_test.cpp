@@ -1,0 +1,70 @@
+// The knee of scenarios/knee/, with coarse elements and a fifth of the load.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "sim/run.hpp"
+#include "tests/scenarios/scenario_results.hpp"
+#include "tools/anatomy.hpp"
+#include "tools/anatomy_knee.hpp"
+
+namespace articular {
+namespace {
+
+/// @param duration  [s], 1000 N each
+ScenarioResults coarse_knee(double duration) {
+  const TemporaryFolder folder;
+  anatomy::write_anatomy(anatomy::knee_anatomy({4, 2}), folder.path() / "anatomy");
+  sim::Scenario scenario = sim::read_scenario(
+      std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee/axial-load.toml",
+      {"duration=" + std::to_string(duration) + " s"});
+  for (sim::Body& body : scenario.bodies)
+    body.mesh->path = folder.path() / "anatomy" / body.mesh->path.filename();
+  sim::RunOptions options;
+  options.directory = folder.path() / "out";
+  sim::run(sim::build_model(scenario), options);
+  return ScenarioResults(options.directory);
+}
+
+double sum_of(const ScenarioResults& results, const std::vector<std::string>& columns) {
+  double sum = 0;
+  for (const std::string& column : columns) sum += results.column(column).back();
+  return sum;
+}
+
+TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
+  const double load = 200;  // [N]
+  const ScenarioResults results = coarse_knee(0.2);
+  EXPECT_EQ(results.summary().at("outcome"), "finished");
+  EXPECT_GT(results.count("reported_pairs"), 0);
+  // What holds the femur carries the load, along the tibia and nowhere else.
+  EXPECT_NEAR(results.column("femur.force.z [N]").back(), load, 1e-3 * load);
+  EXPECT_LT(std::abs(results.column("femur.force.x [N]").back()), 1e-3 * load);
+  EXPECT_LT(std::abs(results.column("femur.force.y [N]").back()), 1e-3 * load);
+  // Contact passes from the femur's cartilage into the bone; ligaments press the joint together
+  // too.
+  const double contact =
+      sum_of(results, {"cartilage_medial.force.z [N]", "cartilage_lateral.force.z [N]",
+                       "above_meniscus_medial.force.z [N]", "above_meniscus_lateral.force.z [N]"});
+  const double bone = sum_of(
+      results, {"cartilage_of_femur_medial.force.z [N]", "cartilage_of_femur_lateral.force.z [N]"});
+  EXPECT_NEAR(contact, bone, 1e-3 * load);
+  const double ligaments = sum_of(
+      results,
+      {"acl_anterior.force [N]", "acl_posterior.force [N]", "pcl_anterior.force [N]",
+       "pcl_posterior.force [N]", "lcl_anterior.force [N]", "lcl_superior.force [N]",
+       "lcl_posterior.force [N]", "mcl_anterior.force [N]", "mcl_intermediate.force [N]",
+       "mcl_posterior.force [N]", "capsule_anterior.force [N]", "capsule_posterior.force [N]"});
+  EXPECT_GT(contact, load);
+  EXPECT_LT(contact, load + ligaments);
+  // Both menisci and both pairs of cartilage carry.
+  for (const char* side : {"medial", "lateral"}) {
+    EXPECT_GT(results.column(std::string("above_meniscus_") + side + ".force.z [N]").back(), 10);
+    EXPECT_LT(results.column(std::string("below_meniscus_") + side + ".area [mm^2]").back(), 1000);
+  }
+  EXPECT_LT(results.summary().at("max_penetration_m").get<double>(), 0.02e-3);
+}
+
+}  // namespace
+}  // namespace articular
