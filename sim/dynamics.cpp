@@ -97,6 +97,17 @@ bool Dynamics::carries_own_weight(const NodeRef& node) const {
 
 void Dynamics::evaluate(const double* y, double t) {
   read_state(model_, y, t, configuration_);
+  find_forces(y);
+}
+
+void Dynamics::evaluate(const double* y, double t, const std::vector<Pose>& driven) {
+  read_state(model_, y, t, configuration_);
+  for (std::size_t b = 0; b < driven.size(); ++b)
+    if (model_.bones[b].motion) configuration_.poses[b] = driven[b];
+  find_forces(y);
+}
+
+void Dynamics::find_forces(const double* y) {
   f_.setZero();
   largest_force_ = 0;
   const auto enters = [this](double force) { largest_force_ = std::max(largest_force_, force); };
@@ -140,7 +151,7 @@ void Dynamics::evaluate(const double* y, double t) {
     enters(bone.mass.mass * model_.gravity.norm());
   }
   for (const ForceModel& force : model_.forces) {
-    const Vec3 now = value_at(force.profile, t) * force.force;
+    const Vec3 now = value_at(force.profile, configuration_.t) * force.force;
     add_force(configuration_, force.point, now, f_);
     enters(now.norm());
   }

@@ -51,6 +51,7 @@ class Equilibrium::Solver {
  public:
   Solver(const Model& model, Dynamics& dynamics);
   bool solve(Eigen::VectorXd& y, double t, double damping);
+  bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
   void restart() { linear_ = make_linear_solver(model_); }
   /// The largest force, or moment by the bone's size, of a vector of block forces [N].
   double largest(const Eigen::VectorXd& f) const;
@@ -327,9 +328,15 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
     return true;
   }
   residual_at(view(solution_));
-  // Contact that is as stiff as it should be throws what is far from equilibrium back and forth.
-  if (dynamics_.touches() && !balance(true)) view(solution_).setZero();
-  if (!balance(false)) {
+  const bool touches = dynamics_.touches();
+  bool balanced = balance(false);
+  if (!balanced && touches) {
+    // From afar, contact that is as stiff as it should be throws iterations back and forth.
+    view(solution_).setZero();
+    if (!balance(true)) view(solution_).setZero();
+    balanced = balance(false);
+  }
+  if (!balanced) {
     ++counts.rejected_newton;
     return false;
   }
@@ -340,12 +347,32 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
   return true;
 }
 
+bool Equilibrium::Solver::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y) {
+  predicted_part_.reset();
+  damping_ = damping;
+  if (!prepare(fem::Tangent::Consistent) && !prepare(fem::Tangent::Projected)) return false;
+  rhs_ = f.head(view(solution_).size());
+  correction_.setZero(rhs_.size());
+  {
+    const Stopwatch watch(seconds);
+    const fem::SolveReport report = linear_->solve(rhs_, correction_);
+    counts.linear_iterations += report.iterations;
+    if (!report.converged || !correction_.allFinite()) return false;
+  }
+  start_ = y;
+  move(correction_, y);
+  return true;
+}
+
 Equilibrium::Equilibrium(const Model& model, Dynamics& dynamics)
     : solver_(std::make_unique<Solver>(model, dynamics)) {}
 Equilibrium::~Equilibrium() = default;
 
 bool Equilibrium::solve(Eigen::VectorXd& y, double t, double damping) {
   return solver_->solve(y, t, damping);
+}
+bool Equilibrium::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y) {
+  return solver_->yield(f, damping, y);
 }
 void Equilibrium::restart() { solver_->restart(); }
 double Equilibrium::residual() const { return solver_->residual(); }
