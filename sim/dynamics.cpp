@@ -98,6 +98,17 @@ bool Dynamics::carries_own_weight(const NodeRef& node) const {
 
 void Dynamics::evaluate(const double* y, double t) {
   read_state(model_, y, t, configuration_);
+  find_forces(y);
+}
+
+void Dynamics::evaluate(const double* y, double t, const std::vector<Pose>& driven) {
+  read_state(model_, y, t, configuration_);
+  for (std::size_t b = 0; b < driven.size(); ++b)
+    if (model_.bones[b].motion) configuration_.poses[b] = driven[b];
+  find_forces(y);
+}
+
+void Dynamics::find_forces(const double* y) {
   f_.setZero();
   largest_force_ = 0;
   const auto enters = [this](double force) { largest_force_ = std::max(largest_force_, force); };
@@ -137,7 +148,7 @@ void Dynamics::evaluate(const double* y, double t) {
   }
   lines_.assign(model_.lines.size(), {});
   if (!unloaded_) {
-    add_loads(t);
+    add_loads(configuration_.t);
     add_lines();
   }
   if (candidates_ != nullptr) {

@@ -29,6 +29,8 @@ class Dynamics {
   /// Reads y and computes all forces there. Block forces: 3 entries a block, reactions of fixed and
   /// driven bones included; of held bones the part along their free freedoms.
   void evaluate(const double* y, double t);
+  /// The same, with driven bones elsewhere: `driven` holds their poses, by bone.
+  void evaluate(const double* y, double t, const std::vector<Pose>& driven);
   const Configuration& configuration() const { return configuration_; }
   const Eigen::VectorXd& forces() const { return f_; }
   /// Force [N] on a bone of the tissue that is tied to it, and its moment [N m] about the bone's
@@ -130,6 +132,8 @@ class Dynamics {
   void displacements_of(std::size_t t, const Eigen::VectorXd& dx, Positions& u) const;
   Eigen::VectorXd predicted(std::size_t t, double part) const;
   void find_pressure(std::size_t t);
+  /// All forces in the configuration; y only for lags.
+  void find_forces(const double* y);
   void read_lags(std::size_t t, const double* y);
   void add_loads(double t);
   void add_lines();

@@ -52,6 +52,7 @@ class Equilibrium::Solver {
  public:
   Solver(const Model& model, Dynamics& dynamics);
   bool solve(Eigen::VectorXd& y, double t, double damping);
+  bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
   void restart() { linear_ = make_linear_solver(model_); }
   /// The largest force, or moment by the bone's size, of a vector of block forces [N].
   double largest(const Eigen::VectorXd& f) const;
@@ -327,7 +328,7 @@ bool Equilibrium::Solver::balance(bool soft) {
 
 /// With multipliers where contact penetrates too much.
 bool Equilibrium::Solver::balance_within_bounds() {
-  constexpr int kMostUpdates = 10;
+  constexpr int kMostUpdates = 20;
   if (!balance(false)) return false;
   for (int update = 0; update < kMostUpdates && dynamics_.augment_contact(); ++update)
     if (!balance(false)) return false;
@@ -349,9 +350,16 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
   }
   dynamics_.drop_multipliers();
   residual_at(view(solution_));
-  // Contact that is as stiff as it should be throws what is far from equilibrium back and forth.
-  if (dynamics_.touches() && !balance(true)) view(solution_).setZero();
-  if (!balance_within_bounds()) {
+  const bool touches = dynamics_.touches();
+  bool balanced = balance_within_bounds();
+  if (!balanced && touches) {
+    // From afar, contact that is as stiff as it should be throws iterations back and forth.
+    view(solution_).setZero();
+    if (!balance(true)) view(solution_).setZero();
+    dynamics_.drop_multipliers();
+    balanced = balance_within_bounds();
+  }
+  if (!balanced) {
     ++counts.rejected_newton;
     return false;
   }
@@ -362,12 +370,32 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
   return true;
 }
 
+bool Equilibrium::Solver::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y) {
+  predicted_part_.reset();
+  damping_ = damping;
+  if (!prepare(fem::Tangent::Consistent) && !prepare(fem::Tangent::Projected)) return false;
+  rhs_ = f.head(view(solution_).size());
+  correction_.setZero(rhs_.size());
+  {
+    const Stopwatch watch(seconds);
+    const fem::SolveReport report = linear_->solve(rhs_, correction_);
+    counts.linear_iterations += report.iterations;
+    if (!report.converged || !correction_.allFinite()) return false;
+  }
+  start_ = y;
+  move(correction_, y);
+  return true;
+}
+
 Equilibrium::Equilibrium(const Model& model, Dynamics& dynamics)
     : solver_(std::make_unique<Solver>(model, dynamics)) {}
 Equilibrium::~Equilibrium() = default;
 
 bool Equilibrium::solve(Eigen::VectorXd& y, double t, double damping) {
   return solver_->solve(y, t, damping);
+}
+bool Equilibrium::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y) {
+  return solver_->yield(f, damping, y);
 }
 void Equilibrium::restart() { solver_->restart(); }
 double Equilibrium::residual() const { return solver_->residual(); }

@@ -38,6 +38,11 @@ class Equilibrium {
   /// @param damping  d [1/s²]
   /// @return false when the iteration did not converge; y is as before
   [[nodiscard]] bool solve(Eigen::VectorXd& y, double t, double damping);
+  /// Moves y by (K + d M)⁻¹ f, where the last Dynamics::evaluate() was.
+  /// @param f        block forces [N]
+  /// @param damping  d [1/s²]
+  /// @return false when that can't be solved; y is as before
+  [[nodiscard]] bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
   /// Drops what the linear solver knows of earlier ones.
   void restart();
 

@@ -1,9 +1,12 @@
 #include "sim/load_step.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/free_motion.hpp"
+#include "sim/load_prediction.hpp"
 
 namespace articular::sim {
 namespace {
@@ -34,8 +37,7 @@ class LoadStep {
                                                         : kLooseMotion) {}
 
   LoadStepResult take(Eigen::VectorXd& y) {
-    carry_along(y);
-    look(y, 0);
+    begin(y);
     LoadStepResult result;
     result.loose = find_free_motion(model_, dynamics_);
     result.reached = !result.loose && balance(y);
@@ -44,36 +46,24 @@ class LoadStep {
   }
 
  private:
-  /// Tissue that is tied to one driven bone alone begins where that bone would carry it: as
-  /// stressed as it was, where the motion of its tied nodes alone would crush the elements next to
-  /// them.
-  void carry_along(Eigen::VectorXd& y) {
+  /// The prediction, or, where a linear one is worse, where things were. What contact follows on a
+  /// round surface is curved: there it is.
+  void begin(Eigen::VectorXd& y) {
     dynamics_.evaluate(y.data(), t_before_);
-    const std::vector<Pose> before = dynamics_.configuration().poses;
-    dynamics_.evaluate(y.data(), t_);
-    const std::vector<Pose>& after = dynamics_.configuration().poses;
-    for (const Tissue& tissue : model_.tissues) {
-      const int bone = only_bone(tissue);
-      if (bone < model_.layout.num_rigid) continue;
-      const Pose& a = before[static_cast<std::size_t>(bone)];
-      const Pose& b = after[static_cast<std::size_t>(bone)];
-      for (const NodeRef& node : tissue.nodes) {
-        if (node.bone >= 0) continue;
-        auto x = y.segment<3>(model_.layout.node_x(node.block));
-        x = b.p + b.R * a.R.transpose() * (x - a.p);
-      }
-    }
+    if (contacts_.find) contacts_.find(dynamics_.configuration(), 0);
+    const std::optional<Eigen::VectorXd> predicted =
+        predict_load_step(model_, dynamics_, equilibrium_, t_before_, t_, y);
+    if (predicted && soft_residual(*predicted) < soft_residual(y)) y = *predicted;
+    look(y, 0);
   }
 
-  /// The bone that all tied nodes of a tissue are tied to; -1: none or several.
-  static int only_bone(const Tissue& tissue) {
-    int bone = -1;
-    for (const NodeRef& node : tissue.nodes) {
-      if (node.bone < 0 || node.bone == bone) continue;
-      if (bone >= 0) return -1;
-      bone = node.bone;
-    }
-    return bone;
+  /// The largest unbalanced force with soft contact [N]: stiff contact would hide what else is.
+  double soft_residual(const Eigen::VectorXd& y) {
+    dynamics_.set_soft_contact(true);
+    look(y, 0);
+    dynamics_.set_soft_contact(false);
+    const double residual = equilibrium_.residual();
+    return std::isfinite(residual) ? residual : std::numeric_limits<double>::infinity();
   }
 
   /// Finds contacts at y, for things that will move so far [m], and evaluates there.
@@ -113,12 +103,13 @@ class LoadStep {
     for (int k = 0; k < kMostSolutions; ++k) {
       look(y, motion);
       const double damping = equilibrium_.largest_acceleration() / motion;
+      const Eigen::VectorXd before = dynamics_.forces();
       Eigen::VectorXd trial = y;
       if (!solve(trial, damping) || (contacts_.covered && !contacts_.covered())) {
         motion *= kMotionFall;
         continue;
       }
-      if (result.loose) result.settling_loss += damping * work(y, trial);
+      if (result.loose) result.settling_loss += work(y, before, trial, dynamics_.forces());
       y = trial;
       look(y, 0);
       result.loose = find_free_motion(model_, dynamics_);
@@ -129,19 +120,25 @@ class LoadStep {
     }
   }
 
-  /// ∫ M (u − u₀)·du over one solution, per damping: ½ u·M u [J s²].
-  double work(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {
+  /// Of the unbalanced forces f on the way from y to z, by the trapezoidal rule [J].
+  double work(const Eigen::VectorXd& y, const Eigen::VectorXd& f_y, const Eigen::VectorXd& z,
+              const Eigen::VectorXd& f_z) const {
     const Layout& layout = model_.layout;
     double sum = 0;
-    for (int block = 0; block < layout.num_free_nodes; ++block) {
-      const int row = layout.node_x(block);
-      sum +=
-          dynamics_.mass_of(block) * (after.segment<3>(row) - before.segment<3>(row)).squaredNorm();
-    }
+    const auto add = [&](int row, const Vec3& motion) {
+      sum += 0.5 * (f_y.segment<3>(row) + f_z.segment<3>(row)).dot(motion);
+    };
+    for (int block = 0; block < layout.num_free_nodes; ++block)
+      add(3 * block, z.segment<3>(layout.node_x(block)) - y.segment<3>(layout.node_x(block)));
     for (int r = 0; r < layout.num_rigid; ++r) {
-      const int row = layout.bone_p(r);
-      sum += model_.bones[static_cast<std::size_t>(r)].mass.mass *
-             (after.segment<3>(row) - before.segment<3>(row)).squaredNorm();
+      const int row = 3 * model_.bones[static_cast<std::size_t>(r)].block;
+      add(row, z.segment<3>(layout.bone_p(r)) - y.segment<3>(layout.bone_p(r)));
+      const auto rotation = [&](const Eigen::VectorXd& at) {
+        const double* q = at.data() + layout.bone_q(r);
+        return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+      };
+      const Eigen::AngleAxisd turn(rotation(z) * rotation(y).conjugate());
+      add(row + 3, turn.angle() * turn.axis());
     }
     return sum;
   }

@@ -254,6 +254,36 @@ TEST_F(RunTest, ARunResumedWhileContactsComeAndGoIsTheUninterruptedOne) {
   }
 }
 
+// Where the table stands 1 mm in the block: the summary tells how they were set apart, also that of
+// a resumed run, which goes on from there.
+TEST_F(RunTest, SettlingIsToldAndKeptByCheckpoints) {
+  const std::vector<std::string> overlap = {"body.table.geometry.box.center=0 0 -1.1 mm",
+                                            "duration=30 ms"};
+  int calls = 0;
+  const auto settled = [&](const std::string& name, const std::vector<std::string>& more) {
+    RunOptions options;
+    options.directory = out(name);
+    options.after_settling = [&](const Settling&) { ++calls; };
+    std::vector<std::string> overrides = overlap;
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    run(model(overrides), options);
+    return nlohmann::json::parse(content(out(name) / "summary.json"))["settling"];
+  };
+  const nlohmann::json settling = settled("whole", {});
+  EXPECT_EQ(calls, 1);
+  ASSERT_EQ(settling["overlaps"].size(), 1U);
+  EXPECT_EQ(settling["overlaps"][0]["bodies"], (std::vector<std::string>{"table", "block"}));
+  EXPECT_NEAR(settling["overlaps"][0]["before_m"], 0.9e-3, 1e-9);
+  EXPECT_LT(settling["overlaps"][0]["after_m"], 0.05e-3);
+  EXPECT_NEAR(settling["largest_motion_m"], 0.9e-3, 0.1e-3);
+  EXPECT_TRUE(settled("as it is", {"settling=false"}).is_null());
+  EXPECT_EQ(calls, 1);
+  run_until(0.023, "parts", false, overlap);
+  run_all("parts", true, overlap);
+  EXPECT_EQ(nlohmann::json::parse(content(out("parts") / "summary.json"))["settling"], settling);
+  EXPECT_EQ(content(out("parts") / "history.csv"), content(out("whole") / "history.csv"));
+}
+
 // A checkpoint at 2/3 of something: its time has no end in decimals, and is printed rounded up.
 TEST_F(RunTest, ACheckpointAtATimeThatIsPrintedRoundedUpKeepsItsRow) {
   const std::vector<std::string> overrides = {"output.checkpoint_interval=6.666666666666667 ms",

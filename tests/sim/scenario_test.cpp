@@ -30,6 +30,7 @@ max_iterations = 9
 min_step = "0.2 us"
 
 [detection]
+sides = "one"
 margin = "0.3 mm"
 narrow_test = "gjk"
 
@@ -163,6 +164,7 @@ interpolation = "linear"
 [[contact]]
 bodies = ["disc_left", "mandible"]
 stiffness = "1e11 Pa/m"
+max_penetration = "2 um"
 friction = 0.02
 slip_velocity = "0.1 mm/s"
 damping = "1e4 Pa s/m"
@@ -232,6 +234,7 @@ TEST_F(CompleteScenario, HasItsSettings) {
   EXPECT_EQ(scenario_.integrator.position_tolerance, 3e-7);
   EXPECT_EQ(scenario_.integrator.max_iterations, 9);
   EXPECT_EQ(scenario_.integrator.min_step, 2e-7);
+  EXPECT_EQ(scenario_.detection.sides, Detection::Sides::One);
   EXPECT_EQ(scenario_.detection.margin, 0.3e-3);
   EXPECT_EQ(scenario_.detection.narrow_test, collision::NarrowTest::Gjk);
   EXPECT_EQ(scenario_.output.interval, 20e-3);
@@ -405,6 +408,7 @@ TEST_F(CompleteScenario, HasItsContactsAndProbes) {
   EXPECT_EQ(scenario_.contacts[0].a, "disc_left");
   EXPECT_EQ(scenario_.contacts[0].b, "mandible");
   EXPECT_EQ(scenario_.contacts[0].stiffness, 1e11);
+  EXPECT_EQ(scenario_.contacts[0].max_penetration, 2e-6);
   EXPECT_EQ(scenario_.contacts[0].friction, 0.02);
   EXPECT_EQ(scenario_.contacts[0].slip_velocity, 1e-4);
   EXPECT_EQ(scenario_.contacts[0].damping, 1e4);
@@ -452,8 +456,8 @@ TEST_F(CompleteScenario, KnowsWhereEveryEntryStands) {
     EXPECT_GT(place.line, 0);
     EXPECT_GT(place.column, 0);
   }
-  EXPECT_EQ(scenario_.bodies[0].where.line, 17);
-  EXPECT_EQ(scenario_.bodies[0].mesh->where.line, 20);
+  EXPECT_EQ(scenario_.bodies[0].where.line, 18);
+  EXPECT_EQ(scenario_.bodies[0].mesh->where.line, 21);
   EXPECT_EQ(scenario_.bodies[0].mesh->where.column, 17);
 }
 
@@ -465,6 +469,9 @@ TEST_F(CompleteScenario, RecordsItsSettingsAsJson) {
   EXPECT_EQ(json["contact"][0]["bodies"][1], "mandible");
   EXPECT_EQ(json["integrator"]["scheme"], "tr-bdf2");
   EXPECT_EQ(json["integrator"]["position_tolerance_m"], 3e-7);
+  EXPECT_EQ(json["settling"], true);
+  EXPECT_EQ(json["contact"][0]["max_penetration_m"], 2e-6);
+  EXPECT_EQ(json["detection"]["sides"], "one");
   EXPECT_EQ(json["detection"]["narrow_test"], "gjk");
   EXPECT_EQ(json["output"]["contact_surfaces"], true);
   EXPECT_EQ(json["output"]["checkpoint_interval_s"], 0.1);
