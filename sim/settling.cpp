@@ -33,17 +33,29 @@ std::string names(const Model& model, const ContactModel& contact) {
                      model.bodies[static_cast<std::size_t>(contact.b)].name);
 }
 
+/// Tissue that is tied to the other body belongs there.
+bool are_tied(const Model& model, const ContactModel& contact) {
+  const auto tied = [&](int tissue, int bone) {
+    const BodyModel& body = model.bodies[static_cast<std::size_t>(tissue)];
+    const int index = model.bodies[static_cast<std::size_t>(bone)].bone;
+    return body.tissue >= 0 && index >= 0 &&
+           std::any_of(body.collider->nodes.begin(), body.collider->nodes.end(),
+                       [&](const NodeRef& node) { return node.bone == index; });
+  };
+  return tied(contact.a, contact.b) || tied(contact.b, contact.a);
+}
+
 /// What lies so deep in another body that contact can't tell the way out is no start.
 void refuse_lost_bodies(const Model& model, const std::vector<double>& depths) {
   for (const InitialOverlap& overlap : initial_overlaps(model)) {
     const auto same = [&](const ContactModel& c) { return c.a == overlap.a && c.b == overlap.b; };
     const auto contact = std::find_if(model.contacts.begin(), model.contacts.end(), same);
-    if (overlap.depth <= contact->max_penetration) continue;
+    if (overlap.depth <= contact->max_penetration || are_tied(model, *contact)) continue;
     if (depths[static_cast<std::size_t>(contact - model.contacts.begin())] > 0) continue;
     throw SimulationError(
         fmt::format("{} overlap at the start by {:.3g} mm, at ({:.3f} {:.3f} {:.3f}) mm, and "
-                    "contact can't tell "
-                    "the way out: move one of them, or start as they are with settling = false",
+                    "contact can't tell the way out: move one of them, or start as they are with "
+                    "settling = false",
                     names(model, *contact), 1e3 * overlap.depth, 1e3 * overlap.place.x(),
                     1e3 * overlap.place.y(), 1e3 * overlap.place.z()));
   }

@@ -9,6 +9,17 @@
 #include "sim/contact_hooks.hpp"
 
 namespace articular::sim {
+namespace {
+
+/// Some contact of a dynamic analysis may not penetrate farther than the scenario says.
+bool has_bounds_in_time(const Model& model) {
+  return model.scenario.analysis == Scenario::Analysis::Dynamic &&
+         std::any_of(model.contacts.begin(), model.contacts.end(),
+                     [](const ContactModel& contact) { return contact.is_bounded; });
+}
+
+}  // namespace
+
 double numerical_loss(const State& state, const StoredEnergy& now) {
   const EnergyLedger& l = state.energy;
   return l.start + l.muscle_work + l.load_work + l.motion_work - l.ligament_loss - l.tissue_loss -
@@ -102,8 +113,9 @@ void Stepper::remember_start(const State& state) {
     if (model_.tissues[t].muscle >= 0)
       fibre_energy_before_[t] = dynamics_->energy_per_activation(t);
   contact_energy_before_.clear();
-  for (const ContactSummary& contact : dynamics_->contacts())
-    contact_energy_before_.push_back(contact.energy);
+  if (has_bounds_in_time(model_))
+    for (const ContactSummary& contact : dynamics_->contacts())
+      contact_energy_before_.push_back(contact.energy);
   loads_before_.clear();
   for (const ForceModel& force : model_.forces)
     loads_before_.push_back(start_.position(force.point));
@@ -157,6 +169,7 @@ bool Stepper::try_time_step(State& state, double h) {
 /// Doubles the stiffness of contacts that penetrate by more than they may. What that adds to the
 /// energy stored at the start of the step is a loss below zero.
 bool Stepper::stiffen(State& state) const {
+  if (!has_bounds_in_time(model_)) return false;
   constexpr double kMostStiffening =
       128;  // beyond, Newton's tolerance would be all of the pressure
   const std::vector<ContactSummary> contacts = dynamics_->contacts();

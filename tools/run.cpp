@@ -34,7 +34,7 @@ void print(const sim::Model& model, const sim::Settling& settling) {
                name(contact.a), name(contact.b), 1e3 * overlap.before, 1e3 * overlap.after);
   }
   fmt::print(stderr,
-             "articular: settling moved nodes by up to {:.3g} mm ({} equilibria); "
+             "articular: settling moved nodes by up to {:.3g} mm ({} solutions); "
              "settling = false starts without\n",
              1e3 * settling.largest_motion, settling.solutions);
 }
