@@ -383,13 +383,7 @@ bool Equilibrium::Solver::yield(const Eigen::VectorXd& f, double damping, Eigen:
   damping_ = damping;
   if (!prepare(fem::Tangent::Consistent) && !prepare(fem::Tangent::Projected)) return false;
   rhs_ = f.head(view(solution_).size());
-  correction_.setZero(rhs_.size());
-  {
-    const Stopwatch watch(seconds);
-    const fem::SolveReport report = linear_->solve(rhs_, correction_);
-    counts.linear_iterations += report.iterations;
-    if (!report.converged || !correction_.allFinite()) return false;
-  }
+  if (!solve_linear()) return false;
   start_ = y;
   move(correction_, y);
   return true;
