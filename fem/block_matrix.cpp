@@ -63,10 +63,14 @@ BlockMatrix::BlockMatrix(int num_blocks, std::span<const int> stencils,
 
 int BlockMatrix::slot(int i, int j) const {
   assert(i >= 0 && i < num_blocks());
-  const auto row_start = column_.begin() + row_begin_[i],
-             row_end = column_.begin() + row_begin_[i + 1];
-  const auto found = std::lower_bound(row_start, row_end, j);
-  return found != row_end && *found == j ? static_cast<int>(found - column_.begin()) : -1;
+  // Without branches: which way the search goes can't be foretold.
+  const int* found = column_.data() + row_begin_[i];
+  for (int left = row_begin_[i + 1] - row_begin_[i]; left > 1;) {
+    const int half = left / 2;
+    found += found[half - 1] < j ? half : 0;
+    left -= half;
+  }
+  return *found == j ? static_cast<int>(found - column_.data()) : -1;
 }
 
 void BlockMatrix::set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }

@@ -223,36 +223,57 @@ Mat18x3 opposite(const ContactPatch& patch, const Vec3& direction) {
   return rows;
 }
 
-}  // namespace
-
-Mat18 patch_hessian(const ContactPatch& patch) {
-  const Mat18x3 a = opposite(patch, patch.c);
-  return a * patch.Q * a.transpose();
+/// opposite(patch, direction) * q.
+Vec18 opposite(const ContactPatch& patch, const Vec3& direction, const Vec3& q) {
+  const double height = q.dot(patch.height);
+  const Vec3 reaction = patch.beta * q;
+  Vec18 sum;
+  for (int j = 0; j < 3; ++j) {
+    sum.segment<3>(3 * j) =
+        q[j] * direction + (height * direction.dot(patch.g.col(j))) * patch.normal;
+    sum.segment<3>(9 + 3 * j) = -reaction[j] * direction;
+  }
+  return sum;
 }
 
-Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p) {
+}  // namespace
+
+// Lazy products: matrices of this size are too small for Eigen's general one to pay.
+
+PatchStiffness patch_stiffness(const ContactPatch& patch, double k) {
+  PatchStiffness stiffness;
+  const Mat18x3 a = opposite(patch, patch.c);
+  const Mat3 half = 0.5 * k * patch.Q;
+  stiffness.left.leftCols<3>() = a.lazyProduct(half);
+  stiffness.right.leftCols<3>() = a;
+  return stiffness;
+}
+
+void add_curvature(const ContactPatch& patch, const Vec3& p, PatchStiffness& stiffness) {
+  Mat18x9 &left = stiffness.left, &right = stiffness.right;
   const Vec3 q = patch.Q * p;
   const double tilting = q.dot(patch.height);
-  Vec18 tilt = Vec18::Zero();  // −c·δn
-  for (int j = 0; j < 3; ++j) tilt.segment<3>(3 * j) = patch.e[j] * patch.normal;
-
-  Mat18 H = Mat18::Zero();
-  // ½ of each pair: the transpose is added below.
-  Mat18x3 y = tilt * q.transpose();
-  for (int m = 0; m < 3; ++m)
-    H.block<18, 3>(0, 9 + 3 * m) -= opposite(patch, patch.face_g.col(m)) * q * patch.c.transpose();
+  // Beside δd = c·u: the turning of the normal, −c·δn, and the sweep of the edges.
+  for (int j = 0; j < 3; ++j)
+    left.block<3, 3>(3 * j, 0) += (patch.e[j] * patch.normal) * q.transpose();
   for (int k = 0; k < patch.num_edges; ++k) {
     const PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
-    y += 0.5 * opposite(patch, patch.face_g.col(edge.m)) * edge_integral(edge, p);
+    const Mat3 half = 0.5 * edge_integral(edge, p);
+    left.leftCols<3>() += opposite(patch, patch.face_g.col(edge.m)).lazyProduct(half);
   }
-  H += opposite(patch, patch.c) * y.transpose();
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      H.block<3, 3>(3 * i, 3 * j) +=
+  // −δβ_m c·δf_m
+  for (int m = 0; m < 3; ++m) {
+    left.col(3 + m) = opposite(patch, patch.face_g.col(m), q);
+    right.block<3, 1>(9 + 3 * m, 3 + m) = -patch.c;
+  }
+  // −½ d c·δ²n, beside n·δx_j
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i)
+      left.block<3, 1>(3 * i, 6 + j) =
           tilting *
-          (0.5 * patch.g.col(i).dot(patch.g.col(j)) * patch.normal - patch.e[i] * patch.g.col(j)) *
-          patch.normal.transpose();
-  return H + H.transpose();
+          (0.5 * patch.g.col(i).dot(patch.g.col(j)) * patch.normal - patch.e[i] * patch.g.col(j));
+    right.block<3, 1>(3 * j, 6 + j) = patch.normal;
+  }
 }
 
 }  // namespace articular::sim

@@ -27,7 +27,7 @@
 namespace articular::sim {
 
 using Vec18 = Eigen::Matrix<double, 18, 1>;
-using Mat18 = Eigen::Matrix<double, 18, 18>;
+using Mat18x9 = Eigen::Matrix<double, 18, 9>;
 
 /// An edge of the polygon on β_m = 0: ∫ f dl / |∇β_m| along it is `length` times the mean of f.
 struct PatchEdge {
@@ -86,13 +86,19 @@ inline Vec3 depth_integrals(const ContactPatch& patch) { return patch.Q * patch.
 /// ∂/∂(x0 x1 x2 f0 f1 f2) of Σ p_a G_a for numbers p that stay as they are.
 Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p);
 
-/// w ∫ ∇d ∇dᵀ dA, ∇d by the six nodes: positive semidefinite.
-Mat18 patch_hessian(const ContactPatch& patch);
+/// A stiffness of the six nodes by its factors: left·rightᵀ + right·leftᵀ.
+struct PatchStiffness {
+  Mat18x9 left = Mat18x9::Zero(), right = Mat18x9::Zero();
+};
 
-/// Second derivative of Σ p_a G_a for numbers p that stay as they are: of the depth, and of what
-/// the face's edges sweep as they move over the triangle, made symmetric: summed over the two faces
-/// at an edge that is exact. Indefinite. Left out: the turning of w, and the gradient's missing
-/// part at a rim.
-Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p);
+/// k w ∫ ∇d ∇dᵀ dA, ∇d by the six nodes: positive semidefinite.
+PatchStiffness patch_stiffness(const ContactPatch& patch, double k);
+
+/// Adds the second derivative of Σ p_a G_a for numbers p that stay as they are: of the depth, and
+/// of what the face's edges sweep as they move over the triangle, made symmetric: summed over the
+/// two faces at an edge that is exact. Indefinite. Left out: the turning of w, and the gradient's
+/// missing part at a rim.
+/// @param stiffness  made by patch_stiffness()
+void add_curvature(const ContactPatch& patch, const Vec3& p, PatchStiffness& stiffness);
 
 }  // namespace articular::sim

@@ -413,13 +413,14 @@ void ContactResponse::add_stiffness(const Configuration& configuration, fem::Tan
     const auto& triangles = side.triangles.surface.faces;
     for (const DirectionMoment::Patch& entry : directions_[d].patches()) {
       if (!carries(directions_[d], entry.triangle, triangles)) continue;
-      Mat18 H = Mat18::Zero();
-      if (k > 0) H += k * patch_hessian(entry.patch);
+      PatchStiffness stiffness = patch_stiffness(entry.patch, k);
       if (tangent == fem::Tangent::Consistent)
-        H += patch_curvature(entry.patch,
-                             scale.stiffness * nodal_pressures(directions_[d], entry, triangles));
-      sim::add_stiffness(model_, configuration,
-                         nodes_of(side.triangles, side.faces, entry.triangle, entry.face), H, A);
+        add_curvature(entry.patch,
+                      scale.stiffness * nodal_pressures(directions_[d], entry, triangles),
+                      stiffness);
+      add_product(model_, configuration,
+                  nodes_of(side.triangles, side.faces, entry.triangle, entry.face), stiffness.left,
+                  stiffness.right, A);
     }
   }
 }
@@ -523,41 +524,73 @@ void ContactResponse::add_node_stiffness(std::size_t d, const Configuration& con
   }
 }
 
+namespace {
+
+void sort_unique(std::vector<int>& blocks) {
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+}
+
+/// Blocks of three nodes, each once.
+void find_blocks(const Model& model, const Collider& collider, int face, std::vector<int>& blocks) {
+  blocks.clear();
+  for (const int node : collider.surface.faces.col(face))
+    append_blocks(model, collider.nodes[static_cast<std::size_t>(node)], blocks);
+  sort_unique(blocks);
+}
+
+bool lacks(const fem::BlockMatrix& A, std::span<const int> rows, std::span<const int> columns) {
+  return std::any_of(rows.begin(), rows.end(), [&](int i) {
+    return std::any_of(columns.begin(), columns.end(), [&](int j) { return A.slot(i, j) < 0; });
+  });
+}
+
+/// Pointwise, a candidate couples the triangle with the face; each is coupled in itself as part of
+/// an element or a bone.
+void append_missing_pairs(const Model& model, const CandidateList& list, const Collider& triangles,
+                          const Collider& faces, const fem::BlockMatrix& A, Stencils& stencils) {
+  std::vector<int> of_triangle, of_face;
+  for (const ContactCandidate& candidate : list.pairs) {
+    find_blocks(model, triangles, candidate.triangle, of_triangle);
+    find_blocks(model, faces, candidate.face, of_face);
+    if (!lacks(A, of_triangle, of_face)) continue;
+    of_triangle.insert(of_triangle.end(), of_face.begin(), of_face.end());
+    sort_unique(of_triangle);
+    stencils.blocks.insert(stencils.blocks.end(), of_triangle.begin(), of_triangle.end());
+    stencils.close();
+  }
+}
+
+/// An average couples all around its node.
+void append_missing_averages(const Model& model, const CandidateList& list,
+                             const Collider& triangles, const Collider& faces,
+                             const fem::BlockMatrix& A, Stencils& stencils) {
+  std::vector<std::vector<int>> blocks_of_node(static_cast<std::size_t>(triangles.X.cols()));
+  for (const ContactCandidate& candidate : list.pairs)
+    for (const int a : triangles.surface.faces.col(candidate.triangle))
+      for (const NodeRef* node : nodes_of(triangles, faces, candidate.triangle, candidate.face))
+        append_blocks(model, *node, blocks_of_node[static_cast<std::size_t>(a)]);
+  for (std::vector<int>& blocks : blocks_of_node) {
+    if (blocks.empty()) continue;
+    sort_unique(blocks);
+    if (!lacks(A, blocks, blocks)) continue;
+    stencils.blocks.insert(stencils.blocks.end(), blocks.begin(), blocks.end());
+    stencils.close();
+  }
+}
+
+}  // namespace
+
 void append_missing_stencils(const Model& model, const std::vector<CandidateList>& candidates,
                              const fem::BlockMatrix& A, Stencils& stencils) {
-  std::vector<std::vector<int>> blocks_of_node;
   for (const CandidateList& list : candidates) {
     const ContactModel& contact = model.contacts[static_cast<std::size_t>(list.contact)];
-    const auto body = [&](bool second) {
-      return static_cast<std::size_t>(second ? contact.b : contact.a);
+    const auto collider = [&](bool second) -> const Collider& {
+      return *model.bodies[static_cast<std::size_t>(second ? contact.b : contact.a)].collider;
     };
-    const Collider& triangles = *model.bodies[body(list.reversed)].collider;
-    const Collider& faces = *model.bodies[body(!list.reversed)].collider;
-    // Pointwise, a candidate couples its own six nodes; an average, all around its node.
-    const bool by_node = contact.averaged || contact.law.acts();
-    blocks_of_node.assign(
-        by_node ? static_cast<std::size_t>(triangles.X.cols()) : list.pairs.size(), {});
-    for (std::size_t k = 0; k < list.pairs.size() && !by_node; ++k)
-      for (const NodeRef* node :
-           nodes_of(triangles, faces, list.pairs[k].triangle, list.pairs[k].face))
-        append_blocks(model, *node, blocks_of_node[k]);
-    for (const ContactCandidate& candidate : list.pairs)
-      for (const int a : triangles.surface.faces.col(candidate.triangle)) {
-        if (!by_node) break;
-        for (const NodeRef* node : nodes_of(triangles, faces, candidate.triangle, candidate.face))
-          append_blocks(model, *node, blocks_of_node[static_cast<std::size_t>(a)]);
-      }
-    for (std::vector<int>& blocks : blocks_of_node) {
-      if (blocks.empty()) continue;
-      std::sort(blocks.begin(), blocks.end());
-      blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-      const bool missing = std::any_of(blocks.begin(), blocks.end(), [&](int i) {
-        return std::any_of(blocks.begin(), blocks.end(), [&](int j) { return A.slot(i, j) < 0; });
-      });
-      if (!missing) continue;
-      stencils.blocks.insert(stencils.blocks.end(), blocks.begin(), blocks.end());
-      stencils.close();
-    }
+    const auto append =
+        contact.averaged || contact.law.acts() ? append_missing_averages : append_missing_pairs;
+    append(model, list, collider(list.reversed), collider(!list.reversed), A, stencils);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "sim/system_matrix.hpp"
 
+#include <algorithm>
+
 namespace articular::sim {
 namespace {
 
@@ -33,49 +35,90 @@ void add_stiffness(const Model& model, const Configuration& configuration, const
   }
 }
 
-void add_stiffness(const Model& model, const Configuration& configuration,
-                   const std::array<const NodeRef*, 6>& nodes,
-                   const Eigen::Matrix<double, 18, 18>& stiffness, fem::BlockMatrix& A) {
-  // Column blocks of the gathered matrix: one a free node, two a bone.
-  std::array<int, 12> block{};
-  std::array<int, 6> place{};  // of a node's first block; -1: it does not move with unknowns
+namespace {
+
+/// The blocks that six nodes move with, each once; a bone's two stand together.
+struct Gathered {
+  static constexpr int kMost = 12;
+  std::array<int, kMost> block{};
   int count = 0;
-  for (std::size_t k = 0; k < 6; ++k) {
-    const NodeRef& node = *nodes[k];
-    place[k] = -1;
-    if (!is_unknown(model, node)) continue;
+  std::array<int, 6> place{};  // of a node's first block; -1: it does not move with unknowns
+
+  Gathered(const Model& model, const std::array<const NodeRef*, 6>& nodes) {
+    for (std::size_t k = 0; k < 6; ++k) place[k] = add(model, *nodes[k]);
+  }
+
+ private:
+  int add(const Model& model, const NodeRef& node) {
+    if (!is_unknown(model, node)) return -1;
     for (int b = 0; b < count && node.bone >= 0; ++b)
-      if (block[static_cast<std::size_t>(b)] == node.block) place[k] = b;
-    if (place[k] >= 0) continue;
-    place[k] = count;
+      if (block[static_cast<std::size_t>(b)] == node.block) return b;
+    const int first = count;
     block[static_cast<std::size_t>(count++)] = node.block;
     if (node.bone >= 0) block[static_cast<std::size_t>(count++)] = node.block + 1;
+    return first;
   }
-  // Right factor J: a bone's node moves by δp − [r]× δθ; then the left factor Jᵀ.
-  std::array<Mat3, 6> lever;
-  for (std::size_t k = 0; k < 6; ++k)
-    if (nodes[k]->bone >= 0 && place[k] >= 0) lever[k] = skew(configuration.lever(*nodes[k]));
-  Eigen::Matrix<double, 18, Eigen::Dynamic, Eigen::ColMajor, 18, 36> right(18, 3 * count);
-  right.setZero();
+};
+
+using GatheredFactor = Eigen::Matrix<double, 3 * Gathered::kMost, 9>;
+
+/// A bone's node moves by δp − [r]× δθ, and so its force turns the bone by [r]× f.
+GatheredFactor gathered_factor(const Configuration& configuration,
+                               const std::array<const NodeRef*, 6>& nodes, const Gathered& gathered,
+                               const SixNodeFactor& factor) {
+  GatheredFactor sum;
+  sum.topRows(3 * gathered.count).setZero();
   for (std::size_t k = 0; k < 6; ++k) {
-    if (place[k] < 0) continue;
-    const auto columns = stiffness.middleCols<3>(3 * static_cast<Eigen::Index>(k));
-    right.middleCols<3>(3 * place[k]) += columns;
-    if (nodes[k]->bone >= 0) right.middleCols<3>(3 * place[k] + 3) -= columns * lever[k];
+    const int place = gathered.place[k];
+    if (place < 0) continue;
+    const auto rows = factor.middleRows<3>(3 * static_cast<Eigen::Index>(k));
+    sum.middleRows<3>(3 * place) += rows;
+    if (nodes[k]->bone >= 0)
+      sum.middleRows<3>(3 * place + 3) += skew(configuration.lever(*nodes[k])).lazyProduct(rows);
   }
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 36, 36> both(3 * count,
-                                                                                      3 * count);
-  both.setZero();
-  for (std::size_t k = 0; k < 6; ++k) {
-    if (place[k] < 0) continue;
-    const auto rows = right.middleRows<3>(3 * static_cast<Eigen::Index>(k));
-    both.middleRows<3>(3 * place[k]) += rows;
-    if (nodes[k]->bone >= 0) both.middleRows<3>(3 * place[k] + 3) += lever[k] * rows;
-  }
-  for (int i = 0; i < count; ++i)
-    for (int j = 0; j < count; ++j)
-      A.block(A.slot(block[static_cast<std::size_t>(i)], block[static_cast<std::size_t>(j)])) +=
-          both.block<3, 3>(3 * i, 3 * j);
+  return sum;
+}
+
+/// A += left·rightᵀ + right·leftᵀ, in whose rows the blocks stand.
+template <class Factor>
+void add_gathered(const Gathered& gathered, const Factor& left, const Factor& right,
+                  fem::BlockMatrix& A) {
+  using Half =
+      Eigen::Matrix<double, Factor::RowsAtCompileTime, Factor::RowsAtCompileTime, Eigen::ColMajor,
+                    Factor::MaxRowsAtCompileTime, Factor::MaxRowsAtCompileTime>;
+  const Half half = left.lazyProduct(right.transpose());
+  for (int i = 0; i < gathered.count; ++i)
+    for (int j = i; j < gathered.count; ++j) {
+      const int row = gathered.block[static_cast<std::size_t>(i)],
+                column = gathered.block[static_cast<std::size_t>(j)];
+      const Mat3 K = half.template block<3, 3>(3 * i, 3 * j) +
+                     half.template block<3, 3>(3 * j, 3 * i).transpose();
+      A.block(A.slot(row, column)) += K;
+      if (i != j) A.block(A.slot(column, row)) += K.transpose();
+    }
+}
+
+}  // namespace
+
+void add_product(const Model& model, const Configuration& configuration,
+                 const std::array<const NodeRef*, 6>& nodes, const SixNodeFactor& left,
+                 const SixNodeFactor& right, fem::BlockMatrix& A) {
+  const Gathered gathered(model, nodes);
+  if (gathered.count == 0) return;
+  const bool free = std::all_of(nodes.begin(), nodes.end(), [&](const NodeRef* node) {
+    return node->bone < 0 || !is_unknown(model, *node);
+  });
+  // Three or six free nodes stand as they are.
+  if (free && gathered.count == 6) return add_gathered(gathered, left, right, A);
+  if (free && gathered.count == 3 && gathered.place[2] == 2)
+    return add_gathered(gathered, left.topRows<9>(), right.topRows<9>(), A);
+  if (free && gathered.count == 3 && gathered.place[3] == 0)
+    return add_gathered(gathered, left.bottomRows<9>(), right.bottomRows<9>(), A);
+  const GatheredFactor l = gathered_factor(configuration, nodes, gathered, left),
+                       r = gathered_factor(configuration, nodes, gathered, right);
+  if (gathered.count == 5)  // three free nodes and a bone
+    return add_gathered(gathered, l.topRows<15>(), r.topRows<15>(), A);
+  add_gathered(gathered, l.topRows(3 * gathered.count), r.topRows(3 * gathered.count), A);
 }
 
 }  // namespace articular::sim

@@ -29,10 +29,11 @@ struct Stencils {
 void add_stiffness(const Model& model, const Configuration& configuration, const NodeRef& i,
                    const NodeRef& j, const Mat3& stiffness, fem::BlockMatrix& A);
 
-/// A += the 18 x 18 stiffness of six nodes. Nodes of one bone are gathered first: its two blocks
-/// are written once.
-void add_stiffness(const Model& model, const Configuration& configuration,
-                   const std::array<const NodeRef*, 6>& nodes,
-                   const Eigen::Matrix<double, 18, 18>& stiffness, fem::BlockMatrix& A);
+using SixNodeFactor = Eigen::Matrix<double, 18, 9>;
+
+/// A += left·rightᵀ + right·leftᵀ, a stiffness of six nodes, carried over to bones.
+void add_product(const Model& model, const Configuration& configuration,
+                 const std::array<const NodeRef*, 6>& nodes, const SixNodeFactor& left,
+                 const SixNodeFactor& right, fem::BlockMatrix& A);
 
 }  // namespace articular::sim

@@ -72,6 +72,19 @@ Vec18 gradient(const Pair& pair) {
   return patch_gradient(patch, kStiffness / kNodeArea * depth_integrals(patch));
 }
 
+using Mat18 = Eigen::Matrix<double, 18, 18>;
+
+Mat18 product(const PatchStiffness& stiffness) {
+  const Mat18 half = stiffness.left * stiffness.right.transpose();
+  return half + half.transpose();
+}
+Mat18 patch_hessian(const ContactPatch& patch) { return product(patch_stiffness(patch, 1)); }
+Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p) {
+  PatchStiffness stiffness = patch_stiffness(patch, 0);
+  add_curvature(patch, p, stiffness);
+  return product(stiffness);
+}
+
 /// ∇G_a, one a column.
 Eigen::Matrix<double, 18, 3> node_gradients(const ContactPatch& patch) {
   Eigen::Matrix<double, 18, 3> gradients;
