@@ -5,6 +5,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 option(ARTICULAR_WERROR "Treat warnings in our own code as errors" ON)
+option(ARTICULAR_SLOW_TESTS "Build and run the tests labelled slow (a minute each with sanitizers) and render (graphics drivers leak)" ON)
 
 function(articular_settings target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -31,6 +32,9 @@ endfunction()
 # a ctest, or all of them one.
 function(articular_test name)
   cmake_parse_arguments(arg "IN_ONE_PROCESS" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  if(NOT ARTICULAR_SLOW_TESTS AND arg_LABELS MATCHES "slow|render")
+    return()
+  endif()
   add_executable(${name} ${arg_SOURCES})
   articular_settings(${name})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})

@@ -1,0 +1,6 @@
+include(CMakeFindDependencyMacro)
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
+find_dependency(Eigen3 3.4)
+find_dependency(SuiteSparse)
+find_dependency(Threads)
+include(${CMAKE_CURRENT_LIST_DIR}/articular-fem-targets.cmake)

@@ -1,0 +1,10 @@
+include(CMakeFindDependencyMacro)
+find_dependency(articular-fem)
+find_dependency(articular-collision)
+find_dependency(fmt)
+find_dependency(nlohmann_json)
+find_dependency(tomlplusplus)
+find_dependency(SUNDIALS 6.4)
+find_dependency(VTK 9.1 COMPONENTS CommonCore CommonDataModel CommonExecutionModel IOXMLParser IOXML
+  IOLegacy IOGeometry FiltersCore)
+include(${CMAKE_CURRENT_LIST_DIR}/articular-sim-targets.cmake)
