@@ -31,6 +31,10 @@ constexpr int kMostRounds = 4;
 /// Iterations with contact as stiff as it should be, before it is tried softer: they take a dozen
 /// where they get there at all.
 constexpr int kMostFromAfar = 20;
+/// Where they don't, the line search says so early: this often in a row it takes but this part of
+/// the correction.
+constexpr int kMostShort = 3;
+constexpr double kShort = 0.05;
 
 struct FreeKinsol {
   void operator()(void* memory) const { KINFree(&memory); }
@@ -96,6 +100,8 @@ class Equilibrium::Solver {
   double t_ = 0, damping_ = 0;
   fem::Tangent tangent_ = fem::Tangent::Consistent;  // of the last matrix
   bool known_ = false;                               // r_ belongs to u_
+  bool from_afar_ = false;                           // contact is stiff, and things may be far off
+  int short_in_a_row_ = 0;                           // corrections of which little was taken
   std::optional<double> predicted_part_;  // of the pressures that the last correction took
   std::exception_ptr error_;
   sundials::Context context_;
@@ -262,6 +268,8 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
     const double s = self.line_search(self.correction_);
     self.predicted_part_ = s;
     view(x) = s * self.correction_;
+    self.short_in_a_row_ = s <= kShort ? self.short_in_a_row_ + 1 : 0;
+    if (self.from_afar_ && self.short_in_a_row_ == kMostShort) return 1;
     self.iterations.push_back({residual, s * self.largest_displacement(self.correction_), s});
     return 0;
   });
@@ -358,9 +366,12 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
   // From afar, contact that is as stiff as it should be throws iterations back and forth.
   const bool touches = dynamics_.touches();
   const int most = model_.scenario.integrator.max_iterations;
+  from_afar_ = touches;
+  short_in_a_row_ = 0;
   set_most_iterations(touches ? std::min(most, kMostFromAfar) : most);
   bool balanced = balance_within_bounds();
   set_most_iterations(most);
+  from_afar_ = false;
   if (!balanced && touches) {
     view(solution_).setZero();
     if (!balance(true)) view(solution_).setZero();
