@@ -244,57 +244,89 @@ std::vector<Positions> ContactResponse::nodal_forces() const {
   return forces;
 }
 
-std::vector<ContactSummary> ContactResponse::summaries(const Configuration& configuration) const {
-  std::vector<ContactSummary> result(model_.contacts.size());
-  std::vector<double> weight(result.size(), 0);           // ∫ p dA
-  std::vector<Vec3> moment(result.size(), Vec3::Zero());  // about the origin
-  for (std::size_t d = 0; d < directions_.size(); ++d) {
-    const DirectionMoment& direction = directions_[d];
-    const CandidateList& list = (*candidates_)[d];
-    const auto c = static_cast<std::size_t>(list.contact);
-    const Sides side = sides(d);
-    ContactSummary& sum = result[c];
-    for (const int node : direction.nodes) {
+/// Adds the patches that count to a summary whose center is still Σ p x dA, and moment, about the
+/// origin. What nodes have is summed over their patches too, so that parts add up to the whole.
+template <class Counts>
+void ContactResponse::add_to_summary(std::size_t d, const Configuration& configuration,
+                                     Counts&& counts, ContactSummary& sum, Vec3& moment) const {
+  const DirectionMoment& direction = directions_[d];
+  const CandidateList& list = (*candidates_)[d];
+  const Sides side = sides(d);
+  const double share = contact_of(d).share;
+  const auto& triangles = side.triangles.surface.faces;
+  for (const DirectionMoment::Patch& entry : direction.patches()) {
+    if (!carries(direction, entry.triangle, triangles) || !counts(entry)) continue;
+    const Mat3 x = corners(configuration, side.triangles, entry.triangle);
+    const Vec3 area = nodal_areas(entry.patch);
+    for (int i = 0; i < 3; ++i) {
+      const int node = triangles(i, entry.triangle);
       if (!(direction.pressure[node] > 0)) continue;
-      const Vec3 x = configuration.position(side.triangles.nodes[static_cast<std::size_t>(node)]);
-      const double p = direction.pressure[node], W = direction.area[node];
-      sum.area += W * model_.contacts[c].share;
-      sum.max_pressure = std::max(sum.max_pressure, p / model_.contacts[c].share);
-      const double damping =
-          direction.drag.empty() ? 0 : direction.drag[static_cast<std::size_t>(node)].pressure;
-      if (!(direction.point_stiffness > 0))
-        sum.energy +=
-            0.5 * (p - damping) * std::max(0.0, direction.depth[node]) * direction.measure[node];
+      if (!(area[i] > 0)) continue;
+      sum.area += area[i] * share;
+      if (!(direction.point_stiffness > 0)) {  // of the node's energy its part by area
+        const double damping =
+            direction.drag.empty() ? 0 : direction.drag[static_cast<std::size_t>(node)].pressure;
+        sum.energy += 0.5 * (direction.pressure[node] - damping) *
+                      std::max(0.0, direction.depth[node]) * direction.measure[node] * area[i] /
+                      direction.area[node];
+      }
+      sum.max_pressure = std::max(sum.max_pressure, direction.pressure[node] / share);
       if (direction.depth[node] > sum.max_depth) {
         sum.max_depth = direction.depth[node];
-        sum.deepest = x;
+        sum.deepest = x.col(i);
       }
     }
-    for (const DirectionMoment::Patch& entry : direction.patches()) {
-      const auto& triangles = side.triangles.surface.faces;
-      if (!carries(direction, entry.triangle, triangles)) continue;
-      sum.max_point_depth = std::max(sum.max_point_depth, entry.patch.depth_max);
-      sum.energy +=
-          0.5 * direction.point_stiffness * entry.patch.depth.dot(depth_integrals(entry.patch));
-      const Vec3 q = entry.patch.Q * nodal_pressures(direction, entry, triangles);
-      weight[c] += q.sum();
-      sum.center += corners(configuration, side.triangles, entry.triangle) * q;
-      if (side.triangle_body == side.face_body) continue;
-      const Vec18 on_nodes = forces_on_nodes(direction, entry, triangles);
-      for (int i = 0; i < 3; ++i) {
-        const Vec3 force = (list.reversed ? -1 : 1) * on_nodes.segment<3>(3 * i);
-        const int node = triangles(i, entry.triangle);
-        const Vec3 x = configuration.position(side.triangles.nodes[static_cast<std::size_t>(node)]);
-        sum.force += force;
-        moment[c] += x.cross(force);
-      }
+    sum.max_point_depth = std::max(sum.max_point_depth, entry.patch.depth_max);
+    sum.energy +=
+        0.5 * direction.point_stiffness * entry.patch.depth.dot(depth_integrals(entry.patch));
+    const Vec3 q = entry.patch.Q * nodal_pressures(direction, entry, triangles);
+    sum.normal_force += q.sum();
+    sum.center += x * q;
+    if (side.triangle_body == side.face_body) continue;
+    const Vec18 on_nodes = forces_on_nodes(direction, entry, triangles);
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 force = (list.reversed ? -1 : 1) * on_nodes.segment<3>(3 * i);
+      sum.force += force;
+      moment += x.col(i).cross(force);
     }
   }
-  for (std::size_t c = 0; c < result.size(); ++c) {
-    if (weight[c] > 0) result[c].center /= weight[c];
-    result[c].moment = moment[c] - result[c].center.cross(result[c].force);
+}
+
+namespace {
+
+void refer_to_center(const Vec3& moment_about_origin, ContactSummary& sum) {
+  if (sum.normal_force > 0) sum.center /= sum.normal_force;
+  sum.moment = moment_about_origin - sum.center.cross(sum.force);
+}
+
+}  // namespace
+
+std::vector<ContactSummary> ContactResponse::summaries(const Configuration& configuration) const {
+  std::vector<ContactSummary> result(model_.contacts.size());
+  std::vector<Vec3> moment(result.size(), Vec3::Zero());  // about the origin
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    const auto c = static_cast<std::size_t>((*candidates_)[d].contact);
+    add_to_summary(
+        d, configuration, [](const DirectionMoment::Patch&) { return true; }, result[c], moment[c]);
   }
+  for (std::size_t c = 0; c < result.size(); ++c) refer_to_center(moment[c], result[c]);
   return result;
+}
+
+ContactSummary ContactResponse::summary_through(const Configuration& configuration, int contact,
+                                                int body, const std::vector<char>& selected) const {
+  ContactSummary sum;
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    if ((*candidates_)[d].contact != contact) continue;
+    const bool is_triangle = sides(d).triangle_body == body;
+    const auto counts = [&](const DirectionMoment::Patch& entry) {
+      return selected[static_cast<std::size_t>(is_triangle ? entry.triangle : entry.face)] != 0;
+    };
+    add_to_summary(d, configuration, counts, sum, moment);
+  }
+  refer_to_center(moment, sum);
+  return sum;
 }
 
 namespace {

@@ -65,6 +65,7 @@ struct ContactSummary {
   Vec3 center = Vec3::Zero();   // ∫ p x dA / ∫ p dA [m]; where nothing carries, the origin
   Vec3 moment = Vec3::Zero();   // about that centre [N m]
   double area = 0;              // [m²] rest area of the nodes that carry
+  double normal_force = 0;      // ∫ p dA over it [N]
   double max_pressure = 0;      // [Pa] at a node
   double max_depth = 0;         // [m] mean depth at a node
   Vec3 deepest = Vec3::Zero();  // that node [m]
@@ -119,6 +120,10 @@ class ContactResponse {
 
   /// One a contact of the model.
   std::vector<ContactSummary> summaries(const Configuration& configuration) const;
+  /// What one contact carries through a part of a body's surface.
+  /// @param selected  by face of the body's collider; the body is one of the contact's two
+  ContactSummary summary_through(const Configuration& configuration, int contact, int body,
+                                 const std::vector<char>& selected) const;
   /// Contact force at each node of each collider [N] (by body), for output.
   std::vector<Positions> nodal_forces() const;
   /// By body, over the nodes and faces of its collider; empty without one. For output.
@@ -132,6 +137,9 @@ class ContactResponse {
   void find_patches(std::size_t direction, const Configuration& configuration);
   const FlatTriangle& face_now(const Configuration& configuration, const Collider& faces, int face);
   void find_patches_of_nodes(std::size_t direction);
+  template <class Counts>
+  void add_to_summary(std::size_t direction, const Configuration& configuration, Counts&& counts,
+                      ContactSummary& sum, Vec3& moment) const;
   template <class Gradient>
   void add_rank_one(std::size_t direction, int node, const Configuration& configuration,
                     double factor, Gradient&& gradient, fem::BlockMatrix& A);

@@ -61,6 +61,12 @@ class Dynamics {
     return candidates_ != nullptr ? contact_.summaries(configuration_)
                                   : std::vector<ContactSummary>(model_.contacts.size());
   }
+  /// See ContactResponse::summary_through().
+  ContactSummary contact_through(int contact, int body, const std::vector<char>& selected) const {
+    return candidates_ != nullptr
+               ? contact_.summary_through(configuration_, contact, body, selected)
+               : ContactSummary();
+  }
 
   /// ẏ from the forces of the last evaluate().
   void rate(const double* y, double* y_dot) const;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -35,6 +36,7 @@ std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model)
       for (auto& name : vector("moment", "N m")) names.push_back(name);
       for (auto& name : vector("center", length)) names.push_back(name);
       names.push_back(scalar("area", length + "^2"));
+      names.push_back(scalar("mean_pressure", "Pa"));
       names.push_back(scalar("max_pressure", "Pa"));
       names.push_back(scalar("max_penetration", length));
       for (auto& name : vector("max_penetration_at", length)) names.push_back(name);
@@ -45,8 +47,16 @@ std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model)
       std::vector<std::string> names = {scalar("force", "N"), scalar("length", length)};
       if (model.lines[static_cast<std::size_t>(probe.line)].muscle >= 0)
         names.push_back(scalar("activation", "-"));
+      else
+        names.push_back(scalar("strain", "-"));
       return names;
     }
+    case Probe::Kind::Share:
+      return {scalar("share", "-")};
+    case Probe::Kind::Joint:
+      return {scalar("flexion", "deg"),           scalar("abduction", "deg"),
+              scalar("internal_rotation", "deg"), scalar("lateral", length),
+              scalar("anterior", length),         scalar("distraction", length)};
     case Probe::Kind::Energy: {
       std::vector<std::string> names;
       for (const char* what : {"kinetic", "elastic", "gravity", "contact", "lines", "muscle_work",
@@ -67,19 +77,24 @@ std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model)
 
 /// What the pair of a contact probe carries, with force and moment on the first body named.
 ContactSummary summary_of(const ProbeModel& probe, const Model& model, const Stepper& stepper) {
-  const std::vector<ContactSummary> contacts = stepper.dynamics().contacts();
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const ContactModel& contact = model.contacts[c];
-    if (contact.a == probe.body && contact.b == probe.other) return contacts[c];
-    if (contact.b == probe.body && contact.a == probe.other) {
-      ContactSummary swapped = contacts[c];
-      swapped.force *= -1;
-      swapped.moment *= -1;
-      return swapped;
-    }
+  const Dynamics& dynamics = stepper.dynamics();
+  const auto pair =
+      std::find_if(model.contacts.begin(), model.contacts.end(), [&](const ContactModel& contact) {
+        return std::minmax(contact.a, contact.b) == std::minmax(probe.body, probe.other);
+      });
+  if (pair == model.contacts.end()) return {};
+  const auto c = static_cast<std::size_t>(pair - model.contacts.begin());
+  ContactSummary sum = probe.faces.empty()
+                           ? dynamics.contacts()[c]
+                           : dynamics.contact_through(static_cast<int>(c), probe.body, probe.faces);
+  if (pair->a != probe.body) {
+    sum.force *= -1;
+    sum.moment *= -1;
   }
-  return {};
+  return sum;
 }
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();  // an empty cell
 
 }  // namespace
 
@@ -90,13 +105,33 @@ History::History(const Model& model) : model_(model), columns_{"time [s]"} {
 
 void History::record(const State& state, const Stepper& stepper) {
   values_.assign(1, state.t);
-  for (const ProbeModel& probe : model_.probes) append(probe, state, stepper);
+  std::vector<std::size_t> begin;  // of each probe's columns
+  for (const ProbeModel& probe : model_.probes) {
+    begin.push_back(values_.size());
+    append(probe, state, stepper);
+  }
+  for (std::size_t p = 0; p < model_.probes.size(); ++p)
+    if (model_.probes[p].given.kind == Probe::Kind::Share)
+      values_[begin[p]] = share_of(model_.probes[p], begin);
   fmt::format_to(std::back_inserter(rows_), "{:.12g}", state.t);
   for (std::size_t i = 1; i < values_.size(); ++i) {
     rows_ += ',';
     if (!std::isnan(values_[i])) fmt::format_to(std::back_inserter(rows_), "{:.9g}", values_[i]);
   }
   rows_ += '\n';
+}
+
+/// Of the row so far, in which each probe with a force begins with it.
+double History::share_of(const ProbeModel& probe, const std::vector<std::size_t>& begin) const {
+  const auto along = [&](const std::vector<int>& probes) {
+    double sum = 0;
+    for (const int p : probes)
+      sum += Eigen::Map<const Vec3>(&values_[begin[static_cast<std::size_t>(p)]])
+                 .dot(probe.given.direction);
+    return sum;
+  };
+  const double whole = along(probe.whole);
+  return whole != 0 ? along(probe.part) / whole : kNothing;
 }
 
 void History::append(const ProbeModel& probe, const State& state, const Stepper& stepper) {
@@ -116,12 +151,13 @@ void History::append(const ProbeModel& probe, const State& state, const Stepper&
     case Probe::Kind::Contact: {
       const ContactSummary sum = summary_of(probe, model_, stepper);
       // Places where nothing is.
-      const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+      const Vec3 nowhere = Vec3::Constant(kNothing);
       push(sum.force);
       push(sum.moment);
       push(sum.area > 0 ? Vec3(unit * sum.center) : nowhere);
       values_.insert(values_.end(),
-                     {sum.area * unit * unit, sum.max_pressure, sum.max_depth * unit});
+                     {sum.area * unit * unit, sum.area > 0 ? sum.normal_force / sum.area : 0,
+                      sum.max_pressure, sum.max_depth * unit});
       push(sum.area > 0 ? Vec3(unit * sum.deepest) : nowhere);
       values_.push_back(sum.max_point_depth * unit);
       return;
@@ -130,7 +166,28 @@ void History::append(const ProbeModel& probe, const State& state, const Stepper&
       const LineState& line = stepper.dynamics().lines()[static_cast<std::size_t>(probe.line)];
       values_.insert(values_.end(), {line.tension, unit * line.length});
       const int muscle = model_.lines[static_cast<std::size_t>(probe.line)].muscle;
-      if (muscle >= 0) values_.push_back(now.activation[muscle]);
+      const int ligament = model_.lines[static_cast<std::size_t>(probe.line)].ligament;
+      values_.push_back(
+          muscle >= 0
+              ? now.activation[muscle]
+              : line.length / model_.ligaments[static_cast<std::size_t>(ligament)].slack_length -
+                    1);
+      return;
+    }
+    case Probe::Kind::Share:
+      values_.push_back(kNothing);  // record() puts it here when the row is there
+      return;
+    case Probe::Kind::Joint: {
+      const auto pose = [&](const JointFrame& frame) {
+        return now.poses[static_cast<std::size_t>(frame.bone)];
+      };
+      const JointCoordinates q =
+          joint_coordinates(probe.proximal, pose(probe.proximal), probe.distal, pose(probe.distal),
+                            probe.given.is_right);
+      constexpr double kDegree = std::numbers::pi / 180;
+      values_.insert(values_.end(),
+                     {q.flexion / kDegree, q.abduction / kDegree, q.internal_rotation / kDegree,
+                      q.lateral * unit, q.anterior * unit, q.distraction * unit});
       return;
     }
     case Probe::Kind::Energy: {

@@ -26,6 +26,7 @@ class History {
 
  private:
   void append(const ProbeModel& probe, const State& state, const Stepper& stepper);
+  double share_of(const ProbeModel& probe, const std::vector<std::size_t>& begin) const;
 
   const Model& model_;
   std::vector<std::string> columns_;

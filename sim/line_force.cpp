@@ -23,6 +23,11 @@ void muscle_tension(const MuscleModel& muscle, double activation, LineState& s) 
   const Muscle& m = muscle.given;
   const double l0 = muscle.optimal_length, speed = m.max_velocity * l0;
   const double a = std::clamp(activation, 0.0, 1.0);
+  if (!m.force_length) {
+    s.tension_per_activation = m.max_force;
+    s.tension = s.active = a * m.max_force;
+    return;
+  }
   const ValueSlope fl = active_force_length(s.length, l0, m.tendon_ratio);
   const ValueSlope fv = force_velocity(s.rate / speed);
   const ValueSlope fp = passive_force_length(s.length, l0, m.max_length_ratio);

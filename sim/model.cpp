@@ -266,7 +266,7 @@ class Builder {
                     static_cast<int>(model_.lines.size())};
       const double rest =
           active_force_length(line.start_length, m.optimal_length, muscle.tendon_ratio).value;
-      if (rest < kLeastForceAtRest)
+      if (muscle.force_length && rest < kLeastForceAtRest)
         model_.warnings.push_back(
             prefix(muscle.where) +
             fmt::format("muscle `{}` can give only {:.1f} % of its active force at rest (length "
@@ -334,6 +334,42 @@ class Builder {
                                    probe.given.name, probe.given.body, probe.given.other));
   }
 
+  /// By face of the collider: its middle, at the start, lies in the region.
+  std::vector<char> faces_in(const Probe& probe, int body) const {
+    const Collider& collider = *model_.bodies[static_cast<std::size_t>(body)].collider;
+    const RegionTest test(*probe.region, model_, geometry_);
+    std::vector<char> inside;
+    for (const auto& face : collider.surface.faces.colwise())
+      inside.push_back(test.contains(collider.X(Eigen::all, face).rowwise().mean(), true) ? 1 : 0);
+    if (std::find(inside.begin(), inside.end(), 1) == inside.end())
+      throw InputError(probe.region->where,
+                       fmt::format("[[probe]] `{}`: no face of `{}` has its middle in the region",
+                                   probe.name, probe.body));
+    return inside;
+  }
+
+  std::vector<int> probes_called(const std::vector<std::string>& names) const {
+    std::vector<int> found;
+    for (const std::string& name : names)
+      for (std::size_t p = 0; p < scenario().probes.size(); ++p)
+        if (scenario().probes[p].name == name) found.push_back(static_cast<int>(p));
+    return found;
+  }
+
+  void make_joint(ProbeModel& probe) const {
+    const auto bone_of = [&](const JointSide& side) {
+      return model_.bodies[static_cast<std::size_t>(body_index(side.body))].bone;
+    };
+    const auto rest_of = [&](int bone) {
+      return model_.bones[static_cast<std::size_t>(bone)].rest;
+    };
+    const Probe& given = probe.given;
+    const int proximal = bone_of(given.proximal), distal = bone_of(given.distal);
+    probe.proximal =
+        proximal_frame(given.proximal, given.is_right, proximal, rest_of(proximal), given.where);
+    probe.distal = distal_frame(given.distal, given.is_right, distal, rest_of(distal), given.where);
+  }
+
   void make_probes() {
     for (const Probe& probe : scenario().probes) {
       ProbeModel p;
@@ -342,6 +378,10 @@ class Builder {
       if (!probe.body.empty()) p.body = body_index(probe.body);
       if (!probe.other.empty()) p.other = body_index(probe.other);
       if (probe.kind == Probe::Kind::Attachment) check_tied(p);
+      if (probe.region) p.faces = faces_in(probe, p.body);
+      if (probe.kind == Probe::Kind::Joint) make_joint(p);
+      p.part = probes_called(probe.part);
+      p.whole = probes_called(probe.whole);
       if (probe.kind == Probe::Kind::Line)
         for (std::size_t l = 0; l < model_.lines.size(); ++l)
           if (model_.lines[l].name == probe.line) p.line = static_cast<int>(l);

@@ -8,6 +8,7 @@
 #include "fem/dashpots.hpp"
 #include "fem/relaxation.hpp"
 #include "sim/contact_friction.hpp"
+#include "sim/joint_coordinates.hpp"
 #include "sim/rigid_body.hpp"
 #include "sim/scenario.hpp"
 #include "sim/tissue_elements.hpp"
@@ -132,6 +133,9 @@ struct ProbeModel {
   Probe given;
   WeightedPoint point;  // Point
   int body = -1, other = -1, line = -1;
+  std::vector<char> faces;       // Contact with a region: by face of the body's collider
+  std::vector<int> part, whole;  // Share: probes
+  JointFrame proximal, distal;   // Joint
 };
 
 /// Where everything stands in the state vector y:

@@ -191,6 +191,7 @@ struct Muscle {
   double tendon_ratio = 0;           // tendon length / optimal length (Peck)
   double passive_fraction = 0.015;   // passive force at maximal length / max_force
   double max_velocity = 10;          // [optimal lengths / s]
+  bool force_length = true;          // false: activation times max_force, at any length and speed
   double activation_time = 0.015;    // [s]
   double deactivation_time = 0.050;  // [s]
   Curve excitation;                  // 0..1; empty = 0
@@ -236,15 +237,29 @@ struct ContactPair {
   std::optional<double> max_penetration = {};  // [m]; default: see ContactModel
 };
 
+/// A body's axes at the start for joint coordinates, see joint_coordinates.hpp.
+struct JointSide {
+  std::string body;
+  Vec3 origin = Vec3::Zero();   // [m], world
+  Vec3 lateral = Vec3::Zero();  // unit vectors, world, not parallel
+  Vec3 up = Vec3::Zero();
+};
+
 struct Probe {
-  enum class Kind { Point, Angle, Contact, Line, Energy, Reaction, Attachment };
+  enum class Kind { Point, Angle, Contact, Line, Energy, Reaction, Attachment, Share, Joint };
   std::string name;
   Kind kind = Kind::Point;
-  Anchor anchor;              // Point
-  std::string body;           // Angle, Reaction, Contact (first body), Attachment (the tissue)
-  std::string other;          // Contact: second body; Attachment: the bone
-  Vec3 axis = Vec3::UnitX();  // Angle: rotation of a rigid body about this unit axis [rad]
-  std::string line;           // Line: a muscle or ligament: force and length
+  Anchor anchor;                   // Point
+  std::string body;                // Angle, Reaction, Contact (first body), Attachment (tissue)
+  std::string other;               // Contact: second body; Attachment: the bone
+  std::optional<Region> region;    // Contact: only through this part of the first body's surface
+  Vec3 axis = Vec3::UnitX();       // Angle: rotation of a rigid body about this unit axis [rad]
+  std::string line;                // Line: a muscle or ligament: force and length
+  std::vector<std::string> part;   // Share: probes with forces, of which it divides the sums
+  std::vector<std::string> whole;  // along a direction
+  Vec3 direction = Vec3::Zero();   // unit vector
+  JointSide proximal, distal;      // Joint
+  bool is_right = true;            // Joint: of the right side of the body
   Location where;
 };
 

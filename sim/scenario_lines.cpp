@@ -41,6 +41,11 @@ std::vector<Anchor> read_path(const TableReader& line, const Context& context) {
 void read_dynamics(const TableReader& table, Muscle& muscle) {
   table.may("passive_fraction", muscle.passive_fraction, as_number(kNotNegative));
   table.may("max_velocity", muscle.max_velocity, as_quantity(kRate, kPositive));
+  table.may("force_length", muscle.force_length, read_boolean);
+  if (!muscle.force_length)
+    table.refuse(
+        {"passive_fraction", "max_velocity", "optimal_length", "max_length_ratio", "tendon_ratio"},
+        "with force_length = false the force depends on activation alone");
   table.may("activation_time", muscle.activation_time, as_quantity(kTime, kPositive));
   table.may("deactivation_time", muscle.deactivation_time, as_quantity(kTime, kPositive));
 }
@@ -54,7 +59,7 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
   table.exactly_one({"path", "tissue"});
   if (const Node* tissue = table.find("tissue")) {
     table.refuse({"max_force", "optimal_length", "max_length_ratio", "tendon_ratio",
-                  "passive_fraction", "max_velocity"},
+                  "passive_fraction", "max_velocity", "force_length"},
                  "the muscle is made of a tissue's fibres, whose material says how they pull");
     const Body& body = read_body_reference(*tissue, context);
     if (!body.material || !body.material->fibres)
@@ -149,7 +154,7 @@ Vec3 placed(const double (&point_mm)[3], const Placement& placement) {
 void append_table(const Node& node, const Context& context, std::vector<Muscle>& muscles) {
   const TableReader table(node, "[[muscle_table]]",
                           {"file", "place", "bodies", "passive_fraction", "max_velocity",
-                           "activation_time", "deactivation_time", "excitation"});
+                           "force_length", "activation_time", "deactivation_time", "excitation"});
   const Node& file = table.at("file");
   const std::vector<MuscleRow> rows =
       read_muscle_table(read_path(file, context.folder), file.where);
@@ -211,7 +216,7 @@ std::vector<Muscle> read_muscles(const TableReader& document, const Context& con
     const TableReader table(node, label(node, "muscle"),
                             {"name", "mirror", "tissue", "path", "max_force", "optimal_length",
                              "max_length_ratio", "tendon_ratio", "passive_fraction", "max_velocity",
-                             "activation_time", "deactivation_time", "excitation"});
+                             "force_length", "activation_time", "deactivation_time", "excitation"});
     for (const Side side : read_sides(table)) {
       Context here = context;
       here.side = side;

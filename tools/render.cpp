@@ -110,7 +110,7 @@ int render(const RenderOptions& options) {
   // 1. What is there, and is it what was asked for?
   check(options);
   const ViewAxes axes = view_axes(options.view, options.up);
-  const Series series = open_series(options.run);
+  const Series series = open_series(options.run, options.only);
   const std::vector<FrameEntry> pictures = chosen_frames(series, options);
   std::optional<Movie> movie;
   if (!options.movie.empty()) movie.emplace(options.movie, options.width, options.height);
@@ -161,6 +161,12 @@ void add_render_command(CLI::App& app, int& exit_code) {
       ->type_name("DIR");
   command.add_option("--focus", options->focus, "Body that shall fill the picture [all of them]")
       ->type_name("BODY");
+  command
+      .add_option("--only", options->only,
+                  "Draw these parts alone, e.g. disc_left,disc_right, or the surface that a body "
+                  "touches with, skull:contact")
+      ->delimiter(',')
+      ->type_name("PART,...");
   command.add_option("--view", options->view,
                      "front, back, left, right, top, bottom [three-quarter]");
   command.add_option("--up", options->up,

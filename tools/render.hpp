@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -11,13 +12,14 @@ class App;
 namespace articular::tools {
 
 struct RenderOptions {
-  std::filesystem::path run;    // its folder, or the .pvd itself
-  std::string field;            // "": von_mises, else contact_pressure, else the first there is
-  std::optional<int> frame;     // by number; none: the last
-  bool all = false;             // every frame
-  std::filesystem::path movie;  // .ogv or .mp4; "": none
-  std::filesystem::path out;    // folder of the pictures; "": render/ in the run's folder
-  std::string focus;            // the body that fills the picture; "": all of them
+  std::filesystem::path run;      // its folder, or the .pvd itself
+  std::string field;              // "": von_mises, else contact_pressure, else the first there is
+  std::optional<int> frame;       // by number; none: the last
+  bool all = false;               // every frame
+  std::filesystem::path movie;    // .ogv or .mp4; "": none
+  std::filesystem::path out;      // folder of the pictures; "": render/ in the run's folder
+  std::string focus;              // the body that fills the picture; "": all of them
+  std::vector<std::string> only;  // parts that are drawn; empty: all but contact surfaces
   std::string view = "three-quarter";
   std::string up =
       "z";  // axis; z: x left, y posterior (jaw). y: x left or medial, z anterior (knee)
@@ -27,7 +29,8 @@ struct RenderOptions {
 /// Draws frames of a run into OUT/NAME_000123.png, and says on stdout what was written. Every
 /// picture and movie appears whole or not at all.
 /// @return 0
-/// @throws InputError for a folder without frames, an unknown field, frame, view or movie format;
+/// @throws InputError for a folder without frames, an unknown field, part, frame, view or movie
+/// format;
 ///         SystemError when there is no display to be had, or a file can't be written
 int render(const RenderOptions& options);
 

@@ -114,6 +114,15 @@ void check_focus(const Series& series, const std::string& focus) {
     throw sim::InputError({series.directory.string()}, unknown_name("part", focus, names));
 }
 
+void check_only(const fs::path& file, const std::vector<std::string>& only,
+                const std::vector<sim::SeriesEntry>& entries) {
+  std::set<std::string> names;
+  for (const sim::SeriesEntry& entry : entries) names.insert(entry.part);
+  for (const std::string& name : only)
+    if (!names.contains(name))
+      throw sim::InputError({file.string()}, "--only: " + unknown_name("part", name, names));
+}
+
 void add_points(vtkPointSet& set, ViewFit& fit) {
   for (vtkIdType i = 0; i < set.GetNumberOfPoints(); ++i) {
     Vec3 p;
@@ -137,12 +146,18 @@ void add_values(const Part& part, Survey& survey) {
 
 }  // namespace
 
-Series open_series(const fs::path& run) {
+Series open_series(const fs::path& run, const std::vector<std::string>& only) {
   const fs::path file = series_file(run);
   Series series{file.stem().string(), file.parent_path(), {}};
   std::map<int, FrameEntry> frames;
-  for (sim::SeriesEntry& entry : sim::read_series(file)) {
-    if (sim::is_contact_surface(entry)) continue;  // its body is drawn
+  std::vector<sim::SeriesEntry> entries = sim::read_series(file);
+  check_only(file, only, entries);
+  const auto is_drawn = [&](const sim::SeriesEntry& entry) {
+    if (only.empty()) return !sim::is_contact_surface(entry);  // its body is drawn
+    return std::find(only.begin(), only.end(), entry.part) != only.end();
+  };
+  for (sim::SeriesEntry& entry : entries) {
+    if (!is_drawn(entry)) continue;
     FrameEntry& frame = frames[entry.index];
     frame.index = entry.index;
     frame.time = entry.time;

@@ -32,8 +32,9 @@ struct Series {
 };
 
 /// @param run  the folder of a run with one .pvd in it, or the .pvd itself
-/// @throws InputError when there is none, or no frame in it
-Series open_series(const std::filesystem::path& run);
+/// @param only  parts to keep, contact surfaces among them; empty: all but contact surfaces
+/// @throws InputError when there is none, or no frame in it, or no part of a name in `only`
+Series open_series(const std::filesystem::path& run, const std::vector<std::string>& only = {});
 
 enum class PartKind { Tissue, Bone, Lines };
 

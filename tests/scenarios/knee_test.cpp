@@ -63,6 +63,13 @@ TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
     EXPECT_GT(results.column(std::string("above_meniscus_") + side + ".force.z [N]").back(), 10);
     EXPECT_LT(results.column(std::string("below_meniscus_") + side + ".area [mm^2]").back(), 1000);
   }
+  const double menisci =
+      sum_of(results, {"above_meniscus_medial.force.z [N]", "above_meniscus_lateral.force.z [N]"});
+  EXPECT_NEAR(results.last("menisci_above.share [-]"), menisci / contact, 1e-7);
+  // Flexion is what both holds leave out.
+  EXPECT_LT(std::abs(results.last("knee.flexion [deg]")), 1e-9);
+  EXPECT_LT(std::abs(results.last("knee.abduction [deg]")), 2);
+  EXPECT_GT(std::abs(results.last("knee.abduction [deg]")), 1e-6);
   EXPECT_LT(results.summary().at("max_penetration_m").get<double>(), 0.02e-3);
 }
 

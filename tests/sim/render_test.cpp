@@ -63,7 +63,8 @@ void write_run(const std::filesystem::path& folder) {
                          {{"displacement", "m", x - rest}, {"contact_pressure", "Pa", pressure}},
                          {{"von_mises", "Pa", stress}}},
                         i, time);
-    writer.write_contact_surface({"disc", x, triangles, {}, {}}, i, time);
+    writer.write_contact_surface(
+        {"disc", x, triangles, {{"contact_pressure", "Pa", 2 * pressure}}, {}}, i, time);
     writer.write_bone({"skull", plate, triangles, {}, {}}, i, time);
     writer.write_bone({"jaw", x, triangles, {}, {}}, i, time);
     Positions muscle(3, 3), ligament(3, 2);
@@ -179,12 +180,51 @@ TEST_F(Drawing, ContactSurfacesAreNotDrawnOverTheirBodies) {
     for (const sim::SeriesEntry& part : frame.parts) names.push_back(part.part);
     EXPECT_EQ(names, (std::vector<std::string>{"disc", "skull", "jaw", "lines"}));
   }
+  for (const FrameEntry& frame : open_series(run_.path(), {"disc:contact"}).frames) {
+    ASSERT_EQ(frame.parts.size(), 1U);
+    EXPECT_EQ(frame.parts[0].part, "disc:contact");
+  }
+}
+
+// The tissue alone fills the picture, in its colours; muscles are gone. Of a contact surface the
+// face's pressure counts, which its own body does not show.
+TEST_F(Drawing, OnePartAloneIsDrawnInItsColours) {
+  options_.only = {"disc"};
+  options_.field = "contact_pressure";
+  options_.view = "bottom";
+  const std::string said = print_of(options_);
+  EXPECT_NE(said.find("contact_pressure 0 to 2 kPa"), std::string::npos) << said;
+  EXPECT_EQ(num_red_pixels(*read_png(run_ / "render/tiny_000002.png")), 0);
+  options_.only = {"disc:contact", "jaw"};
+  EXPECT_NE(print_of(options_).find("contact_pressure 0 to 4 kPa"), std::string::npos);
+}
+
+/// Of an Ogg file: packets of all pages [RFC 3533, 6], and whether the last page says that it is
+/// it.
+std::pair<int, bool> packets_of(const std::string& ogg) {
+  constexpr std::size_t kFlags = 5, kNumSegments = 26, kSegments = 27;
+  int packets = 0;
+  bool ends = false;
+  for (std::size_t page = 0; page + kSegments < ogg.size();) {
+    EXPECT_EQ(ogg.compare(page, 4, "OggS"), 0);
+    ends = (ogg[page + kFlags] & 4) != 0;
+    const auto count = static_cast<unsigned char>(ogg[page + kNumSegments]);
+    std::size_t size = kSegments + count;
+    for (std::size_t s = 0; s < count; ++s) {
+      const auto length = static_cast<unsigned char>(ogg[page + kSegments + s]);
+      packets += length < 255 ? 1 : 0;
+      size += length;
+    }
+    page += size;
+  }
+  return {packets, ends};
 }
 
 TEST_F(Drawing, AMovieIsWrittenWholeAndWithoutPictures) {
   options_.movie = run_ / "tiny.ogv";
   render(options_);
-  EXPECT_EQ(content(options_.movie).rfind("OggS", 0), 0U);
+  constexpr int kTheoraHeaders = 3, kFrames = 3;
+  EXPECT_EQ(packets_of(content(options_.movie)), std::pair(kTheoraHeaders + kFrames, true));
   EXPECT_FALSE(std::filesystem::exists(run_ / "tiny.ogv.part"));
   EXPECT_FALSE(std::filesystem::exists(run_ / "render"));
 }
@@ -276,6 +316,12 @@ TEST(Render, WhatIsNotThereIsNamedWithWhatIs) {
   EXPECT_EQ(
       error([](auto& o) { o.focus = "disk"; }),
       name + ": unknown part `disk`, did you mean `disc`? There are: disc, jaw, lines, skull");
+  EXPECT_EQ(error([](auto& o) {
+              o.only = {"disc", "jar"};
+            }),
+            (run / "tiny.pvd").string() +
+                ": --only: unknown part `jar`, did you mean `jaw`? There are: disc, disc:contact, "
+                "jaw, lines, skull");
   EXPECT_EQ(error([](auto& o) { o.view = "behind"; }).rfind("--view: unknown view `behind`", 0),
             0U);
   EXPECT_EQ(error([](auto& o) { o.up = "x"; }), "--up: unknown axis `x`; expected y or z");
