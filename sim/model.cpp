@@ -10,6 +10,7 @@
 #include "sim/body_collider.hpp"
 #include "sim/body_geometry.hpp"
 #include "sim/contact_model.hpp"
+#include "sim/flat_elements.hpp"
 #include "sim/muscle_law.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/region.hpp"
@@ -101,7 +102,19 @@ class Builder {
       model_.bodies[b].tissue = static_cast<int>(model_.tissues.size());
       model_.tissues.push_back(
           make_tissue(model_, geometry_, surface_.back(), static_cast<int>(b)));
+      tell_flat_elements(scenario().bodies[b], mesh);
     }
+  }
+
+  void tell_flat_elements(const Body& body, const MeshData& mesh) {
+    const FlatElements flat = flat_elements(mesh.X, mesh.tets);
+    if (flat.count == 0) return;
+    const Vec3 mm = 1e3 * flat.flattest;
+    model_.warnings.push_back(
+        prefix(body.where) +
+        fmt::format("{} of {} tetrahedra of `{}` are flat (height below 1/50 of an edge), the "
+                    "flattest at ({:.3f} {:.3f} {:.3f}) mm: pressures beside them are uneven",
+                    flat.count, mesh.tets.cols(), body.name, mm.x(), mm.y(), mm.z()));
   }
 
   /// Attached nodes to their bones, the others to blocks of their own; then the bones' blocks.
