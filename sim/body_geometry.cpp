@@ -20,6 +20,10 @@ const double kFacingLimit = std::cos(80 * std::numbers::pi / 180);
 
 MeshData load(const MeshFile& file) {
   MeshData mesh;
+  std::error_code error;
+  if (!file.made_by.empty() && !std::filesystem::exists(file.path, error))
+    throw InputError(file.where, file.path.string() + ": no such mesh file; it is made by `" +
+                                     file.made_by + "`");
   try {
     mesh = read_mesh(file.path, file.unit);
   } catch (const InputError& error) {

@@ -124,6 +124,7 @@ struct MeshFile {
   std::optional<int> faces;    // contact: simplify to about this many triangles (after `facing`)
   std::optional<Vec3> facing;  // unit vector, in the placed frame
   std::optional<Continuation> continued;  // contact: after `faces`
+  std::string made_by;                    // what makes the file: told when it is missing
   Location where;
 };
 

@@ -33,15 +33,17 @@ Continuation read_continuation(const Node& node) {
 
 /// @param is_contact_mesh  allows `facing`, `faces` and `continued`
 MeshFile read_mesh(const Node& node, const std::filesystem::path& folder, bool is_contact_mesh) {
-  const auto table = is_contact_mesh
-                         ? TableReader(node, "contact mesh",
-                                       {"file", "unit", "place", "facing", "faces", "continued"})
-                         : TableReader(node, "mesh", {"file", "unit", "place"});
+  const auto table =
+      is_contact_mesh
+          ? TableReader(node, "contact mesh",
+                        {"file", "unit", "place", "made_by", "facing", "faces", "continued"})
+          : TableReader(node, "mesh", {"file", "unit", "place", "made_by"});
   MeshFile mesh;
   mesh.where = table.at("file").where;
   mesh.path = read_path(table.at("file"), folder);
   table.may("unit", mesh.unit, read_length_unit);
   table.may("place", mesh.placement, read_placement);
+  table.may("made_by", mesh.made_by, read_text);
   table.may("facing", mesh.facing, read_direction);
   constexpr int kFewestFaces = 20, kMostFaces = 10'000'000;
   table.may("faces", mesh.faces,

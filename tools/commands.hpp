@@ -4,13 +4,14 @@ namespace CLI {
 class App;
 }
 
-/// The subcommands that work on scenario files, and `collide`, which works on meshes. Each sets
-/// exit_code when it ran; errors are thrown.
+/// The subcommands that work on scenario files, and `collide` and `mesh`, which work on meshes.
+/// Each sets exit_code when it ran; errors are thrown.
 namespace articular::tools {
 
 void add_run_command(CLI::App& app, int& exit_code);
 void add_check_command(CLI::App& app, int& exit_code);
 void add_explain_command(CLI::App& app, int& exit_code);
 void add_collide_command(CLI::App& app, int& exit_code);
+void add_mesh_command(CLI::App& app, int& exit_code);
 
 }  // namespace articular::tools

@@ -1,10 +1,12 @@
-// The knee of scenarios/knee/, with coarse elements and a fifth of the load.
+// The knees of scenarios/knee/, with coarse elements and part of the load.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "sim/run.hpp"
+#include "tests/scenarios/program.hpp"
 #include "tests/scenarios/scenario_results.hpp"
 #include "tools/anatomy.hpp"
 #include "tools/anatomy_knee.hpp"
@@ -72,6 +74,47 @@ TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
   EXPECT_GT(std::abs(results.last("knee.abduction [deg]")), 1e-6);
   EXPECT_LT(results.summary().at("max_penetration_m").get<double>(), 0.02e-3);
 }
+
+#ifdef ARTICULAR_MESHER
+TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
+  if (std::getenv("ARTICULAR_DATA") == nullptr)
+    GTEST_SKIP() << "ARTICULAR_DATA does not name the folder with the real anatomy";
+  const TemporaryFolder folder;
+  const ProgramResult made =
+      run_shell(folder, "out=$PWD; SIZE='4 mm' ARTICULAR='" ARTICULAR_PROGRAM
+                        "' '" ARTICULAR_SOURCE_DIR "/tools/subject-knee' \"$out/meshes\"");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  sim::Scenario scenario = sim::read_scenario(
+      std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee/subject-axial-load.toml",
+      {"duration=0.1 s"});
+  for (sim::Body& body : scenario.bodies)
+    if (!body.mesh->made_by.empty())
+      body.mesh->path = folder.path() / "meshes" / body.mesh->path.filename();
+  sim::RunOptions options;
+  options.directory = folder.path() / "out";
+  sim::run(sim::build_model(scenario), options);
+  const ScenarioResults results(options.directory);
+  EXPECT_EQ(results.summary().at("outcome"), "finished");
+  const double load = 100;  // [N]
+  EXPECT_NEAR(results.column("femur.force.y [N]").back(), load, 1e-3 * load);
+  EXPECT_LT(std::abs(results.column("femur.force.x [N]").back()), 1e-3 * load);
+  EXPECT_LT(std::abs(results.column("femur.force.z [N]").back()), 1e-3 * load);
+  const double contact =
+      sum_of(results, {"cartilage_medial.force.y [N]", "cartilage_lateral.force.y [N]",
+                       "above_meniscus_medial.force.y [N]", "above_meniscus_lateral.force.y [N]"});
+  // Ligaments press the joint together too; both menisci carry.
+  const double ligaments = sum_of(
+      results, {"acl_anterior.force [N]", "acl_posterior.force [N]", "pcl_anterior.force [N]",
+                "pcl_posterior.force [N]", "lcl_anterior.force [N]", "lcl_superior.force [N]",
+                "lcl_posterior.force [N]", "mcl_anterior.force [N]", "mcl_intermediate.force [N]",
+                "mcl_posterior.force [N]"});
+  EXPECT_LT(contact, load + ligaments);
+  EXPECT_GT(contact, load);
+  for (const char* side : {"medial", "lateral"})
+    EXPECT_GT(results.column(std::string("above_meniscus_") + side + ".force.y [N]").back(), 10);
+  EXPECT_LT(results.summary().at("max_penetration_m").get<double>(), 0.02e-3);
+}
+#endif
 
 }  // namespace
 }  // namespace articular

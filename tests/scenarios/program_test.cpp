@@ -192,13 +192,29 @@ TEST(Program, HelpNamesEverySubcommand) {
   const ProgramResult result = run_program(folder, "--help");
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
-  for (const char* command : {"run", "check", "explain", "render", "collide", "anatomy"}) {
+  for (const char* command : {"run", "check", "explain", "render", "collide", "mesh", "anatomy"}) {
     EXPECT_NE(result.out.find(std::string("  ") + command + " "), std::string::npos) << command;
     const ProgramResult own = run_program(folder, std::string(command) + " --help");
     EXPECT_EQ(own.exit_code, 0) << command;
     EXPECT_NE(own.out.find("Usage: articular " + std::string(command)), std::string::npos)
         << own.out;
   }
+}
+
+TEST(Program, AMissingMeshIsToldWithWhatMakesIt) {
+  const TemporaryFolder folder;
+  folder.file("s.toml",
+              "duration = \"1 s\"\n"
+              "[[body]]\n"
+              "name = \"bone\"\n"
+              "kind = \"fixed\"\n"
+              "mesh = { file = \"bone.vtp\", made_by = \"tools/make-bone\" }\n");
+  const ProgramResult result = run_program(folder, "check s.toml");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("s.toml:5:"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("no such mesh file; it is made by `tools/make-bone`"),
+            std::string::npos)
+      << result.err;
 }
 
 }  // namespace
