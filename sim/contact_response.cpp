@@ -244,15 +244,37 @@ std::vector<Positions> ContactResponse::nodal_forces() const {
   return forces;
 }
 
-/// Adds the patches that count to a summary whose center is still Σ p x dA, and moment, about the
-/// origin. What nodes have is summed over their patches too, so that parts add up to the whole.
+/// A summary on its way: its center is still Σ p x dA.
+struct ContactResponse::SummarySums {
+  ContactSummary summary;
+  Vec3 moment = Vec3::Zero();            // about the origin
+  Eigen::VectorXd through_a, through_b;  // normal force through each face of the two bodies [N]
+};
+
+ContactResponse::SummarySums ContactResponse::no_summary(std::size_t c) const {
+  const auto faces = [&](int body) {
+    return Eigen::VectorXd::Zero(
+        model_.bodies[static_cast<std::size_t>(body)].collider->surface.faces.cols());
+  };
+  SummarySums sums;
+  sums.through_a = faces(model_.contacts[c].a);
+  sums.through_b = faces(model_.contacts[c].b);
+  return sums;
+}
+
+/// Adds the patches that count. What nodes have is summed over their patches too, so that parts add
+/// up to the whole.
 template <class Counts>
 void ContactResponse::add_to_summary(std::size_t d, const Configuration& configuration,
-                                     Counts&& counts, ContactSummary& sum, Vec3& moment) const {
+                                     Counts&& counts, SummarySums& sums) const {
+  ContactSummary& sum = sums.summary;
   const DirectionMoment& direction = directions_[d];
   const CandidateList& list = (*candidates_)[d];
   const Sides side = sides(d);
   const double share = contact_of(d).share;
+  const bool is_self = side.triangle_body == side.face_body;
+  Eigen::VectorXd& through_triangle = list.reversed && !is_self ? sums.through_b : sums.through_a;
+  Eigen::VectorXd& through_face = list.reversed || is_self ? sums.through_a : sums.through_b;
   const auto& triangles = side.triangles.surface.faces;
   for (const DirectionMoment::Patch& entry : direction.patches()) {
     if (!carries(direction, entry.triangle, triangles) || !counts(entry)) continue;
@@ -282,51 +304,63 @@ void ContactResponse::add_to_summary(std::size_t d, const Configuration& configu
     const Vec3 q = entry.patch.Q * nodal_pressures(direction, entry, triangles);
     sum.normal_force += q.sum();
     sum.center += x * q;
-    if (side.triangle_body == side.face_body) continue;
+    through_triangle[entry.triangle] += q.sum();
+    through_face[entry.face] += q.sum() / -entry.patch.cosine;  // it acts along the face's normal
+    if (is_self) continue;
     const Vec18 on_nodes = forces_on_nodes(direction, entry, triangles);
     for (int i = 0; i < 3; ++i) {
       const Vec3 force = (list.reversed ? -1 : 1) * on_nodes.segment<3>(3 * i);
       sum.force += force;
-      moment += x.col(i).cross(force);
+      sums.moment += x.col(i).cross(force);
     }
   }
 }
 
-namespace {
-
-void refer_to_center(const Vec3& moment_about_origin, ContactSummary& sum) {
+ContactSummary ContactResponse::finished(SummarySums sums, std::size_t c,
+                                         const Configuration& configuration) const {
+  ContactSummary& sum = sums.summary;
   if (sum.normal_force > 0) sum.center /= sum.normal_force;
-  sum.moment = moment_about_origin - sum.center.cross(sum.force);
+  sum.moment = sums.moment - sum.center.cross(sum.force);
+  const auto add_faces = [&](const Eigen::VectorXd& through, int body) {
+    const Collider& collider = *model_.bodies[static_cast<std::size_t>(body)].collider;
+    for (Eigen::Index f = 0; f < through.size(); ++f) {
+      if (!(through[f] > 0)) continue;
+      const Mat3 x = corners(configuration, collider, static_cast<int>(f));
+      const double area = 0.5 * flat_triangle(x).twice_area;
+      if (area > 0) sum.max_face_pressure = std::max(sum.max_face_pressure, through[f] / area);
+    }
+  };
+  add_faces(sums.through_a, model_.contacts[c].a);
+  add_faces(sums.through_b, model_.contacts[c].b);
+  return sum;
 }
 
-}  // namespace
-
 std::vector<ContactSummary> ContactResponse::summaries(const Configuration& configuration) const {
-  std::vector<ContactSummary> result(model_.contacts.size());
-  std::vector<Vec3> moment(result.size(), Vec3::Zero());  // about the origin
-  for (std::size_t d = 0; d < directions_.size(); ++d) {
-    const auto c = static_cast<std::size_t>((*candidates_)[d].contact);
+  std::vector<SummarySums> sums;
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) sums.push_back(no_summary(c));
+  for (std::size_t d = 0; d < directions_.size(); ++d)
     add_to_summary(
-        d, configuration, [](const DirectionMoment::Patch&) { return true; }, result[c], moment[c]);
-  }
-  for (std::size_t c = 0; c < result.size(); ++c) refer_to_center(moment[c], result[c]);
+        d, configuration, [](const DirectionMoment::Patch&) { return true; },
+        sums[static_cast<std::size_t>((*candidates_)[d].contact)]);
+  std::vector<ContactSummary> result;
+  for (std::size_t c = 0; c < sums.size(); ++c)
+    result.push_back(finished(std::move(sums[c]), c, configuration));
   return result;
 }
 
 ContactSummary ContactResponse::summary_through(const Configuration& configuration, int contact,
                                                 int body, const std::vector<char>& selected) const {
-  ContactSummary sum;
-  Vec3 moment = Vec3::Zero();
+  const auto c = static_cast<std::size_t>(contact);
+  SummarySums sums = no_summary(c);
   for (std::size_t d = 0; d < directions_.size(); ++d) {
     if ((*candidates_)[d].contact != contact) continue;
     const bool is_triangle = sides(d).triangle_body == body;
     const auto counts = [&](const DirectionMoment::Patch& entry) {
       return selected[static_cast<std::size_t>(is_triangle ? entry.triangle : entry.face)] != 0;
     };
-    add_to_summary(d, configuration, counts, sum, moment);
+    add_to_summary(d, configuration, counts, sums);
   }
-  refer_to_center(moment, sum);
-  return sum;
+  return finished(std::move(sums), c, configuration);
 }
 
 namespace {

@@ -61,16 +61,17 @@ std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider
 
 /// What one contact pair carries; force and moment on body a, of a body with itself none.
 struct ContactSummary {
-  Vec3 force = Vec3::Zero();    // [N]
-  Vec3 center = Vec3::Zero();   // ∫ p x dA / ∫ p dA [m]; where nothing carries, the origin
-  Vec3 moment = Vec3::Zero();   // about that centre [N m]
-  double area = 0;              // [m²] rest area of the nodes that carry
-  double normal_force = 0;      // ∫ p dA over it [N]
-  double max_pressure = 0;      // [Pa] at a node
-  double max_depth = 0;         // [m] mean depth at a node
-  Vec3 deepest = Vec3::Zero();  // that node [m]
-  double max_point_depth = 0;   // [m] of any point: facets can't follow a curve
-  double energy = 0;            // [J]
+  Vec3 force = Vec3::Zero();     // [N]
+  Vec3 center = Vec3::Zero();    // ∫ p x dA / ∫ p dA [m]; where nothing carries, the origin
+  Vec3 moment = Vec3::Zero();    // about that centre [N m]
+  double area = 0;               // [m²] rest area of the nodes that carry
+  double normal_force = 0;       // ∫ p dA over it [N]
+  double max_pressure = 0;       // [Pa] at a node
+  double max_face_pressure = 0;  // [Pa] normal force through a face, of either body, over its area
+  double max_depth = 0;          // [m] mean depth at a node
+  Vec3 deepest = Vec3::Zero();   // that node [m]
+  double max_point_depth = 0;    // [m] of any point: facets can't follow a curve
+  double energy = 0;             // [J]
 };
 
 /// What contact with all others puts on the surface of one body.
@@ -137,9 +138,13 @@ class ContactResponse {
   void find_patches(std::size_t direction, const Configuration& configuration);
   const FlatTriangle& face_now(const Configuration& configuration, const Collider& faces, int face);
   void find_patches_of_nodes(std::size_t direction);
+  struct SummarySums;
+  SummarySums no_summary(std::size_t contact) const;
   template <class Counts>
   void add_to_summary(std::size_t direction, const Configuration& configuration, Counts&& counts,
-                      ContactSummary& sum, Vec3& moment) const;
+                      SummarySums& sums) const;
+  ContactSummary finished(SummarySums sums, std::size_t contact,
+                          const Configuration& configuration) const;
   template <class Gradient>
   void add_rank_one(std::size_t direction, int node, const Configuration& configuration,
                     double factor, Gradient&& gradient, fem::BlockMatrix& A);

@@ -38,6 +38,7 @@ std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model)
       names.push_back(scalar("area", length + "^2"));
       names.push_back(scalar("mean_pressure", "Pa"));
       names.push_back(scalar("max_pressure", "Pa"));
+      names.push_back(scalar("max_face_pressure", "Pa"));
       names.push_back(scalar("max_penetration", length));
       for (auto& name : vector("max_penetration_at", length)) names.push_back(name);
       names.push_back(scalar("max_point_penetration", length));
@@ -157,7 +158,7 @@ void History::append(const ProbeModel& probe, const State& state, const Stepper&
       push(sum.area > 0 ? Vec3(unit * sum.center) : nowhere);
       values_.insert(values_.end(),
                      {sum.area * unit * unit, sum.area > 0 ? sum.normal_force / sum.area : 0,
-                      sum.max_pressure, sum.max_depth * unit});
+                      sum.max_pressure, sum.max_face_pressure, sum.max_depth * unit});
       push(sum.area > 0 ? Vec3(unit * sum.deepest) : nowhere);
       values_.push_back(sum.max_point_depth * unit);
       return;

@@ -120,6 +120,9 @@ TEST(ContactProbe, CompartmentsAddUpToTheWholeOfEitherBodyInStaticsAndInTime) {
       EXPECT_EQ(std::max(probes(name + "_low.max_pressure [Pa]"),
                          probes(name + "_high.max_pressure [Pa]")),
                 probes(name + ".max_pressure [Pa]"));
+      EXPECT_LE(std::max(probes(name + "_low.max_face_pressure [Pa]"),
+                         probes(name + "_high.max_face_pressure [Pa]")),
+                probes(name + ".max_face_pressure [Pa]"));
       // The plate's turn about y presses harder where x > 0.
       EXPECT_GT(high.normal_force, 1.2 * low.normal_force);
       EXPECT_GT(probes(name + "_high.center.x [mm]"), 0);
