@@ -150,8 +150,8 @@ int mesh(const MeshOptions& options) {
 
 const char* const kHelp =
     R"(The surface has to be closed; which way it looks doesn't matter. Shells that enclose less than
-an element are dropped, and stderr says so. The file is written in the unit of the surface. The
-same surface and options give the same file.
+an element are dropped, and stderr says so. The file is written in the unit of the surface. Meshes
+of one surface may differ in a few tetrahedra of a thousand from one time to the next.
 
 Example: cartilage of two plateaus, one file each (tibcart_1.vtu, tibcart_2.vtu)
   articular mesh tibcart.obj --size "2 mm" --split --out tibcart.vtu)";

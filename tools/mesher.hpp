@@ -23,7 +23,8 @@ struct TetMesh {
 struct MeshingInterrupted {};
 
 /// Fills a shell with tetrahedra: starts `articular-mesher`, which stands beside this program, and
-/// ends it on an error or interruption. The same shell and settings give the same mesh.
+/// ends it on an error or interruption. Meshes of the same shell differ in a few tetrahedra of a
+/// thousand from one time to the next.
 /// @param name         of the file, for messages
 /// @param unit         metres per unit of the file, likewise
 /// @param interrupted  asked several times a second

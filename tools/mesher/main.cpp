@@ -2,8 +2,8 @@
 // perturbation and exudation of slivers). `articular mesh` starts it; CGAL is under the GPL, and so
 // is this program, which shares no code with `articular` but the format of their exchange.
 //
-// CGAL's random numbers start from a fixed seed, it runs on one thread and its optimisers have no
-// time limit: the same surface gives the same tetrahedra.
+// The same surface gives the same nodes inside and out, but CGAL's removal of slivers may join them
+// otherwise in a few tetrahedra of a thousand, from one time to the next.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
