@@ -356,7 +356,8 @@ ContactSummary ContactResponse::summary_through(const Configuration& configurati
     if ((*candidates_)[d].contact != contact) continue;
     const bool is_triangle = sides(d).triangle_body == body;
     const auto counts = [&](const DirectionMoment::Patch& entry) {
-      return selected[static_cast<std::size_t>(is_triangle ? entry.triangle : entry.face)] != 0;
+      return selected.empty() ||
+             selected[static_cast<std::size_t>(is_triangle ? entry.triangle : entry.face)] != 0;
     };
     add_to_summary(d, configuration, counts, sums);
   }

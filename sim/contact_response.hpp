@@ -122,7 +122,8 @@ class ContactResponse {
   /// One a contact of the model.
   std::vector<ContactSummary> summaries(const Configuration& configuration) const;
   /// What one contact carries through a part of a body's surface.
-  /// @param selected  by face of the body's collider; the body is one of the contact's two
+  /// @param selected  by face of the body's collider; the body is one of the contact's two; empty:
+  /// all
   ContactSummary summary_through(const Configuration& configuration, int contact, int body,
                                  const std::vector<char>& selected) const;
   /// Contact force at each node of each collider [N] (by body), for output.

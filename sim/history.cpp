@@ -78,16 +78,13 @@ std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model)
 
 /// What the pair of a contact probe carries, with force and moment on the first body named.
 ContactSummary summary_of(const ProbeModel& probe, const Model& model, const Stepper& stepper) {
-  const Dynamics& dynamics = stepper.dynamics();
   const auto pair =
       std::find_if(model.contacts.begin(), model.contacts.end(), [&](const ContactModel& contact) {
         return std::minmax(contact.a, contact.b) == std::minmax(probe.body, probe.other);
       });
   if (pair == model.contacts.end()) return {};
-  const auto c = static_cast<std::size_t>(pair - model.contacts.begin());
-  ContactSummary sum = probe.faces.empty()
-                           ? dynamics.contacts()[c]
-                           : dynamics.contact_through(static_cast<int>(c), probe.body, probe.faces);
+  const auto contact = static_cast<int>(pair - model.contacts.begin());
+  ContactSummary sum = stepper.dynamics().contact_through(contact, probe.body, probe.faces);
   if (pair->a != probe.body) {
     sum.force *= -1;
     sum.moment *= -1;

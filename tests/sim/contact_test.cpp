@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene.hpp"
-#include "sim/history.hpp"
+#include "probes.hpp"
 #include "sim/initial_overlap.hpp"
 
 namespace articular::sim {
@@ -41,28 +40,6 @@ Scenario press() {
   s.probes = {contact, reaction};
   return s;
 }
-
-/// What a run's probes say now, by the names of the columns.
-class Probes {
- public:
-  explicit Probes(const Simulation& run) : history_(run.model) {
-    history_.record(run.state, run.stepper);
-  }
-  double operator()(const std::string& name) const {
-    const auto& names = history_.columns();
-    const auto column = std::find(names.begin(), names.end(), name) - names.begin();
-    return history_.last().at(static_cast<std::size_t>(column));
-  }
-  Vec3 vec3(const std::string& what, const std::string& unit) const {
-    const auto along = [&](const char* axis) {
-      return (*this)(what + "." + axis + " [" + unit + "]");
-    };
-    return {along("x"), along("y"), along("z")};
-  }
-
- private:
-  History history_;
-};
 
 /// Pressure of a plate on the block, which without lateral contraction is uniform: block and
 /// contact are springs in series, p = δ / (H/E + 1/k).
