@@ -86,6 +86,7 @@ BodyGeometry read_geometry(const Body& body) {
   BodyGeometry geometry;
   if (body.mesh) geometry.mesh = load(*body.mesh);
   if (body.box) geometry.mesh = box_mesh(*body.box);
+  if (body.hexahedron) geometry.mesh = hexahedron_mesh(*body.hexahedron);
   if (body.sphere) geometry.mesh = sphere_mesh(*body.sphere);
   if (body.v_shape) geometry.mesh = v_shape_mesh(*body.v_shape);
   if (!body.mesh) place(body.placement, geometry.mesh.X);

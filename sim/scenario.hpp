@@ -55,6 +55,12 @@ struct BoxGeometry {
   Vec3 center = Vec3::Zero();  // [m]
 };
 
+/// A block of tetrahedra (six a cell) with any eight corners, trilinear between them.
+struct HexahedronGeometry {
+  Eigen::Matrix<double, 3, 8> corners;  // [m], ordered as VTK's hexahedron
+  Eigen::Vector3i cells = Eigen::Vector3i::Ones();
+};
+
 /// A solid ball of tetrahedra.
 struct SphereGeometry {
   double radius = 0;           // [m]
@@ -143,6 +149,7 @@ struct Body {
   // Exactly one of these, or none for a fixed body that only carries points:
   std::optional<MeshFile> mesh;
   std::optional<BoxGeometry> box;
+  std::optional<HexahedronGeometry> hexahedron;
   std::optional<SphereGeometry> sphere;
   std::optional<VShapeGeometry> v_shape;
   Placement placement;  // of a built-in geometry

@@ -72,6 +72,36 @@ BoxGeometry read_box(const Node& node) {
   return box;
 }
 
+/// The volume that the corner spans with its three neighbours, by that of the edges' lengths.
+double corner_fullness(const Eigen::Matrix<double, 3, 8>& corners, int corner) {
+  // Neighbours along x, y, z of each corner, in VTK's order of a hexahedron.
+  constexpr int kNeighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                     {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+  Mat3 edges;
+  for (int e = 0; e < 3; ++e)
+    edges.col(e) = corners.col(kNeighbours[corner][e]) - corners.col(corner);
+  const double size = edges.col(0).norm() * edges.col(1).norm() * edges.col(2).norm();
+  return size > 0 ? edges.determinant() / size : 0;
+}
+
+HexahedronGeometry read_hexahedron(const Node& node) {
+  constexpr double kFlat = 1e-6;
+  const TableReader table(node, "hexahedron", {"corners", "cells"});
+  HexahedronGeometry hexahedron;
+  const Node& corners = table.at("corners");
+  const Node::List& list = read_list(corners, "a list of eight points", 8);
+  for (int i = 0; i < 8; ++i)
+    hexahedron.corners.col(i) = read_vector(list[static_cast<std::size_t>(i)], kLength);
+  for (int i = 0; i < 8; ++i)
+    if (corner_fullness(hexahedron.corners, i) < kFlat)
+      fail(list[static_cast<std::size_t>(i)],
+           "the block is flat or turned inside out at this corner; expected the corners of the "
+           "lower face, counterclockwise as seen from above, then those of the upper face above "
+           "them");
+  hexahedron.cells = read_cells<3>(table.at("cells"));
+  return hexahedron;
+}
+
 SphereGeometry read_sphere(const Node& node) {
   const TableReader table(node, "sphere", {"radius", "element_size", "center"});
   SphereGeometry sphere;
@@ -96,9 +126,10 @@ VShapeGeometry read_v_shape(const Node& node) {
 }
 
 void read_geometry(const Node& node, Body& body) {
-  const TableReader table(node, "geometry", {"box", "sphere", "v_shape", "place"});
-  table.exactly_one({"box", "sphere", "v_shape"});
+  const TableReader table(node, "geometry", {"box", "hexahedron", "sphere", "v_shape", "place"});
+  table.exactly_one({"box", "hexahedron", "sphere", "v_shape"});
   table.may("box", body.box, read_box);
+  table.may("hexahedron", body.hexahedron, read_hexahedron);
   table.may("sphere", body.sphere, read_sphere);
   table.may("v_shape", body.v_shape, read_v_shape);
   table.may("place", body.placement, read_placement);

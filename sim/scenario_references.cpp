@@ -74,7 +74,8 @@ const Body& read_body_reference(const Node& node, const Context& context) {
 }
 
 bool has_surface(const Body& body) {
-  return body.mesh || body.box || body.sphere || body.v_shape || !body.contact_meshes.empty();
+  return body.mesh || body.box || body.hexahedron || body.sphere || body.v_shape ||
+         !body.contact_meshes.empty();
 }
 
 Placement read_placement(const Node& node) {

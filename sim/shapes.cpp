@@ -58,6 +58,19 @@ MeshData box_mesh(const BoxGeometry& box) {
   });
 }
 
+MeshData hexahedron_mesh(const HexahedronGeometry& hexahedron) {
+  const auto& c = hexahedron.corners;
+  return grid_mesh(hexahedron.cells, [&](int i, int j, int k) -> Vec3 {
+    const Vec3 u = Vec3(i, j, k).cwiseQuotient(hexahedron.cells.cast<double>());
+    const auto mix = [](double share, const Vec3& a, const Vec3& b) -> Vec3 {
+      return (1 - share) * a + share * b;
+    };
+    const Vec3 low = mix(u.y(), mix(u.x(), c.col(0), c.col(1)), mix(u.x(), c.col(3), c.col(2)));
+    const Vec3 high = mix(u.y(), mix(u.x(), c.col(4), c.col(5)), mix(u.x(), c.col(7), c.col(6)));
+    return mix(u.z(), low, high);
+  });
+}
+
 MeshData sphere_mesh(const SphereGeometry& sphere) {
   const int half = std::max(1, static_cast<int>(std::lround(sphere.radius / sphere.element_size)));
   return grid_mesh(Eigen::Vector3i::Constant(2 * half), [&](int i, int j, int k) -> Vec3 {

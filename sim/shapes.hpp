@@ -7,6 +7,7 @@ namespace articular::sim {
 
 /// The built-in geometries as tetrahedra, six a hexahedral cell, all positive.
 MeshData box_mesh(const BoxGeometry& box);
+MeshData hexahedron_mesh(const HexahedronGeometry& hexahedron);
 MeshData sphere_mesh(const SphereGeometry& sphere);
 MeshData v_shape_mesh(const VShapeGeometry& v);
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 
 #include "sim/error.hpp"
 #include "sim/mesh_io.hpp"
+#include "sim/output.hpp"
 #include "tools/anatomy_knee.hpp"
 #include "tools/anatomy_mandible.hpp"
 
@@ -16,19 +16,8 @@ namespace {
 
 constexpr double kMillimetre = 1e-3;  // [m]
 
-/// Beside the file, then renamed: it appears whole or not at all.
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::filesystem::path part = file;
-  part += ".part";
-  std::ofstream stream(part, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw sim::SystemError(fmt::format("{}: cannot be written", file.string()));
-  std::filesystem::rename(part, file);
-}
-
 template <class Build>
-int run(const Build& build, const std::filesystem::path& folder) {
+void run(const Build& build, const std::filesystem::path& folder) {
   try {
     const Anatomy anatomy = build();
     write_anatomy(anatomy, folder);
@@ -39,16 +28,10 @@ int run(const Build& build, const std::filesystem::path& folder) {
     if (!anatomy.muscles.empty())
       fmt::print("{}: {} muscles\n", (folder / "muscles.csv").string(), anatomy.muscles.size());
     fmt::print("{}: {} points\n", (folder / "landmarks.csv").string(), anatomy.landmarks.size());
-    return 0;
   } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
+    throw sim::InputError(error.what());
   } catch (const std::filesystem::filesystem_error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 4;
-  } catch (const sim::SystemError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 4;
+    throw sim::SystemError(error.what());
   }
 }
 
@@ -65,7 +48,8 @@ void add_mandible(CLI::App& anatomy, int& exit_code) {
   mandible->add_option("--out", options->folder, "Folder for the files, made if it is not there")
       ->required();
   mandible->callback([options, &exit_code] {
-    exit_code = run([&] { return mandible_anatomy(options->size_mm); }, options->folder);
+    run([&] { return mandible_anatomy(options->size_mm); }, options->folder);
+    exit_code = 0;
   });
 }
 
@@ -86,7 +70,8 @@ void add_knee(CLI::App& anatomy, int& exit_code) {
   knee->add_option("--out", options->folder, "Folder for the files, made if it is not there")
       ->required();
   knee->callback([options, &exit_code] {
-    exit_code = run([&] { return knee_anatomy(options->resolution); }, options->folder);
+    run([&] { return knee_anatomy(options->resolution); }, options->folder);
+    exit_code = 0;
   });
 }
 
@@ -102,8 +87,9 @@ void write_anatomy(const Anatomy& anatomy, const std::filesystem::path& folder) 
     if (mesh.fibres.cols() > 0) data.cell_vectors.emplace_back("fibres", mesh.fibres);
     sim::write_mesh(folder / name, data, kMillimetre);
   }
-  if (!anatomy.muscles.empty()) write_text(folder / "muscles.csv", muscles_csv(anatomy.muscles));
-  write_text(folder / "landmarks.csv", landmarks_csv(anatomy.landmarks));
+  if (!anatomy.muscles.empty())
+    sim::write_text_file(folder / "muscles.csv", muscles_csv(anatomy.muscles));
+  sim::write_text_file(folder / "landmarks.csv", landmarks_csv(anatomy.landmarks));
 }
 
 void add_anatomy_command(CLI::App& app, int& exit_code) {

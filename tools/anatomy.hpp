@@ -12,7 +12,7 @@ namespace articular::anatomy {
 void write_anatomy(const Anatomy& anatomy, const std::filesystem::path& folder);
 
 /// `articular anatomy mandible|knee [--size H] --out DIR`.
-/// @param[out] exit_code  0 done, 2 bad arguments, 4 not writable; set when the command ran
+/// @param[out] exit_code  0; set when the command ran. Errors are thrown
 void add_anatomy_command(CLI::App& app, int& exit_code);
 
 }  // namespace articular::anatomy

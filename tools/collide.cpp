@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 
@@ -16,13 +14,12 @@
 #include "tools/collide_progress.hpp"
 #include "tools/collide_report.hpp"
 #include "tools/commands.hpp"
+#include "tools/interruption.hpp"
 
 namespace articular::tools {
 namespace {
 
 constexpr int kInterrupted = 130;
-std::atomic<bool> interrupt_asked = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// Thrown out of the reading of a series.
 struct Interrupted {};
@@ -188,14 +185,8 @@ void add_collide_command(CLI::App& app, int& exit_code) {
       "collide", "Find surface triangles that penetrate tetrahedra, of two meshes or of one");
   add_options(command, *options);
   command.callback([options, &exit_code] {
-    // A second Ctrl-C ends the program at once.
-    const auto ask = [](int signal) {
-      interrupt_asked = true;
-      std::signal(signal, SIG_DFL);
-    };
-    std::signal(SIGINT, ask);
-    std::signal(SIGTERM, ask);
-    options->interrupted = [] { return interrupt_asked.load(); };
+    listen_for_interruption();
+    options->interrupted = interruption_asked;
     exit_code = collide(*options);
   });
 }

@@ -4,7 +4,8 @@ namespace CLI {
 class App;
 }
 
-/// The subcommands that work on scenario files, and `collide` and `mesh`, which work on meshes.
+/// The subcommands that work on scenario and study files, and `collide` and `mesh`, which work on
+/// meshes.
 /// Each sets exit_code when it ran; errors are thrown.
 namespace articular::tools {
 
@@ -13,5 +14,6 @@ void add_check_command(CLI::App& app, int& exit_code);
 void add_explain_command(CLI::App& app, int& exit_code);
 void add_collide_command(CLI::App& app, int& exit_code);
 void add_mesh_command(CLI::App& app, int& exit_code);
+void add_study_command(CLI::App& app, int& exit_code);
 
 }  // namespace articular::tools

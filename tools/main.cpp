@@ -38,6 +38,7 @@ int run_program(int argc, char** argv) {
   articular::tools::add_check_command(app, exit_code);
   articular::tools::add_explain_command(app, exit_code);
   articular::tools::add_render_command(app, exit_code);
+  articular::tools::add_study_command(app, exit_code);
   articular::tools::add_collide_command(app, exit_code);
   articular::tools::add_mesh_command(app, exit_code);
   articular::anatomy::add_anatomy_command(app, exit_code);

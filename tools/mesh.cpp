@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
-#include <csignal>
 #include <filesystem>
 #include <memory>
 
 #include "sim/error.hpp"
 #include "sim/quantity.hpp"
 #include "tools/commands.hpp"
+#include "tools/interruption.hpp"
 #include "tools/mesh_quality.hpp"
 
 namespace articular::tools {
@@ -17,8 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kInterrupted = 130;
-std::atomic<bool> interrupt_asked = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
 
 struct MeshOptions {
   fs::path surface, out;
@@ -122,8 +119,7 @@ int mesh(const MeshOptions& options) {
   std::vector<TetMesh> meshes;
   try {
     for (const Shell& shell : shells.shells)
-      meshes.push_back(
-          mesh_shell(name, shell, unit, settings, [] { return interrupt_asked.load(); }));
+      meshes.push_back(mesh_shell(name, shell, unit, settings, interruption_asked));
   } catch (const MeshingInterrupted&) {
     fmt::print(stderr, "articular: interrupted; nothing was written\n");
     return kInterrupted;
@@ -188,13 +184,7 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
   command.add_flag("--split", options->split, "One file a shell: FILE_1.vtu, FILE_2.vtu, ...");
   command.footer(kHelp);
   command.callback([options, &exit_code] {
-    // A second Ctrl-C ends the program at once; the mesher ends with it.
-    const auto ask = [](int signal) {
-      interrupt_asked = true;
-      std::signal(signal, SIG_DFL);
-    };
-    std::signal(SIGINT, ask);
-    std::signal(SIGTERM, ask);
+    listen_for_interruption();  // the mesher ends with this program
     exit_code = mesh(*options);
   });
 }

@@ -10,6 +10,7 @@
 #include "sim/error.hpp"
 #include "tools/child_process.hpp"
 #include "tools/mesher_exchange.hpp"
+#include "tools/this_program.hpp"
 
 namespace articular::tools {
 namespace {
@@ -17,10 +18,8 @@ namespace {
 constexpr double kMillimetre = 1e-3;  // [m]; positions go to the mesher in mm
 
 std::filesystem::path mesher_program() {
+  const std::filesystem::path mesher = this_program().parent_path() / "articular-mesher";
   std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) throw sim::SystemError("can't tell where this program lies: " + error.message());
-  const std::filesystem::path mesher = self.parent_path() / "articular-mesher";
   if (!std::filesystem::exists(mesher, error))
     throw sim::SystemError(mesher.string() +
                            ": the mesher is missing; a release build makes it (tools/build release "

@@ -170,6 +170,13 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"CoarseSphere",
                 geometry("sphere = { radius = \"1 mm\", element_size = @\"2 mm\" }"),
                 "`element_size`: must not exceed the radius, found \"2 mm\""},
+        Mistake{"HexahedronInsideOut",
+                geometry("hexahedron = { corners = [@\"0 0 0 mm\", \"0 1 0 mm\", \"1 1 0 mm\", "
+                         "\"1 0 0 mm\", \"0 0 1 mm\", \"0 1 1 mm\", \"1 1 1 mm\", \"1 0 1 mm\"], "
+                         "cells = [1, 1, 1] }"),
+                "`corners[0]`: the block is flat or turned inside out at this corner; expected the "
+                "corners of the lower face, counterclockwise as seen from above, then those of the "
+                "upper face above them"},
         Mistake{"OpenShape",
                 geometry("v_shape = { leg_length = \"1 m\", width = \"1 m\", angle = @\"180 deg\", "
                          "cells = [1, 1] }"),
@@ -268,7 +275,8 @@ INSTANTIATE_TEST_SUITE_P(
                      "@mesh = { file = \"a\" }\n"),
                 "body `extra`: `geometry` and `mesh` exclude each other"},
         Mistake{"NoGeometry", body("kind = \"tissue\"\ngeometry = @{ }\n"),
-                "geometry: expected `box` or `sphere` or `v_shape`, found none of them"},
+                "geometry: expected `box` or `hexahedron` or `sphere` or `v_shape`, found none of "
+                "them"},
         Mistake{"AttachToTissue",
                 kStart + "[[attach]]\nbody = \"disc_left\"\nto = @\"disc_left\"\nregion = {}\n",
                 "`to`: expected a fixed or rigid body to attach to, body `disc_left` is tissue"},

@@ -32,6 +32,31 @@ TEST(Shapes, ABoxLiesAroundItsCentre) {
   EXPECT_NEAR((mesh.X.rowwise().maxCoeff() - Vec3(2, 4, 6)).norm(), 0, 1e-14);
 }
 
+TEST(Shapes, AHexahedronWithTheCornersOfABoxIsThatBox) {
+  const BoxGeometry box{{2, 4, 6}, {3, 2, 4}, {1, 2, 3}};
+  HexahedronGeometry hexahedron;
+  hexahedron.corners << 0, 2, 2, 0, 0, 2, 2, 0,  //
+      0, 0, 4, 4, 0, 0, 4, 4,                    //
+      0, 0, 0, 0, 6, 6, 6, 6;
+  hexahedron.cells = box.cells;
+  const MeshData expected = box_mesh(box), mesh = hexahedron_mesh(hexahedron);
+  EXPECT_LT((mesh.X - expected.X).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_EQ(mesh.tets, expected.tets);
+}
+
+// Cook's membrane: 48 long, 44 high at one end and 16 at the other. Its cells are planar
+// trapezoids, so that tetrahedra fill it to round-off.
+TEST(Shapes, AHexahedronMayTaper) {
+  HexahedronGeometry cook;
+  cook.corners << 0, 48, 48, 0, 0, 48, 48, 0,  //
+      0, 44, 60, 44, 0, 44, 60, 44,            //
+      0, 0, 0, 0, 1, 1, 1, 1;
+  cook.cells = {4, 4, 2};
+  const Eigen::VectorXd volume = volumes(hexahedron_mesh(cook));
+  EXPECT_GT(volume.minCoeff(), 0);
+  EXPECT_NEAR(volume.sum(), 48 * (44 + 16) / 2.0, 1e-10);
+}
+
 // The nodes on the surface lie on the sphere, so that the volume is too small by the sagittae of
 // the faces: second order in the element size.
 TEST(Shapes, ASpheresVolumeConvergesWithTheSquareOfTheElementSize) {
