@@ -104,6 +104,7 @@ StudyOutput read_output(const Node& node) {
   table.may("name", output.name, sim::read_text);
   table.may("value", output.value, [](const Node& n) {
     return sim::read_choice<StudyValue>(n, {{"last", StudyValue::Last},
+                                            {"change", StudyValue::Change},
                                             {"largest", StudyValue::Largest},
                                             {"smallest", StudyValue::Smallest},
                                             {"mean", StudyValue::Mean},

@@ -36,7 +36,7 @@ struct StudyExtra {
 };
 
 /// How a column of history.csv becomes what is compared.
-enum class StudyValue { Last, Largest, Smallest, Mean, History };
+enum class StudyValue { Last, Change, Largest, Smallest, Mean, History };
 
 struct StudyOutput {
   std::string name;

@@ -16,6 +16,7 @@
 #include "sim/scenario.hpp"
 #include "tools/interruption.hpp"
 #include "tools/study_record.hpp"
+#include "tools/study_values.hpp"
 #include "tools/this_program.hpp"
 
 namespace articular::tools {
@@ -126,10 +127,18 @@ class CaseRunner {
     if (use.end == End::Interrupted || interruption_asked()) throw StudyInterrupted{};
     record.runs.push_back(use);
     record.message = record.succeeded() ? "" : first_error(log);
+    if (record.succeeded()) check_outputs(c);
     write_record(folder / "case.json", key_of(c), record);
   }
 
  private:
+  /// At the first case rather than after the last.
+  void check_outputs(const StudyCase& c) const {
+    const RunHistory history = read_history(results_of(directory_, c) / "history.csv");
+    for (const StudyOutput& output : study_.outputs)
+      output_value(output, history, study_.file.string());
+  }
+
   std::vector<std::string> command_of(const StudyCase& c) const {
     std::vector<std::string> command{program_,  "run",   study_.scenario.string(),
                                      "--quiet", "--out", results_of(directory_, c).string()};

@@ -37,7 +37,8 @@ std::filesystem::path results_of(const std::filesystem::path& directory, const S
 /// and program are the same.
 /// @return one record a case; fewer runs than asked for after a failure
 /// @throws StudyInterrupted  what is finished stays
-/// @throws sim::InputError   when a case is no valid scenario, before any runs
+/// @throws sim::InputError   when a case is no valid scenario, before any runs, or when the first
+///                           one's results lack an output
 std::vector<CaseRecord> run_cases(const Study& study, const std::vector<StudyCase>& cases,
                                   const StudyRunOptions& options);
 

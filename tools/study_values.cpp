@@ -140,6 +140,7 @@ OutputValue output_value(const StudyOutput& output, const RunHistory& history,
   if (result.values.empty()) return {{times.back()}, {kNone}};
   const auto [least, most] = std::minmax_element(result.values.begin(), result.values.end());
   double value = result.values.back();
+  if (output.value == StudyValue::Change) value -= result.values.front();
   if (output.value == StudyValue::Largest) value = *most;
   if (output.value == StudyValue::Smallest) value = *least;
   if (output.value == StudyValue::Mean) value = mean(result);

@@ -77,6 +77,18 @@ TEST(Study, AFailedCaseIsAResult) {
   EXPECT_NE(text.find("| pulled apart | could not go on | "), std::string::npos) << text;
 }
 
+TEST(Study, AMistypedColumnEndsItAtTheFirstCase) {
+  const TemporaryFolder folder;
+  folder.file("s.toml", kHead + kCells + "[[output]]\ncolumn = 'end.position.w [mm]'\nexact = 1\n");
+  const ProgramResult result = run_program(folder, "study s.toml");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err.rfind("articular: s.toml: output `end.position.w [mm]`: history.csv has no "
+                             "column `end.position.w [mm]`; did you mean `end.position.",
+                             0),
+            0u)
+      << result.err;
+}
+
 TEST(Study, ACaseThatTakesTooLongIsStopped) {
   const TemporaryFolder folder;
   folder.file("s.toml", kHead +

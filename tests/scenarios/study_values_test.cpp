@@ -91,6 +91,7 @@ TEST(StudyOutput, TakesWhatItIsAskedForAndNamesWhatIsNotThere) {
     return output_value({"tip", "tip.z [mm]", what, {}, {}}, history, "s.toml").values.back();
   };
   EXPECT_EQ(value(StudyValue::Last), 2);
+  EXPECT_EQ(value(StudyValue::Change), 1);
   EXPECT_EQ(value(StudyValue::Largest), 2);
   EXPECT_EQ(value(StudyValue::Smallest), -3);
   EXPECT_NEAR(value(StudyValue::Mean), (-1 - 1) / 3.0, 1e-15);  // trapezia of 1 s and 2 s
