@@ -1,6 +1,7 @@
 // Title, times, presets, integrator, detection and output of a scenario, and the record of them.
 #include <nlohmann/json.hpp>
 
+#include "sim/preset.hpp"
 #include "sim/scenario_reader.hpp"
 
 namespace articular::sim {
@@ -16,23 +17,6 @@ constexpr std::pair<std::string_view, Integrator::Scheme> kSchemes[] = {
     {"explicit", Integrator::Scheme::Explicit}};
 
 constexpr const char* kSolvers[] = {"auto", "cholesky", "conjugate-gradients", "multigrid"};
-
-/// The presets; [integrator] overrides each setting.
-Integrator preset(Accuracy accuracy) {
-  Integrator integrator;
-  switch (accuracy) {
-    case Accuracy::Fast:
-      integrator.step = 2e-3;
-      break;
-    case Accuracy::Balanced:
-      break;
-    case Accuracy::Accurate:
-      integrator.step = 0.5e-3;
-      integrator.element_tolerance = 5e-5;
-      break;
-  }
-  return integrator;
-}
 
 void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& integrator) {
   constexpr int kMostIterations = 1000;
@@ -125,8 +109,9 @@ void read_settings(const TableReader& document, Scenario& scenario) {
         n, {{"dynamic", Scenario::Analysis::Dynamic}, {"static", Scenario::Analysis::Static}});
   });
   document.may("settling", scenario.settling, read_boolean);
-  scenario.integrator = preset(scenario.accuracy);
-  if (scenario.accuracy == Accuracy::Fast) scenario.detection.sides = Detection::Sides::One;
+  const Preset chosen = preset(scenario.accuracy);
+  scenario.integrator = chosen.integrator;
+  scenario.detection.sides = chosen.sides;
   if (const Node* node = document.find("integrator"))
     read_integrator(*node, scenario.analysis, scenario.integrator);
   if (const Node* node = document.find("detection"))

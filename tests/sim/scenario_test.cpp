@@ -538,11 +538,17 @@ TEST_F(Documentation, ItsExampleIsAScenario) {
 
 using Presets = ScenarioTest;
 
-TEST_F(Presets, SetStepAndTolerance) {
-  EXPECT_EQ(read("accuracy = \"fast\"\n" + kStart).integrator.step, 2e-3);
-  EXPECT_EQ(read("accuracy = \"balanced\"\n" + kStart).integrator.step, 1e-3);
+TEST_F(Presets, SetSchemeStepToleranceAndSides) {
+  const Scenario fast = read("accuracy = \"fast\"\n" + kStart);
+  EXPECT_EQ(fast.integrator.step, 2e-3);
+  EXPECT_EQ(fast.detection.sides, Detection::Sides::One);
+  const Scenario balanced = read("accuracy = \"balanced\"\n" + kStart);
+  EXPECT_EQ(balanced.integrator.step, 1e-3);
+  EXPECT_EQ(balanced.integrator.scheme, Integrator::Scheme::ImplicitEuler);
+  EXPECT_EQ(balanced.detection.sides, Detection::Sides::Both);
   const Integrator accurate = read("accuracy = \"accurate\"\n" + kStart).integrator;
-  EXPECT_EQ(accurate.step, 0.5e-3);
+  EXPECT_EQ(accurate.step, 1e-3);
+  EXPECT_EQ(accurate.scheme, Integrator::Scheme::TrBdf2);
   EXPECT_EQ(accurate.element_tolerance, 5e-5);
 }
 
