@@ -258,11 +258,17 @@ void Dynamics::rate(const double* y, double* y_dot) const {
 
 std::pair<Vec3, Vec3> Dynamics::attachment_force(int tissue, int bone) const {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-  const auto& nodes = model_.tissues[static_cast<std::size_t>(tissue)].nodes;
+  const Tissue& given = model_.tissues[static_cast<std::size_t>(tissue)];
+  const auto& nodes = given.nodes;
+  // A collider of tissue has the nodes of its mesh, in their order.
+  Positions contact;
+  if (candidates_ != nullptr)
+    contact = contact_.nodal_forces()[static_cast<std::size_t>(given.body)];
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].bone != bone) continue;
-    const Vec3 pull =
-        -tissue_force_[static_cast<std::size_t>(tissue)].col(static_cast<Eigen::Index>(i));
+    const auto column = static_cast<Eigen::Index>(i);
+    Vec3 pull = -tissue_force_[static_cast<std::size_t>(tissue)].col(column);
+    if (contact.cols() > 0) pull += contact.col(column);
     force += pull;
     moment += configuration_.lever(nodes[i]).cross(pull);
   }

@@ -34,7 +34,7 @@ class Dynamics {
   const Configuration& configuration() const { return configuration_; }
   const Eigen::VectorXd& forces() const { return f_; }
   /// Force [N] on a bone of the tissue that is tied to it, and its moment [N m] about the bone's
-  /// reference point.
+  /// reference point: elasticity, with its dampers, and what contact puts on the tied nodes.
   std::pair<Vec3, Vec3> attachment_force(int tissue, int bone) const;
   /// Force [N] and moment [N m], about its reference point, that a fixed, driven or held bone puts
   /// on what holds it.

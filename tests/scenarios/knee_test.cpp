@@ -52,6 +52,11 @@ TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
   const double bone = sum_of(
       results, {"cartilage_of_femur_medial.force.z [N]", "cartilage_of_femur_lateral.force.z [N]"});
   EXPECT_NEAR(contact, bone, 1e-3 * load);
+  // All of it gets to the tibia, by its cartilage and the menisci's horns.
+  const double tibia = sum_of(
+      results, {"cartilage_of_tibia_medial.force.z [N]", "cartilage_of_tibia_lateral.force.z [N]",
+                "horns_medial.force.z [N]", "horns_lateral.force.z [N]"});
+  EXPECT_NEAR(contact, -tibia, 1e-3 * load);
   const double ligaments = sum_of(
       results,
       {"acl_anterior.force [N]", "acl_posterior.force [N]", "pcl_anterior.force [N]",
