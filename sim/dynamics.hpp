@@ -20,10 +20,13 @@ class Dynamics {
 
   /// The candidates for the coming step; their couplings enter the pattern.
   void set_candidates(const std::vector<CandidateList>& candidates);
-  /// Drops what depends on the past (couplings of earlier candidates).
+  /// Drops what depends on the past (couplings of earlier candidates), and what a solution that was
+  /// left in the middle had set.
   void forget() {
     matrix_.forget();
     contact_.drop_multipliers();
+    contact_.set_soft(false);
+    drop_prediction();
   }
 
   /// Reads y and computes all forces there. Block forces: 3 entries a block, reactions of fixed and

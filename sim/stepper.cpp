@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/contact_hooks.hpp"
 
@@ -44,6 +45,10 @@ State Stepper::initial() {
   restart(state);
   state.energy.start = stored_energy().total();
   return state;
+}
+
+void Stepper::set_watch(IterationWatch watch) {
+  if (equilibrium_) equilibrium_->set_watch(std::move(watch));
 }
 
 void Stepper::restart(const State& state) {

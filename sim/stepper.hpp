@@ -38,6 +38,10 @@ class Stepper {
   /// @throws SimulationError when the step would get smaller than the scenario's least one
   void step(State& state, double t_target);
 
+  /// Of a static analysis: told of each iteration, see Equilibrium. step() then throws Interruption
+  /// where it asks to stop: the state is as before, but for counts; go on with restart().
+  void set_watch(IterationWatch watch);
+
   /// A restart point: drops everything that a run resumed from `state` would not have.
   void restart(const State& state);
 
