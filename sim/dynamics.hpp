@@ -135,6 +135,8 @@ class Dynamics {
   double energy_per_activation(std::size_t tissue) const;
   double gravity_energy() const;  // [J], of all masses but fixed and driven bones' own
   DynamicsTimes& times() { return times_; }
+  /// Since it was made.
+  EvaluationCounts evaluations() const;
 
  private:
   /// Displacements of a tissue's nodes by small ones of the blocks.
@@ -172,6 +174,7 @@ class Dynamics {
   NewtonMatrix matrix_;
   double trusted_motion_ = std::numeric_limits<double>::infinity();
   DynamicsTimes times_;
+  mutable EvaluationCounts evaluations_;  // but those of the matrix and of contact
 };
 
 }  // namespace articular::sim

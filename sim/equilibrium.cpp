@@ -204,6 +204,7 @@ bool Equilibrium::Solver::solve_linear() {
   const Stopwatch watch(seconds);
   correction_.setZero(rhs_.size());
   const fem::SolveReport report = linear_->solve(rhs_, correction_);
+  ++counts.linear_solves;
   counts.linear_iterations += report.iterations;
   return report.converged && correction_.allFinite();
 }

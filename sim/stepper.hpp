@@ -50,6 +50,8 @@ class Stepper {
   StoredEnergy stored_energy() const;
   std::vector<Positions> contact_forces() const;  // at colliders' nodes, by body [N]
   PhaseTimes times();
+  /// Since it was made; those of State::counts are of the steps alone.
+  EvaluationCounts evaluations() const;
 
   /// Of a static analysis: every iteration since the last call.
   std::vector<ConvergenceRow> take_convergence() { return std::exchange(convergence_, {}); }
