@@ -42,8 +42,8 @@ void append(const MeshData& part, MeshData& whole) {
   whole.triangles.rightCols(part.triangles.cols()) = part.triangles.array() + nodes;
 }
 
-/// The faces of a surface that face a direction, with the nodes that they use.
-MeshData facing_part(const MeshData& mesh, const Vec3& direction) {
+/// The faces of a surface that face a direction, or all of them, with the nodes that they use.
+MeshData faces_of(const MeshData& mesh, const std::optional<Vec3>& facing) {
   std::vector<int> kept, new_index(static_cast<std::size_t>(mesh.X.cols()), -1);
   MeshData part;
   part.triangles.resize(3, mesh.triangles.cols());
@@ -52,7 +52,7 @@ MeshData facing_part(const MeshData& mesh, const Vec3& direction) {
     const Eigen::Vector3i t = mesh.triangles.col(f);
     const Vec3 area =
         (mesh.X.col(t[1]) - mesh.X.col(t[0])).cross(mesh.X.col(t[2]) - mesh.X.col(t[0]));
-    if (area.dot(direction) <= kFacingLimit * area.norm()) continue;
+    if (facing && area.dot(*facing) <= kFacingLimit * area.norm()) continue;
     for (int k = 0; k < 3; ++k) {
       int& index = new_index[static_cast<std::size_t>(t[k])];
       if (index < 0) {
@@ -76,6 +76,12 @@ MeshData continued_part(const MeshData& mesh, const MeshFile& file) {
   }
 }
 
+/// Of tetrahedra, if there are any.
+void take_surface(MeshData& mesh) {
+  if (mesh.tets.cols() == 0) return;
+  mesh.triangles = collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())).faces;
+}
+
 }  // namespace
 
 std::string mesh_name(const Body& body) {
@@ -97,17 +103,14 @@ BodyGeometry read_geometry(const Body& body) {
     throw InputError(where, fmt::format("the mesh of tissue `{}`{} has no tetrahedra; expected "
                                         "a tetrahedral mesh (.vtu, .vtk or .inp)",
                                         body.name, mesh_name(body)));
-  if (!tissue && geometry.mesh.X.cols() > 0 && geometry.mesh.tets.cols() > 0) {
-    const auto surface =
-        collision::build_surface(geometry.mesh.tets, static_cast<int>(geometry.mesh.X.cols()));
-    geometry.mesh.triangles = surface.faces;
-  }
+  if (!tissue && geometry.mesh.X.cols() > 0) take_surface(geometry.mesh);
   for (const MeshFile& file : body.contact_meshes) {
     MeshData part = load(file);
+    take_surface(part);
     if (part.triangles.cols() == 0)
       throw InputError(file.where, fmt::format("contact mesh {} of `{}` has no triangles",
                                                file.path.string(), body.name));
-    if (file.facing) part = facing_part(part, *file.facing);
+    if (file.facing || part.tets.cols() > 0) part = faces_of(part, file.facing);
     if (file.faces) part = simplified(part, *file.faces);
     if (file.continued) part = continued_part(part, file);
     append(part, geometry.contact);

@@ -111,8 +111,14 @@ void ContactResponse::evaluate(const Configuration& configuration,
       const double multiplier = direction.multiplier.size() > 0 ? direction.multiplier[node] : 0;
       direction.pressure[node] = std::max(0.0, multiplier + k * direction.depth[node]);
     }
-    if (const SurfaceLaw& law = contact_of(d).law; law.acts())
-      find_drag(law, sides(d).triangles, sides(d).faces, configuration, direction);
+    direction.drag.clear();
+    if (candidates[d].pairs.empty()) continue;
+    ++evaluations_[Term::ContactForce];
+    const SurfaceLaw& law = contact_of(d).law;
+    if (!law.acts()) continue;
+    find_drag(law, sides(d).triangles, sides(d).faces, configuration, direction);
+    if (law.friction > 0) ++evaluations_[Term::Friction];
+    if (law.damping > 0) ++evaluations_[Term::ContactDamping];
   }
 }
 
@@ -473,6 +479,8 @@ double ContactResponse::damping_power() const {
 void ContactResponse::add_stiffness(const Configuration& configuration, fem::Tangent tangent,
                                     const SystemScale& scale, fem::BlockMatrix& A) {
   for (std::size_t d = 0; d < directions_.size(); ++d) {
+    if (directions_[d].num_patches == 0) continue;
+    ++evaluations_[Term::ContactStiffness];
     add_node_stiffness(d, configuration, tangent, scale, A);
     const double k = scale.stiffness * directions_[d].point_stiffness;
     if (tangent != fem::Tangent::Consistent && k == 0) continue;

@@ -114,6 +114,9 @@ class ContactResponse {
   /// What friction and damping lose [W].
   double damping_power() const;
 
+  /// Of what acts between surfaces.
+  const EvaluationCounts& evaluations() const { return evaluations_; }
+
   /// Something lies opposite a face within the depths that count.
   bool has_patches() const;
   /// On one node [N]: what a residual is small against.
@@ -158,6 +161,8 @@ class ContactResponse {
   Eigen::VectorXd stiffening_;
   const std::vector<CandidateList>* candidates_ = nullptr;
   std::vector<DirectionMoment> directions_;  // one a candidate list
+
+  EvaluationCounts evaluations_;
 
   // Scratch of find_patches: the faces met so far.
   std::vector<FlatTriangle> faces_;

@@ -100,10 +100,13 @@ ContactSearch::ContactSearch(const Model& model)
 }
 
 bool ContactSearch::needs_update(const Moving& moving, double margin) const {
-  if (moving.tree->num_updates() == 0 || moving.tree->margin() != margin) return true;
+  // Fixed bones are mapped once (for a margin).
+  return moving.tree->num_updates() == 0 || moving.tree->margin() != margin || moves(moving);
+}
+
+bool ContactSearch::moves(const Moving& moving) const {
   const BodyModel& body = model_.bodies[static_cast<std::size_t>(moving.body)];
   if (body.bone < 0) return true;
-  // Fixed bones are mapped once (for a margin).
   const Bone& bone = model_.bones[static_cast<std::size_t>(body.bone)];
   return bone.unknown || bone.motion.has_value();
 }
@@ -111,6 +114,8 @@ bool ContactSearch::needs_update(const Moving& moving, double margin) const {
 void ContactSearch::fit(Moving& moving) {
   if (moving.tree->is_fitted()) return;
   moving.tree->fit();
+  // Of a fixed body a run that was resumed would count it once more.
+  if (moves(moving)) ++counts_.evaluations[Term::TreeFit];
   const BodyModel& body = model_.bodies[static_cast<std::size_t>(moving.body)];
   const Eigen::Matrix3Xi& faces = body.collider->surface.faces;
   moving.faces.resize(static_cast<std::size_t>(faces.cols()));
@@ -124,6 +129,7 @@ void ContactSearch::update(Moving& moving, const Configuration& configuration, d
   positions_of(configuration, collider.nodes, moving.x);
   moving.tree->move(moving.x, margin);
   ++counts_.tree_updates;
+  ++counts_.evaluations[moves(moving) ? Term::BodyUpdate : Term::FixedBodyUpdate];
 }
 
 void ContactSearch::find(const Configuration& configuration, double margin) {
@@ -157,6 +163,7 @@ void ContactSearch::search(std::span<CandidateList> lists, double margin,
   Moving &a = moving(contact.a), &b = moving(contact.b);
   if (contact.a == contact.b) {
     fit(a);
+    ++counts_.evaluations[Term::SelfQuery];
     collision::faces_in_own_body(*a.tree, found_of_a_, query, scratch_, options_);
     collision::sort_pairs(found_of_a_, *a.tree, *a.tree, sort_scratch_);
     collect(found_of_a_, found_of_a_, a, a, contact.averaged, margin, of_a_);
@@ -164,9 +171,11 @@ void ContactSearch::search(std::span<CandidateList> lists, double margin,
     merge(of_a_.deep, lists[0].pairs);
     return;
   }
+  ++counts_.evaluations[Term::BoxTest];
   if (!overlap(a.tree->bounds(), b.tree->bounds())) return;
   fit(a);
   fit(b);
+  ++counts_.evaluations[Term::PairQuery];
   collision::faces_in_body(*a.tree, *b.tree, found_of_a_, query, scratch_, options_);
   collision::faces_in_body(*b.tree, *a.tree, found_of_b_, query, scratch_, options_);
   collision::sort_pairs(found_of_a_, *a.tree, *b.tree, sort_scratch_);

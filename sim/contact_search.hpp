@@ -8,6 +8,7 @@
 #include "collision/block_collide.hpp"
 #include "sim/configuration.hpp"
 #include "sim/face_place.hpp"
+#include "sim/term.hpp"
 
 /// Who may touch whom during the next step: from the BlockTrees' penetrations with a margin to
 /// pairs of a surface triangle and a facing face of the other body.
@@ -35,6 +36,7 @@ struct SearchCounts {
   std::int64_t reported_pairs = 0;  // by the BlockTrees, within the margin
   std::int64_t narrow_tests = 0;
   std::int64_t deep_pairs = 0;  // candidates deeper than depth_range() reaches
+  EvaluationCounts evaluations;
   double update_seconds = 0, traversal_seconds = 0, narrow_seconds = 0;
 };
 
@@ -70,6 +72,7 @@ class ContactSearch {
   /// What a body needs that may touch another: done once a detection, if at all.
   void fit(Moving& moving);
   bool needs_update(const Moving& moving, double margin) const;
+  bool moves(const Moving& moving) const;
   /// Candidates among triangles of one body and faces of another.
   struct Direction {
     std::vector<ContactCandidate> near, deep;

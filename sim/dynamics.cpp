@@ -112,6 +112,8 @@ void Dynamics::find_forces(const double* y) {
   f_.setZero();
   largest_force_ = 0;
   const auto enters = [this](double force) { largest_force_ = std::max(largest_force_, force); };
+  const bool weighs = !unloaded_ && !model_.gravity.isZero(0);
+  if (weighs) ++evaluations_[Term::Gravity];
   {
     const Stopwatch watch(times_.elastic_force);
     for (std::size_t k = 0; k < tissues_.size(); ++k) {
@@ -122,11 +124,15 @@ void Dynamics::find_forces(const double* y) {
       find_pressure(k);
       f.setZero();
       tissue.elements.add_internal_force(moment.x, moment.pressure, activation_of(k), f);
+      ++evaluations_[Term::ElasticForce];
+      if (tissue.muscle >= 0) ++evaluations_[Term::FibreMuscle];
+      if (tissue.dashpots || tissue.mass_damping > 0) ++evaluations_[Term::TissueDamping];
       if (tissue.dashpots) {
         velocities_of(configuration_, tissue.nodes, v_);
         tissue.dashpots->add_force(moment.x, v_, f);
       }
       if (tissue.relaxation) {
+        ++evaluations_[Term::Relaxation];
         read_lags(k, y);
         tissue.relaxation->add_force(moment.x, moment.lags, 1, f);
       }
@@ -134,7 +140,7 @@ void Dynamics::find_forces(const double* y) {
         const auto column = static_cast<Eigen::Index>(i);
         Vec3 force = -f.col(column);
         enters(force.norm());
-        if (!unloaded_ && carries_own_weight(tissue.nodes[i])) {
+        if (weighs && carries_own_weight(tissue.nodes[i])) {
           const Vec3 weight = tissue.lumped_mass[column] * model_.gravity;
           enters(weight.norm());
           force += weight;
@@ -173,7 +179,8 @@ Vec6 Dynamics::reaction(int bone) const {
 
 /// Those of bones, and forces.
 void Dynamics::add_loads(double t) {
-  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+  const int num_weights = model_.gravity.isZero(0) ? 0 : model_.layout.num_rigid;
+  for (int r = 0; r < num_weights; ++r) {
     const Bone& bone = model_.bones[static_cast<std::size_t>(r)];
     const Vec3 weight = bone.mass.mass * model_.gravity;
     f_.segment<3>(3 * bone.block) += weight;
@@ -184,6 +191,7 @@ void Dynamics::add_loads(double t) {
     largest_force_ = std::max(largest_force_, weight.norm());
   }
   for (const ForceModel& force : model_.forces) {
+    ++evaluations_[Term::Load];
     const Vec3 now = value_at(force.profile, t) * force.force;
     add_force(configuration_, force.point, now, f_);
     largest_force_ = std::max(largest_force_, now.norm());
@@ -192,6 +200,7 @@ void Dynamics::add_loads(double t) {
 
 void Dynamics::add_lines() {
   for (std::size_t l = 0; l < model_.lines.size(); ++l) {
+    ++evaluations_[model_.lines[l].muscle >= 0 ? Term::LineMuscle : Term::Ligament];
     lines_[l] = line_state(model_, model_.lines[l], configuration_);
     add_line_force(model_.lines[l], configuration_, lines_[l].tension, f_);
     largest_force_ = std::max(largest_force_, lines_[l].tension);
@@ -204,7 +213,15 @@ double Dynamics::activation_time(const double* y, double t, int muscle) const {
   return u >= y[model_.layout.activations() + muscle] ? m.activation_time : m.deactivation_time;
 }
 
+EvaluationCounts Dynamics::evaluations() const {
+  EvaluationCounts sum = evaluations_;
+  sum += matrix_.evaluations();
+  sum += contact_.evaluations();
+  return sum;
+}
+
 void Dynamics::rate(const double* y, double* y_dot) const {
+  ++evaluations_[Term::Inertia];
   const Layout& layout = model_.layout;
   const auto velocity = [&](int block) {
     return Eigen::Map<const Vec3>(y + layout.velocities() + 3 * block);
@@ -258,11 +275,17 @@ void Dynamics::rate(const double* y, double* y_dot) const {
 
 std::pair<Vec3, Vec3> Dynamics::attachment_force(int tissue, int bone) const {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-  const auto& nodes = model_.tissues[static_cast<std::size_t>(tissue)].nodes;
+  const Tissue& given = model_.tissues[static_cast<std::size_t>(tissue)];
+  const auto& nodes = given.nodes;
+  // A collider of tissue has the nodes of its mesh, in their order.
+  Positions contact;
+  if (candidates_ != nullptr)
+    contact = contact_.nodal_forces()[static_cast<std::size_t>(given.body)];
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].bone != bone) continue;
-    const Vec3 pull =
-        -tissue_force_[static_cast<std::size_t>(tissue)].col(static_cast<Eigen::Index>(i));
+    const auto column = static_cast<Eigen::Index>(i);
+    Vec3 pull = -tissue_force_[static_cast<std::size_t>(tissue)].col(column);
+    if (contact.cols() > 0) pull += contact.col(column);
     force += pull;
     moment += configuration_.lever(nodes[i]).cross(pull);
   }
@@ -275,6 +298,7 @@ double Dynamics::mass_of(int block) const {
 }
 
 void Dynamics::multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const {
+  ++evaluations_[Term::Inertia];
   r.resize(b.size());
   for (int block = 0; block < model_.layout.num_free_nodes; ++block) {
     r.segment<3>(3 * block) = mass_of(block) * b.segment<3>(3 * block);

@@ -20,10 +20,13 @@ class Dynamics {
 
   /// The candidates for the coming step; their couplings enter the pattern.
   void set_candidates(const std::vector<CandidateList>& candidates);
-  /// Drops what depends on the past (couplings of earlier candidates).
+  /// Drops what depends on the past (couplings of earlier candidates), and what a solution that was
+  /// left in the middle had set.
   void forget() {
     matrix_.forget();
     contact_.drop_multipliers();
+    contact_.set_soft(false);
+    drop_prediction();
   }
 
   /// Reads y and computes all forces there. Block forces: 3 entries a block, reactions of fixed and
@@ -34,7 +37,7 @@ class Dynamics {
   const Configuration& configuration() const { return configuration_; }
   const Eigen::VectorXd& forces() const { return f_; }
   /// Force [N] on a bone of the tissue that is tied to it, and its moment [N m] about the bone's
-  /// reference point.
+  /// reference point: elasticity, with its dampers, and what contact puts on the tied nodes.
   std::pair<Vec3, Vec3> attachment_force(int tissue, int bone) const;
   /// Force [N] and moment [N m], about its reference point, that a fixed, driven or held bone puts
   /// on what holds it.
@@ -132,6 +135,8 @@ class Dynamics {
   double energy_per_activation(std::size_t tissue) const;
   double gravity_energy() const;  // [J], of all masses but fixed and driven bones' own
   DynamicsTimes& times() { return times_; }
+  /// Since it was made.
+  EvaluationCounts evaluations() const;
 
  private:
   /// Displacements of a tissue's nodes by small ones of the blocks.
@@ -169,6 +174,7 @@ class Dynamics {
   NewtonMatrix matrix_;
   double trusted_motion_ = std::numeric_limits<double>::infinity();
   DynamicsTimes times_;
+  mutable EvaluationCounts evaluations_;  // but those of the matrix and of contact
 };
 
 }  // namespace articular::sim

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "sim/error.hpp"
 #include "sim/held_bone.hpp"
 #include "sim/linear_solver.hpp"
 #include "sim/newton_weights.hpp"
@@ -69,6 +71,7 @@ class Equilibrium::Solver {
   std::vector<NewtonIteration> iterations;
   SolverCounts counts;
   double seconds = 0;
+  IterationWatch watch;
 
  private:
   static int residual(N_Vector u, N_Vector r, void* data);
@@ -201,6 +204,7 @@ bool Equilibrium::Solver::solve_linear() {
   const Stopwatch watch(seconds);
   correction_.setZero(rhs_.size());
   const fem::SolveReport report = linear_->solve(rhs_, correction_);
+  ++counts.linear_solves;
   counts.linear_iterations += report.iterations;
   return report.converged && correction_.allFinite();
 }
@@ -271,6 +275,7 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
     self.short_in_a_row_ = s <= kShort ? self.short_in_a_row_ + 1 : 0;
     if (self.from_afar_ && self.short_in_a_row_ == kMostShort) return 1;
     self.iterations.push_back({residual, s * self.largest_displacement(self.correction_), s});
+    if (self.watch && self.watch(self.t_, self.iterations.back())) throw Interruption();
     return 0;
   });
 }
@@ -410,6 +415,7 @@ bool Equilibrium::solve(Eigen::VectorXd& y, double t, double damping) {
 bool Equilibrium::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y) {
   return solver_->yield(f, damping, y);
 }
+void Equilibrium::set_watch(IterationWatch watch) { solver_->watch = std::move(watch); }
 void Equilibrium::restart() { solver_->restart(); }
 double Equilibrium::residual() const { return solver_->residual(); }
 double Equilibrium::largest_acceleration() const { return solver_->largest_acceleration(); }

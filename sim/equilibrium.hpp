@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct NewtonIteration {
   double correction = 0;  // [m] largest displacement
   double fraction = 1;    // of the correction that the line search took
 };
+
+/// Told of each iteration, towards the loads of t [s]; true asks to stop: Interruption is thrown.
+using IterationWatch = std::function<bool(double t, const NewtonIteration&)>;
 
 /// Equilibrium of forces by KINSOL: Newton's iteration on the displacements u of nodes and bones
 /// (rotations: rotation vectors) from where they are,
@@ -43,6 +47,7 @@ class Equilibrium {
   /// @param damping  d [1/s²]
   /// @return false when that can't be solved; y is as before
   [[nodiscard]] bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
+  void set_watch(IterationWatch watch);
   /// Drops what the linear solver knows of earlier ones.
   void restart();
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -42,5 +43,9 @@ class SimulationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Somebody asked to stop in the middle of a step. No error: thrown through the solvers to where
+/// the run ends in good order, with what was written valid.
+class Interruption : public std::exception {};
 
 }  // namespace articular::sim

@@ -1,12 +1,9 @@
 #include "sim/initial_overlap.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "collision/block_collide.hpp"
-#include "sim/triangle_distance.hpp"
+#include "sim/triangle_tree.hpp"
 
 namespace articular::sim {
 namespace {
@@ -21,17 +18,11 @@ bool is_inside(const Vec3& x, const Collider& body, int tetrahedron) {
   return lu.isInvertible() && lu.solve(x.homogeneous()).minCoeff() >= 0;
 }
 
-double depth_below_surface(const Vec3& x, const Collider& body) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& face : body.surface.faces.colwise())
-    least = std::min(
-        least, squared_distance(x, body.X.col(face[0]), body.X.col(face[1]), body.X.col(face[2])));
-  return std::sqrt(least);
-}
-
 /// The nodes of a surface that lie in another body, from the pairs that meet.
 void add_nodes_inside(const std::vector<collision::Penetration>& pairs, const Collider& surface,
                       const Collider& body, int bone_of_body, InitialOverlap& overlap) {
+  if (pairs.empty()) return;
+  const TriangleTree faces(body.X, body.surface.faces);
   std::vector<char> counted(static_cast<std::size_t>(surface.X.cols()), 0);
   for (const collision::Penetration& pair : pairs)
     for (const int i : surface.surface.faces.col(pair.face)) {
@@ -40,7 +31,7 @@ void add_nodes_inside(const std::vector<collision::Penetration>& pairs, const Co
       const Vec3 x = surface.X.col(i);
       if (tied || counted[node] != 0 || !is_inside(x, body, pair.tetrahedron)) continue;
       counted[node] = 1;
-      const double depth = depth_below_surface(x, body);
+      const double depth = faces.distance(x);
       if (depth < kLeastDepth * body.size) continue;
       ++overlap.num_nodes;
       if (depth > overlap.depth) {

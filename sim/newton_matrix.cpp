@@ -225,6 +225,7 @@ void NewtonMatrix::add_tissue(std::size_t t, const Moment& now, const SystemScal
   const Tissue& tissue = model_.tissues[t];
   TissueWork& work = tissues_[t];
   const double activation = tissue.muscle < 0 ? 0 : now.configuration.activation[tissue.muscle];
+  ++evaluations_[Term::ElasticStiffness];
   if (work.direct) {
     tissue.elements.add_stiffness(now.tissues[t].x, activation, tangent, scale.stiffness,
                                   *work.direct, A);
@@ -267,7 +268,12 @@ void NewtonMatrix::add_smoothed(std::size_t t, const Moment& now, const SystemSc
 }
 
 void NewtonMatrix::add_masses(const Configuration& now, const SystemScale& scale,
-                              fem::BlockMatrix& A) const {
+                              fem::BlockMatrix& A) {
+  const bool any_damping =
+      scale.damping != 0 && std::any_of(model_.tissues.begin(), model_.tissues.end(),
+                                        [](const Tissue& t) { return t.mass_damping > 0; });
+  if (scale.mass == 0 && !any_damping) return;  // equilibrium
+  ++evaluations_[Term::Inertia];
   for (const Tissue& tissue : model_.tissues) {
     const double share = scale.mass + scale.damping * tissue.mass_damping;
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i)

@@ -42,6 +42,8 @@ class NewtonMatrix {
   };
   const fem::BlockMatrix& assemble(const Moment& now, const SystemScale& scale,
                                    fem::Tangent tangent);
+  /// Of stiffness and inertia; what acts between surfaces counts its own.
+  const EvaluationCounts& evaluations() const { return evaluations_; }
   /// What smoothed tissues add to that matrix: pressures that couple all of their nodes. Refers to
   /// this object.
   fem::PressurePart pressure_part() const;
@@ -78,7 +80,7 @@ class NewtonMatrix {
                       fem::Tangent tangent);
   void add_smoothed(std::size_t t, const Moment& now, const SystemScale& scale,
                     fem::Tangent tangent);
-  void add_masses(const Configuration& now, const SystemScale& scale, fem::BlockMatrix& A) const;
+  void add_masses(const Configuration& now, const SystemScale& scale, fem::BlockMatrix& A);
 
   const Model& model_;
   bool smoothed_ = false;       // some tissue is
@@ -89,6 +91,7 @@ class NewtonMatrix {
   fem::BlockMatrix plain_;          // with smoothed tissues: couplings of the elements alone
   std::vector<int> slot_of_plain_;  // of each of its blocks in A_
   std::vector<fem::PressureTerm> pressure_terms_;
+  EvaluationCounts evaluations_;
 };
 
 }  // namespace articular::sim

@@ -75,6 +75,7 @@ bool NewtonSystem::solve_linear(SolverCounts& counts) {
   const Stopwatch watch(solve_seconds_);
   w_.setZero(mass_rhs_.size());
   const fem::SolveReport report = solver_->solve(mass_rhs_, w_);
+  ++counts.linear_solves;
   counts.linear_iterations += report.iterations;
   used_consistent_ |= tangent_ == fem::Tangent::Consistent;
   return report.converged && w_.allFinite();

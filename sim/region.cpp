@@ -1,17 +1,12 @@
 #include "sim/region.hpp"
 
-#include "sim/triangle_distance.hpp"
-
 namespace articular::sim {
 namespace {
 
-bool is_near(const MeshData& mesh, const Vec3& x, double distance) {
-  for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-    const Vec3 a = mesh.X.col(mesh.triangles(0, f)), b = mesh.X.col(mesh.triangles(1, f)),
-               c = mesh.X.col(mesh.triangles(2, f));
-    if (squared_distance(x, a, b, c) <= distance * distance) return true;
-  }
-  return false;
+TriangleTree surface_of(const BodyGeometry& geometry) {
+  const MeshData& mesh = geometry.contact.X.cols() > 0 ? geometry.contact : geometry.mesh;
+  if (mesh.tets.cols() == 0) return {mesh.X, mesh.triangles};
+  return {mesh.X, collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())).faces};
 }
 
 }  // namespace
@@ -20,14 +15,8 @@ RegionTest::RegionTest(const Region& region, const Model& model,
                        const std::vector<BodyGeometry>& geometry)
     : region_(region) {
   if (!region.near_body) return;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].name != region.near_body->first) continue;
-    const BodyGeometry& near = geometry[b];
-    near_ = near.contact.X.cols() > 0 ? near.contact : near.mesh;
-    if (near_.tets.cols() > 0)
-      near_.triangles =
-          collision::build_surface(near_.tets, static_cast<int>(near_.X.cols())).faces;
-  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (model.bodies[b].name == region.near_body->first) near_ = surface_of(geometry[b]);
 }
 
 bool RegionTest::contains(const Vec3& x, bool on_surface) const {
@@ -36,7 +25,7 @@ bool RegionTest::contains(const Vec3& x, bool on_surface) const {
       ((x - region_.box->first).minCoeff() < 0 || (region_.box->second - x).minCoeff() < 0))
     return false;
   if (region_.sphere && (x - region_.sphere->first).norm() > region_.sphere->second) return false;
-  return !region_.near_body || is_near(near_, x, region_.near_body->second);
+  return !region_.near_body || near_.is_within(x, region_.near_body->second);
 }
 
 }  // namespace articular::sim

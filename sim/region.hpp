@@ -4,6 +4,7 @@
 
 #include "sim/body_geometry.hpp"
 #include "sim/model.hpp"
+#include "sim/triangle_tree.hpp"
 
 namespace articular::sim {
 
@@ -18,7 +19,7 @@ class RegionTest {
 
  private:
   const Region& region_;
-  MeshData near_;  // surface of the body that the region lies near, if any
+  TriangleTree near_;  // surface of the body that the region lies near, if any
 };
 
 }  // namespace articular::sim

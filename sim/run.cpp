@@ -17,8 +17,11 @@
 namespace articular::sim {
 namespace {
 
-/// Frames between two checkpoints where the scenario gives no interval.
-constexpr int kFramesPerCheckpoint = 10;
+/// Frames between two checkpoints where the scenario gives no interval. What lies between two
+/// frames of a static analysis may take minutes.
+int frames_per_checkpoint(const Model& model) {
+  return model.scenario.analysis == Scenario::Analysis::Static ? 1 : 10;
+}
 
 /// Multiples of an interval are computed, not summed: a resumed run has the same ones.
 struct Schedule {
@@ -50,11 +53,10 @@ class Run {
         kinks_(kink_times(model)),
         frames_{model.scenario.output.interval},
         checkpoints_{model.scenario.output.checkpoint_interval.value_or(
-            kFramesPerCheckpoint * model.scenario.output.interval)} {}
+            frames_per_checkpoint(model) * model.scenario.output.interval)} {}
 
   RunOutcome go() {
     const auto start = std::chrono::steady_clock::now();
-    begin();
     const double duration = model_.scenario.duration;
     RunOutcome outcome = RunOutcome::Finished;
     std::string how = "finished";
@@ -66,7 +68,9 @@ class Run {
       write_text_file(options_.directory / "summary.json",
                       summary_json(model_, state_, stepper_, stepper_.times(), wall, how));
     };
+    stepper_.set_watch(options_.after_iteration);
     try {
+      begin();
       while (state_.t < duration) {
         stepper_.step(state_, next_event());
         observe();
@@ -76,6 +80,10 @@ class Run {
           break;
         }
       }
+    } catch (const Interruption&) {
+      outcome = RunOutcome::Interrupted;
+      how = "interrupted";
+      stepper_.restart(state_);  // energies are those of the last step that was done
     } catch (const SimulationError& error) {
       how = error.what();
       convergence_ += convergence_rows(model_, stepper_.take_convergence());
@@ -104,15 +112,17 @@ class Run {
         return;
       }
     }
-    if (model_.scenario.settling) settle_start();
+    // Nothing of an earlier run must stand beside what this one leaves when it is interrupted.
     std::error_code ignored;
     std::filesystem::remove(checkpoint_file(), ignored);
+    std::filesystem::remove(options_.directory / (model_.scenario.name + ".pvd"), ignored);
+    if (model_.scenario.settling) settle_start();
     history_.record(state_, stepper_);
     output_frame();
   }
 
   void settle_start() {
-    state_.settling = settle(model_, state_.y);
+    state_.settling = settle(model_, state_.y, options_.after_iteration);
     if (state_.settling.overlaps.empty()) return;
     stepper_.restart(state_);
     state_.energy.start = stepper_.stored_energy().total();

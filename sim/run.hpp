@@ -3,8 +3,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "sim/model.hpp"
-#include "sim/state.hpp"
+#include "sim/equilibrium.hpp"
 
 namespace articular::sim {
 
@@ -13,6 +12,9 @@ struct RunOptions {
   bool resume = false;
   /// Called once bodies that overlapped at the start have been pushed apart.
   std::function<void(const Settling&)> after_settling;
+  /// Called after every iteration of a static load step, and of settling (t = 0); true stops the
+  /// run: a load step may take minutes.
+  IterationWatch after_iteration;
   /// Called after every step; true stops the run (as after Ctrl-C).
   std::function<bool(const State&, double duration)> after_step;
 };

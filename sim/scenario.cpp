@@ -1,5 +1,6 @@
 #include "sim/scenario.hpp"
 
+#include "sim/scenario_choices.hpp"
 #include "sim/scenario_reader.hpp"
 #include "sim/toml_override.hpp"
 
@@ -22,12 +23,17 @@ void check_names_of_contact_surfaces(const std::vector<Body>& bodies) {
 Scenario read_scenario(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides) {
   Node root = read_toml(file);
-  for (const std::string& text : overrides) apply_override(root, text);
+  for (const std::string& text : overrides)
+    if (sets_a_choice(text)) apply_override(root, text);
+  const ChosenWords choices = apply_choices(root);
+  for (const std::string& text : overrides)
+    if (!sets_a_choice(text)) apply_override(root, text);
   const TableReader document(root, "scenario",
-                             {"title", "duration", "analysis", "accuracy", "settling", "contact",
-                              "integrator", "detection", "output", "body", "attach", "muscle",
-                              "muscle_table", "ligament", "load", "probe"});
+                             {"choice", "title", "duration", "analysis", "accuracy", "settling",
+                              "contact", "integrator", "detection", "output", "body", "attach",
+                              "muscle", "muscle_table", "ligament", "load", "probe"});
   Scenario scenario;
+  scenario.choices = choices;
   scenario.file = file;
   scenario.name = file.stem().string();
   const std::filesystem::path folder = file.parent_path();

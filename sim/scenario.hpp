@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "collision/narrow_rule.hpp"
@@ -297,7 +298,7 @@ struct Output {
   std::string length_unit_name = "mm";
   std::optional<std::filesystem::path> directory;
   bool contact_surfaces = false;  // a file of its own for the surface that each body touches with
-  std::optional<double> checkpoint_interval;  // [s]; none = ten times the interval
+  std::optional<double> checkpoint_interval;  // [s]; none: see run.cpp
 };
 
 struct Scenario {
@@ -320,6 +321,8 @@ struct Scenario {
   std::vector<ContactPair> contacts;
   std::vector<Probe> probes;
   Output output;
+  /// The words of [choice], by name: see scenario_choices.hpp.
+  std::vector<std::pair<std::string, std::string>> choices;
   /// The settings after presets and overrides, as JSON text, for summary.json.
   std::string settings_json;
   /// What the file says after overrides, without comments and layout: checkpoints belong to it.

@@ -125,6 +125,7 @@ std::string settings_as_json(const Scenario& scenario) {
   constexpr const char* kAccuracies[] = {"fast", "balanced", "accurate"};
   nlohmann::ordered_json json;
   json["title"] = scenario.title;
+  for (const auto& [name, word] : scenario.choices) json["choice"][name] = word;
   json["duration_s"] = scenario.duration;
   json["accuracy"] = kAccuracies[static_cast<int>(scenario.accuracy)];
   json["analysis"] = scenario.analysis == Scenario::Analysis::Static ? "static" : "dynamic";

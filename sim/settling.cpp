@@ -63,13 +63,14 @@ void refuse_lost_bodies(const Model& model, const std::vector<double>& depths) {
 
 class Settler {
  public:
-  explicit Settler(const Model& model)
+  Settler(const Model& model, const IterationWatch& watch)
       : model_(model),
         dynamics_(model),
         search_(model),
         equilibrium_(model, dynamics_),
         margin_(model.detection_margin) {
     dynamics_.set_unloaded(true);
+    equilibrium_.set_watch(watch);
     hooks_ = contact_hooks(model, search_, dynamics_, margin_, rejected_);
   }
 
@@ -206,16 +207,16 @@ class Settler {
 
 }  // namespace
 
-Settling settle(const Model& model, Eigen::VectorXd& y) {
+Settling settle(const Model& model, Eigen::VectorXd& y, const IterationWatch& watch) {
   if (model.contacts.empty() || y.size() == 0) return {};
-  Settler settler(model);
+  Settler settler(model, watch);
   if (settler.overlaps(y).empty()) return {};
   if (model.scenario.analysis == Scenario::Analysis::Dynamic) return settler.settle(y);
   // The soft pointwise contact of a dynamic analysis gets bodies out of each other more easily.
   Scenario scenario = model.scenario;
   scenario.analysis = Scenario::Analysis::Dynamic;
   const Model pointwise = build_model(std::move(scenario));
-  return Settler(pointwise).settle(y);
+  return Settler(pointwise, watch).settle(y);
 }
 
 }  // namespace articular::sim

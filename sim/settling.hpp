@@ -1,7 +1,6 @@
 #pragma once
 
-#include "sim/model.hpp"
-#include "sim/state.hpp"
+#include "sim/equilibrium.hpp"
 
 namespace articular::sim {
 
@@ -13,8 +12,10 @@ namespace articular::sim {
 ///
 /// Overlaps within the contact's max_penetration stay as they are.
 /// @param y  at the start, in the order of Layout; on return positions have moved, nothing else
+/// @param watch  told of each iteration, see Equilibrium; may be empty
 /// @return no overlaps: nothing was to be done
-/// @throws SimulationError when that does not end, or contact can't tell the way out
-Settling settle(const Model& model, Eigen::VectorXd& y);
+/// @throws SimulationError when that does not end, or contact can't tell the way out;
+/// Interruption when `watch` asks to stop
+Settling settle(const Model& model, Eigen::VectorXd& y, const IterationWatch& watch = {});
 
 }  // namespace articular::sim

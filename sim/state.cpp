@@ -8,7 +8,8 @@ SolverCounts combined(SolverCounts a, const SolverCounts& b, Operation operation
   for (std::int64_t SolverCounts::*count :
        {&SolverCounts::steps, &SolverCounts::rejected_newton, &SolverCounts::newton_iterations,
         &SolverCounts::factorizations, &SolverCounts::projected_tangents,
-        &SolverCounts::linear_iterations, &SolverCounts::force_evaluations})
+        &SolverCounts::linear_solves, &SolverCounts::linear_iterations,
+        &SolverCounts::force_evaluations})
     a.*count = operation(a.*count, b.*count);
   return a;
 }

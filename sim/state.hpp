@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/term.hpp"
+
 namespace articular::sim {
 
 /// Work done and energy lost since the start [J].
@@ -25,6 +27,7 @@ struct SolverCounts {
   std::int64_t newton_iterations = 0;
   std::int64_t factorizations = 0;
   std::int64_t projected_tangents = 0;  // matrices that were not positive definite as they came
+  std::int64_t linear_solves = 0;
   std::int64_t linear_iterations = 0;
   std::int64_t force_evaluations = 0;
 };
@@ -39,6 +42,7 @@ struct Counts : SolverCounts {
   std::int64_t reported_pairs = 0;
   std::int64_t stiffened = 0;   // steps done again with a contact's stiffness doubled
   std::int64_t deep_pairs = 0;  // contact candidates deeper than usual: see ContactSearch
+  EvaluationCounts evaluations;
 };
 
 /// How far two bodies overlapped before and after settling [m], the deepest point of either.

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/contact_hooks.hpp"
 
@@ -46,6 +47,10 @@ State Stepper::initial() {
   return state;
 }
 
+void Stepper::set_watch(IterationWatch watch) {
+  if (equilibrium_) equilibrium_->set_watch(std::move(watch));
+}
+
 void Stepper::restart(const State& state) {
   dynamics_->forget();
   dynamics_->set_stiffening(state.stiffening);
@@ -73,6 +78,7 @@ void Stepper::step(State& state, double t_target) {
 
   const SearchCounts search_before = search_ ? search_->counts() : SearchCounts{};
   const SolverCounts solver_before = solver_counts();
+  const EvaluationCounts evaluations_before = evaluations();
   remember_start(state);
 
   double tried = h;
@@ -88,6 +94,8 @@ void Stepper::step(State& state, double t_target) {
   else
     state.next_step = tried < h ? tried : std::min(nominal, 2 * state.next_step);
 
+  state.counts.evaluations += evaluations();
+  state.counts.evaluations -= evaluations_before;
   static_cast<SolverCounts&>(state.counts) = state.counts + (solver_counts() - solver_before);
   if (search_) {
     state.counts.tree_updates += search_->counts().tree_updates - search_before.tree_updates;
@@ -95,6 +103,12 @@ void Stepper::step(State& state, double t_target) {
     state.counts.reported_pairs += search_->counts().reported_pairs - search_before.reported_pairs;
     state.counts.deep_pairs += search_->counts().deep_pairs - search_before.deep_pairs;
   }
+}
+
+EvaluationCounts Stepper::evaluations() const {
+  EvaluationCounts sum = dynamics_->evaluations();
+  if (search_) sum += search_->counts().evaluations;
+  return sum;
 }
 
 SolverCounts Stepper::solver_counts() const {

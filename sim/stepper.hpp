@@ -38,6 +38,10 @@ class Stepper {
   /// @throws SimulationError when the step would get smaller than the scenario's least one
   void step(State& state, double t_target);
 
+  /// Of a static analysis: told of each iteration, see Equilibrium. step() then throws Interruption
+  /// where it asks to stop: the state is as before, but for counts; go on with restart().
+  void set_watch(IterationWatch watch);
+
   /// A restart point: drops everything that a run resumed from `state` would not have.
   void restart(const State& state);
 
@@ -46,6 +50,8 @@ class Stepper {
   StoredEnergy stored_energy() const;
   std::vector<Positions> contact_forces() const;  // at colliders' nodes, by body [N]
   PhaseTimes times();
+  /// Since it was made; those of State::counts are of the steps alone.
+  EvaluationCounts evaluations() const;
 
   /// Of a static analysis: every iteration since the last call.
   std::vector<ConvergenceRow> take_convergence() { return std::exchange(convergence_, {}); }

@@ -43,6 +43,7 @@ Json counts(const Counts& c) {
           {"newton_iterations", c.newton_iterations},
           {"factorizations", c.factorizations},
           {"projected_tangents", c.projected_tangents},
+          {"linear_solves", c.linear_solves},
           {"linear_iterations", c.linear_iterations},
           {"force_evaluations", c.force_evaluations},
           {"tree_updates", c.tree_updates},
@@ -50,6 +51,15 @@ Json counts(const Counts& c) {
           {"reported_pairs", c.reported_pairs},
           {"stiffened", c.stiffened},
           {"deep_pairs", c.deep_pairs}};
+}
+
+Json evaluations(const EvaluationCounts& counts) {
+  Json json;
+  for (std::size_t i = 0; i < kNumTerms; ++i) {
+    const auto term = static_cast<Term>(i);
+    json[std::string(name_of(term))] = counts[term];
+  }
+  return json;
 }
 
 Json settling(const Model& model, const Settling& settling) {
@@ -122,6 +132,7 @@ std::string summary_json(const Model& model, const State& state, const Stepper& 
         {"assembly", phases.assembly},
         {"solve", phases.solve},
         {"output", wall.output}}},
+      {"evaluations", evaluations(state.counts.evaluations)},
       {"peak_memory_MB", static_cast<double>(usage.ru_maxrss) / 1024},
       {"warnings", warnings},
       {"versions",

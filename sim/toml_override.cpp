@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <optional>
 #include <vector>
@@ -12,10 +11,6 @@
 
 namespace articular::sim {
 namespace {
-
-// The arrays of tables of a scenario: an override names one of their entries, it cannot add one.
-constexpr std::array<std::string_view, 8> kEntryLists{
-    "body", "attach", "muscle", "muscle_table", "ligament", "load", "contact", "probe"};
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t");

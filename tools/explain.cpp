@@ -8,6 +8,7 @@
 #include "sim/linear_solver.hpp"
 #include "sim/model.hpp"
 #include "tools/commands.hpp"
+#include "tools/term_costs.hpp"
 
 namespace articular::tools {
 namespace {
@@ -47,64 +48,130 @@ Json explain_body(const sim::Model& model, const sim::BodyModel& body) {
   return json;
 }
 
-/// Blocks of the system matrix and of its Cholesky factor, roughly: 20 nodes around each, and a
-/// factor fill that grows with the cube root of the size.
-double memory_estimate(const sim::Model& model) {
-  double bytes = 0;
-  for (const sim::Tissue& tissue : model.tissues) {
-    const auto nodes = static_cast<double>(tissue.X.cols());
-    const double blocks = 15 * nodes;
-    bytes += 72 * blocks * 3 + 300.0 * tissue.elements.num_elements();
-    bytes += 72 * blocks * 0.3 * std::cbrt(nodes);
-  }
-  for (const sim::BodyModel& body : model.bodies)
-    if (body.collider) bytes += 400.0 * static_cast<double>(body.collider->tets.cols()) + 7e6;
-  return bytes;
-}
-
 Json linear_solver(const sim::Model& model) {
   if (!sim::needs_linear_solver(model)) return nullptr;
   const fem::SolverChoice choice = sim::choose_linear_solver(model);
   return {{"name", sim::name_of(choice.kind)}, {"reason", choice.reason}};
 }
 
+template <class Items, class Has>
+bool any(const Items& items, Has&& has) {
+  return std::any_of(items.begin(), items.end(), std::forward<Has>(has));
+}
+
+/// What a scene does not have, and therefore does not pay for; then what we do not model at all.
+Json left_out(const sim::Model& model) {
+  Json items = Json::array();
+  if (model.scenario.analysis == sim::Scenario::Analysis::Static)
+    items.push_back("inertia, dampers: the analysis is static (masses but for weight)");
+  for (const sim::BodyModel& body : model.bodies) {
+    if (body.bone >= 0 && !model.bones[static_cast<std::size_t>(body.bone)].unknown)
+      items.push_back(fmt::format("unknowns of `{}`: it is {}", body.name,
+                                  model.bones[static_cast<std::size_t>(body.bone)].motion
+                                      ? "driven"
+                                      : "fixed; its collision mesh is placed once"));
+  }
+  if (model.contacts.empty()) {
+    items.push_back("contact: no pair of bodies can meet, so no tree is built");
+  } else {
+    for (const sim::BodyModel& body : model.bodies)
+      if (!body.collider)
+        items.push_back(fmt::format("contact of `{}`: it is in no contact pair", body.name));
+    if (!any(model.contacts, [](const sim::ContactModel& c) { return c.a == c.b; }))
+      items.push_back("self-contact: no tissue is tested against itself");
+    if (!any(model.contacts, [](const sim::ContactModel& c) { return c.law.friction > 0; }))
+      items.push_back("friction: the scene names none");
+    if (!any(model.contacts, [](const sim::ContactModel& c) { return c.law.damping > 0; }))
+      items.push_back("damping in contact: the scene names none");
+  }
+  if (!any(model.tissues,
+           [](const sim::Tissue& t) { return t.dashpots || t.mass_damping > 0 || t.relaxation; }))
+    items.push_back("dampers and relaxation of tissue: the scene names none");
+  if (model.muscles.empty()) items.push_back("muscles: the scene has none");
+  if (model.ligaments.empty()) items.push_back("ligaments: the scene has none");
+  if (model.forces.empty()) items.push_back("forces: the scene has none");
+  if (model.gravity.isZero(0)) items.push_back("gravity: the scene has none");
+  items.push_back("fluid flow in cartilage (poroelasticity)");
+  items.push_back("wrapping of muscles over bone (straight between via points)");
+  items.push_back("deformation of bone");
+  return items;
+}
+
+Json costs_as_json(const SceneCosts& costs, int unknowns, double model_bytes) {
+  Json terms = Json::array();
+  for (const TermCost& cost : costs.terms) {
+    Json term = {{"term", cost.term}};
+    if (cost.unknowns > 0) {
+      term["unknowns"] = cost.unknowns;
+      term["share_of_unknowns"] = static_cast<double>(cost.unknowns) / unknowns;
+    }
+    if (cost.force_seconds > 0) term["evaluation_s"] = cost.force_seconds;
+    if (cost.matrix_seconds > 0) term["matrix_s"] = cost.matrix_seconds;
+    terms.push_back(term);
+  }
+  return {{"terms", terms},
+          {"detection_s", costs.detection_seconds},
+          {"iteration_s",
+           {{"total", costs.iteration_seconds()},
+            {"forces", costs.evaluation_seconds},
+            {"assembly", costs.assembly_seconds},
+            {"factor", costs.factor_seconds},
+            {"solve", costs.solve_seconds}}},
+          {"memory_MB",
+           {{"meshes_and_model", model_bytes / 1e6},
+            {"detection", costs.detection_bytes / 1e6},
+            {"forces_and_matrices", costs.matrix_bytes / 1e6},
+            {"linear_solver", costs.solver_bytes / 1e6}}}};
+}
+
 Json explain(const sim::Model& model) {
-  Json bodies = Json::array(), pairs = Json::array(), left_out = Json::array();
+  Json bodies = Json::array(), pairs = Json::array();
   for (const sim::BodyModel& body : model.bodies) bodies.push_back(explain_body(model, body));
-  bool any_self = false, any_friction = false;
-  for (const sim::ContactModel& contact : model.contacts) {
-    any_self = any_self || contact.a == contact.b;
-    any_friction = any_friction || contact.law.friction > 0;
+  for (const sim::ContactModel& contact : model.contacts)
     pairs.push_back({{"a", model.bodies[static_cast<std::size_t>(contact.a)].name},
                      {"b", model.bodies[static_cast<std::size_t>(contact.b)].name},
                      {"stiffness_Pa_per_m", contact.mean_stiffness}});
-  }
-  if (model.contacts.empty())
-    left_out.push_back("contact: no pair of bodies can meet, so no tree is built");
-  else if (!any_self)
-    left_out.push_back("self-contact: no tissue is tested against itself");
-  for (const sim::BodyModel& body : model.bodies)
-    if (!body.collider && !model.contacts.empty())
-      left_out.push_back(fmt::format("contact of `{}`: it is in no contact pair", body.name));
-  if (model.lines.empty() && model.muscles.empty())
-    left_out.push_back("muscles and ligaments: the scene has none");
-  if (model.gravity.isZero()) left_out.push_back("gravity: the scene has none");
-  left_out.push_back("fluid flow in cartilage (poroelasticity)");
-  left_out.push_back("wrapping of muscles over bone (straight between via points)");
-  left_out.push_back("deformation of bone");
-  if (!any_friction) left_out.push_back("friction: the scene names none");
   return {{"title", model.scenario.title},
           {"bodies", bodies},
           {"contact_pairs", pairs},
           {"muscles", model.muscles.size()},
           {"ligaments", model.ligaments.size()},
+          {"loads", model.forces.size()},
+          {"gravity", !model.gravity.isZero(0)},
           {"unknown_velocities", 3 * model.layout.num_unknown_blocks()},
           {"muscle_activations", model.layout.num_muscles},
           {"linear_solver", linear_solver(model)},
-          {"estimated_memory_MB", memory_estimate(model) / 1e6},
           {"settings", Json::parse(model.scenario.settings_json)},
-          {"left_out", left_out},
+          {"left_out", left_out(model)},
           {"warnings", model.warnings}};
+}
+
+void print_costs(const Json& costs) {
+  const auto ms = [](const Json& seconds) { return 1e3 * seconds.get<double>(); };
+  fmt::print("\nTerms, evaluated where things are at the start (ms; matrix: its part in one):\n");
+  fmt::print("  {:<58} {:>8} {:>6} {:>9} {:>9}\n", "", "unknowns", "share", "once", "matrix");
+  for (const Json& term : costs["terms"]) {
+    const bool has_unknowns = term.contains("unknowns");
+    fmt::print(
+        "  {:<58} {:>8} {:>6} {:>9} {:>9}\n", term["term"].get<std::string>(),
+        has_unknowns ? fmt::format("{}", term["unknowns"].get<int>()) : "",
+        has_unknowns ? fmt::format("{:.0f} %", 100 * term["share_of_unknowns"].get<double>()) : "",
+        term.contains("evaluation_s") ? fmt::format("{:.3f}", ms(term["evaluation_s"])) : "",
+        term.contains("matrix_s") ? fmt::format("{:.3f}", ms(term["matrix_s"])) : "");
+  }
+  const Json& iteration = costs["iteration_s"];
+  fmt::print(
+      "\nA Newton iteration there: {:.2f} ms (all forces {:.2f}, matrix {:.2f}, factor {:.2f}, "
+      "solution {:.2f}); a search for contacts: {:.2f} ms\n",
+      ms(iteration["total"]), ms(iteration["forces"]), ms(iteration["assembly"]),
+      ms(iteration["factor"]), ms(iteration["solve"]), ms(costs["detection_s"]));
+  const Json& memory = costs["memory_MB"];
+  fmt::print(
+      "Memory: meshes and model {:.1f} MB, detection {:.1f}, forces and matrices {:.1f}, linear "
+      "solver {:.1f}; with the program itself about {:.0f} MB\n",
+      memory["meshes_and_model"].get<double>(), memory["detection"].get<double>(),
+      memory["forces_and_matrices"].get<double>(), memory["linear_solver"].get<double>(),
+      costs["estimated_memory_MB"].get<double>());
 }
 
 void print(const Json& json) {
@@ -113,18 +180,19 @@ void print(const Json& json) {
     fmt::print("  {:<18} {:<32} {:>7} unknowns  {:>7} collision tetrahedra\n",
                body["name"].get<std::string>(), body["modelled_as"].get<std::string>(),
                body["unknowns"].get<long>(), body["collision_tetrahedra"].get<long>());
-  fmt::print("  {} muscles, {} ligaments\n", json["muscles"].get<int>(),
-             json["ligaments"].get<int>());
+  fmt::print("  {} muscles, {} ligaments, {} forces, {}\n", json["muscles"].get<int>(),
+             json["ligaments"].get<int>(), json["loads"].get<int>(),
+             json["gravity"].get<bool>() ? "gravity" : "no gravity");
   if (!json["contact_pairs"].empty())
     fmt::print("\nContact pairs (stiffness chosen from the tissue):\n");
   for (const Json& pair : json["contact_pairs"])
     fmt::print("  {} - {}: {:.3g} Pa/m\n", pair["a"].get<std::string>(),
                pair["b"].get<std::string>(), pair["stiffness_Pa_per_m"].get<double>());
+  if (json.contains("costs")) print_costs(json["costs"]);
   fmt::print("\nLeft out:\n");
   for (const Json& item : json["left_out"]) fmt::print("  {}\n", item.get<std::string>());
-  fmt::print("\n{} unknown velocities, {} muscle activations; about {:.0f} MB\n",
-             json["unknown_velocities"].get<int>(), json["muscle_activations"].get<int>(),
-             json["estimated_memory_MB"].get<double>());
+  fmt::print("\n{} unknown velocities, {} muscle activations\n",
+             json["unknown_velocities"].get<int>(), json["muscle_activations"].get<int>());
   if (const Json& solver = json["linear_solver"]; !solver.is_null())
     fmt::print("Linear solver: {} ({})\n", solver["name"].get<std::string>(),
                solver["reason"].get<std::string>());
@@ -139,7 +207,7 @@ void add_explain_command(CLI::App& app, int& exit_code) {
   struct Arguments {
     std::filesystem::path scenario;
     std::vector<std::string> overrides;
-    bool json = false;
+    bool json = false, costs = true;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
@@ -148,9 +216,20 @@ void add_explain_command(CLI::App& app, int& exit_code) {
   command->add_option("--set", arguments->overrides, "Override a value, as in run")
       ->allow_extra_args(false);
   command->add_flag("--json", arguments->json, "Machine-readable");
+  command->add_flag("!--no-costs", arguments->costs,
+                    "Without times and memory, which are measured: each term is evaluated a few "
+                    "times where things are at the start");
   command->callback([arguments, &exit_code] {
-    const Json json =
-        explain(sim::build_model(sim::read_scenario(arguments->scenario, arguments->overrides)));
+    const double before = heap_in_use();
+    const sim::Model model =
+        sim::build_model(sim::read_scenario(arguments->scenario, arguments->overrides));
+    const double model_bytes = heap_in_use() - before;
+    Json json = explain(model);
+    if (arguments->costs) {
+      const SceneCosts costs = measure_costs(model);
+      json["costs"] = costs_as_json(costs, 3 * model.layout.num_unknown_blocks(), model_bytes);
+      json["costs"]["estimated_memory_MB"] = costs.peak_bytes / 1e6;
+    }
     if (arguments->json)
       fmt::print("{}\n", json.dump(2));
     else

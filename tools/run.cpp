@@ -57,6 +57,10 @@ int run_scenario(const RunArguments& arguments) {
     progress.update(state, duration);
     return interrupted.load();
   };
+  options.after_iteration = [&](double t, const sim::NewtonIteration& iteration) {
+    progress.update(t, iteration);
+    return interrupted.load();
+  };
   options.after_settling = [&](const sim::Settling& settling) {
     if (!arguments.quiet) print(model, settling);
   };
@@ -70,9 +74,10 @@ int run_scenario(const RunArguments& arguments) {
     throw;
   }
   progress.finish();
-  fmt::print("{}\n{}\n{}\n", (options.directory / (scenario.name + ".pvd")).string(),
-             (options.directory / "history.csv").string(),
-             (options.directory / "summary.json").string());
+  for (const std::string& name :
+       {scenario.name + ".pvd", std::string("history.csv"), std::string("summary.json")})
+    if (std::filesystem::exists(options.directory / name))  // interrupted before the first frame
+      fmt::print("{}\n", (options.directory / name).string());
   if (outcome == sim::RunOutcome::Finished) return 0;
   fmt::print(stderr, "articular: interrupted; go on with --resume\n");
   return kInterrupted;

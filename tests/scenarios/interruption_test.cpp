@@ -1,6 +1,9 @@
 // A run that is interrupted and resumed leaves the same history, bit for bit, as one that is not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 #include "tests/scenarios/program.hpp"
 
 namespace articular {
@@ -26,6 +29,26 @@ TEST(Program, InterruptedRunResumesToTheSameHistory) {
 
   ASSERT_EQ(run_program(folder, "run " + arguments + "parts --resume").exit_code, 0);
   EXPECT_EQ(content(folder / "parts/history.csv"), content(folder / "whole/history.csv"));
+}
+
+// The knee's first load step takes half a minute: it is left after an iteration, of which the
+// terminal shows something before.
+TEST(Program, ALongLoadStepShowsItsIterationsAndIsInterrupted) {
+  const TemporaryFolder folder;
+  const ProgramResult stopped = run_shell(
+      folder,
+      "echo 'echo $$ > pid; exec \"" ARTICULAR_PROGRAM "\" run \"" ARTICULAR_SOURCE_DIR
+      "/scenarios/knee/axial-load.toml\" --out knee' > start; touch terminal; "
+      "script -qefc 'sh start' terminal > /dev/null & pid=$!; "
+      "while ! grep -q 'iteration 2, residual' terminal && kill -0 $pid; do sleep 0.05; done; "
+      "kill -INT $(cat pid); wait $pid");
+  EXPECT_EQ(stopped.exit_code, 130);
+  EXPECT_NE(content(folder / "terminal").find("load step to t = 100.0 ms: iteration 2, residual"),
+            std::string::npos);
+  EXPECT_NE(content(folder / "knee/summary.json").find("\"interrupted\""), std::string::npos);
+  // Column names and the row of the start.
+  const std::string history = content(folder / "knee/history.csv");
+  EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), 2);
 }
 
 }  // namespace

@@ -14,15 +14,19 @@
 namespace articular {
 namespace {
 
-/// @param duration  [s], 1000 N each
-ScenarioResults coarse_knee(double duration) {
+/// @param duration   [s], 1000 N each
+/// @param cartilage  the word of that choice
+ScenarioResults coarse_knee(double duration, const std::string& cartilage = "tissue") {
   const TemporaryFolder folder;
   anatomy::write_anatomy(anatomy::knee_anatomy({4, 2}), folder.path() / "anatomy");
   sim::Scenario scenario = sim::read_scenario(
       std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee/axial-load.toml",
-      {"duration=" + std::to_string(duration) + " s"});
-  for (sim::Body& body : scenario.bodies)
+      {"duration=" + std::to_string(duration) + " s", "choice.cartilage=" + cartilage});
+  for (sim::Body& body : scenario.bodies) {
     body.mesh->path = folder.path() / "anatomy" / body.mesh->path.filename();
+    for (sim::MeshFile& file : body.contact_meshes)
+      file.path = folder.path() / "anatomy" / file.path.filename();
+  }
   sim::RunOptions options;
   options.directory = folder.path() / "out";
   sim::run(sim::build_model(scenario), options);
@@ -52,6 +56,11 @@ TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
   const double bone = sum_of(
       results, {"cartilage_of_femur_medial.force.z [N]", "cartilage_of_femur_lateral.force.z [N]"});
   EXPECT_NEAR(contact, bone, 1e-3 * load);
+  // All of it gets to the tibia, by its cartilage and the menisci's horns.
+  const double tibia = sum_of(
+      results, {"cartilage_of_tibia_medial.force.z [N]", "cartilage_of_tibia_lateral.force.z [N]",
+                "horns_medial.force.z [N]", "horns_lateral.force.z [N]"});
+  EXPECT_NEAR(contact, -tibia, 1e-3 * load);
   const double ligaments = sum_of(
       results,
       {"acl_anterior.force [N]", "acl_posterior.force [N]", "pcl_anterior.force [N]",
@@ -73,6 +82,20 @@ TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
   EXPECT_LT(std::abs(results.last("knee.abduction [deg]")), 2);
   EXPECT_GT(std::abs(results.last("knee.abduction [deg]")), 1e-6);
   EXPECT_LT(results.summary().at("max_penetration_m").get<double>(), 0.02e-3);
+}
+
+// Cartilage as an elastic layer on rigid bones: no unknowns but those of the menisci and the bones.
+TEST(KneeAxialLoad, WithCartilageAsALayerContactAndLigamentsBalanceTheLoadToo) {
+  const double load = 100;  // [N]
+  const ScenarioResults results = coarse_knee(0.1, "layer");
+  EXPECT_EQ(results.summary().at("outcome"), "finished");
+  EXPECT_NEAR(results.last("femur.force.z [N]"), load, 1e-3 * load);
+  const double contact =
+      sum_of(results, {"cartilage_medial.force.z [N]", "cartilage_lateral.force.z [N]",
+                       "above_meniscus_medial.force.z [N]", "above_meniscus_lateral.force.z [N]"});
+  EXPECT_GT(contact, load);
+  EXPECT_GT(results.last("above_meniscus_medial.force.z [N]"), 10);
+  EXPECT_GT(results.last("above_meniscus_lateral.force.z [N]"), 10);
 }
 
 #ifdef ARTICULAR_MESHER

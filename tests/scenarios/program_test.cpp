@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
 
@@ -215,6 +216,36 @@ TEST(Program, AMissingMeshIsToldWithWhatMakesIt) {
   EXPECT_NE(result.err.find("no such mesh file; it is made by `tools/make-bone`"),
             std::string::npos)
       << result.err;
+}
+
+// What is measured of a scene before it runs, beside what it then takes.
+TEST(Program, ExplainMeasuresTermsAndMemory) {
+  const TemporaryFolder folder;
+  const std::string scene = "'" ARTICULAR_SOURCE_DIR "/scenarios/verification/tool_on_tissue.toml'";
+  const ProgramResult result = run_program(folder, "explain " + scene + " --json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  double share = 0, forces = 0;
+  for (const auto& term : json.at("costs").at("terms")) {
+    forces += term.value("evaluation_s", 0.0);
+    if (term.contains("share_of_unknowns")) share += term.at("share_of_unknowns").get<double>();
+  }
+  EXPECT_GT(forces, 0);
+  EXPECT_NEAR(share, 1, 1e-12);  // the tool is driven
+  EXPECT_GT(json.at("costs").at("iteration_s").at("factor").get<double>(), 0);
+
+  ASSERT_EQ(
+      run_program(folder, "run " + scene + " --quiet --out out --set duration='10 ms'").exit_code,
+      0);
+  const double needed =
+      nlohmann::json::parse(content(folder / "out/summary.json")).at("peak_memory_MB");
+  EXPECT_LT(json.at("costs").at("estimated_memory_MB").get<double>(), 1.5 * needed);
+  EXPECT_GT(json.at("costs").at("estimated_memory_MB").get<double>(), needed / 1.5);
+
+  const ProgramResult plain = run_program(folder, "explain " + scene + " --json --no-costs");
+  EXPECT_FALSE(nlohmann::json::parse(plain.out).contains("costs"));
+  const ProgramResult text = run_program(folder, "explain " + scene);
+  EXPECT_NE(text.out.find("elasticity of `layer`"), std::string::npos) << text.out;
 }
 
 }  // namespace

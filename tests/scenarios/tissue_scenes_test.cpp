@@ -44,5 +44,15 @@ TEST(TissueScenes, ABlockOfMusclePullsWithItsActiveStress) {
   EXPECT_GT(results.last("energy.tissue_loss [J]"), 0);
 }
 
+// The same muscle as a line: sigma_max over its cross-section, without elements.
+TEST(TissueScenes, AMuscleAsALinePullsAsMuchWithoutAnyUnknowns) {
+  const ScenarioResults results =
+      run_scenario("verification/muscle_block.toml", {"choice.muscle=line"});
+  EXPECT_NEAR(results.last("pull.force.z [N]"), -0.6, 1e-6);
+  EXPECT_EQ(results.summary().at("size").at("unknown_velocities"), 0);
+  EXPECT_EQ(results.summary().at("evaluations").at("elastic_force"), 0);
+  EXPECT_GT(results.summary().at("evaluations").at("line_muscle"), 0);
+}
+
 }  // namespace
 }  // namespace articular

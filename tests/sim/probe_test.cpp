@@ -132,6 +132,44 @@ TEST(ContactProbe, ApartThereIsNoMeanPressureAndNoShare) {
   EXPECT_TRUE(std::isnan(probes("share.share [-]")));
 }
 
+// Half of the surface that the plate presses on is tied to the wall: there contact goes straight
+// into the bone. What the wall gets in all is what the plate gives, up to what statics leaves
+// unbalanced (1e-6 of the largest force at each node).
+TEST(AttachmentProbe, CountsContactOnTheTiedNodesToo) {
+  Scenario s = press(Scenario::Analysis::Static, 0.004);
+  s.bodies[0].material = material_of(fem::NeoHookean(20e3, 0));  // turns without moment
+  s.attachments.push_back(attach("block", "wall", {-1, -1, 0.49 * kSide}, {1e-6, 1, 1}));
+  const auto add = [&](const std::string& name, Probe::Kind kind, const std::string& body,
+                       const std::string& other) {
+    Probe probe;
+    probe.name = name;
+    probe.kind = kind;
+    probe.body = body;
+    probe.other = other;
+    s.probes.push_back(probe);
+  };
+  add("tied", Probe::Kind::Attachment, "block", "wall");
+  add("wall", Probe::Kind::Reaction, "wall", "");
+  Probe& share = *std::find_if(s.probes.begin(), s.probes.end(),
+                               [](const Probe& probe) { return probe.kind == Probe::Kind::Share; });
+  share.part = {"tied"};
+  share.whole = {"block"};
+  Simulation run(s);
+  run.advance(1);
+  const Probes probes(run);
+  const Carried plate = carried(probes, "block"), tied_half = carried(probes, "block_low");
+  const double force = plate.force.norm();
+  // Where nothing gives way pressure is much larger than on the free half.
+  EXPECT_GT(tied_half.force.norm(), 0.5 * force);
+  EXPECT_LT((probes.vec3("tied.force", "N") - plate.force).norm(), 1e-5 * force);
+  EXPECT_LT((probes.vec3("tied.moment", "N m") - plate.moment).norm(), 1e-5 * force * kSide);
+  EXPECT_LT((probes.vec3("wall.force", "N") - probes.vec3("tied.force", "N")).norm(),
+            1e-12 * force);
+  EXPECT_LT((probes.vec3("wall.moment", "N m") - probes.vec3("tied.moment", "N m")).norm(),
+            1e-12 * force * kSide);
+  EXPECT_NEAR(probes("share.share [-]"), 1, 1e-5);
+}
+
 TEST(LineProbe, ALigamentHasItsForceAndItsStrainFromSlack) {
   Scenario s = scene(0.1);
   s.bodies = {stand("a"), stand("b")};

@@ -254,6 +254,109 @@ TEST_F(RunTest, ARunResumedWhileContactsComeAndGoIsTheUninterruptedOne) {
   }
 }
 
+/// In equilibrium; a plate comes down on a block by 1 mm in four load steps.
+const std::string kPressed = R"(
+duration = "0.4 s"
+analysis = "static"
+[integrator]
+step = "0.1 s"
+[[body]]
+name = "floor"
+kind = "fixed"
+[[body]]
+name = "plate"
+kind = "fixed"
+geometry = { box = { size = "20 20 2 mm", cells = [4, 4, 1], center = "0 0 11 mm" } }
+[[body]]
+name = "block"
+kind = "tissue"
+geometry = { box = { size = "10 10 10 mm", cells = [4, 4, 4], center = "0 0 5 mm" } }
+density = "1000 kg/m^3"
+material = { law = "neo-hookean", young_modulus = "15 kPa", poisson_ratio = 0.45, element = "smoothed" }
+[[attach]]
+body = "block"
+to = "floor"
+region = { box = ["-6 -6 -0.1 mm", "6 6 0.1 mm"] }
+[[load]]
+kind = "motion"
+body = "plate"
+time = ["0 s", "0.4 s"]
+translation = ["0 0 0 mm", "0 0 -1 mm"]
+[[probe]]
+name = "plate"
+kind = "contact"
+bodies = ["plate", "block"]
+[[probe]]
+name = "energy"
+kind = "energy"
+[output]
+interval = "0.1 s"
+)";
+
+// In the middle of a load step: what was written is that of the steps before it, energies too, and
+// a resumed run goes on to what it would have been.
+TEST_F(RunTest, ALoadStepIsInterruptedAfterAnyOfItsIterations) {
+  const Model pressed = build_model(read_scenario(folder_.file("pressed.toml", kPressed)));
+  int done = 0;
+  const auto run_to = [&](double t, int iteration, const std::string& name, bool resume) {
+    int of_step = 0;
+    double load_step = 0;
+    RunOptions options;
+    options.directory = out(name);
+    options.resume = resume;
+    options.after_iteration = [&](double towards, const NewtonIteration& newton) {
+      EXPECT_GE(newton.residual, 0);
+      if (towards != load_step) of_step = 0;
+      load_step = towards;
+      ++done;
+      return towards > t && ++of_step == iteration;
+    };
+    return run(pressed, options);
+  };
+  const auto summary = [&](const std::string& name) {
+    return nlohmann::json::parse(content(out(name) / "summary.json"));
+  };
+  EXPECT_EQ(run_to(1, 1, "whole", false), RunOutcome::Finished);
+  EXPECT_EQ(done, summary("whole")["counts"]["newton_iterations"]);
+  for (const int iteration : {1, 2}) {
+    for (const double t : {0.05, 0.15, 0.35}) {
+      const std::string name = "parts" + std::to_string(iteration) + std::to_string(t);
+      EXPECT_EQ(run_to(t, iteration, name, false), RunOutcome::Interrupted);
+      EXPECT_EQ(summary(name)["outcome"], "interrupted");
+      const auto rows = split(content(out(name) / "history.csv"), '\n');
+      const auto columns = split(rows.front(), ','), last = split(rows.back(), ',');
+      EXPECT_NEAR(std::stod(last[0]), summary(name)["simulated_time_s"].get<double>(), 1e-9);
+      EXPECT_LT(std::stod(last[0]), t);
+      const auto elastic = static_cast<std::size_t>(
+          std::find(columns.begin(), columns.end(), "energy.elastic [J]") - columns.begin());
+      const double energy = summary(name)["energy"]["end"]["elastic"];
+      EXPECT_NEAR(std::stod(last[elastic]), energy, 1e-8 * energy);
+      EXPECT_EQ(run_to(1, 1, name, true), RunOutcome::Finished);
+      EXPECT_EQ(content(out(name) / "history.csv"), content(out("whole") / "history.csv"));
+      EXPECT_EQ(content(out(name) / "convergence.csv"), content(out("whole") / "convergence.csv"));
+    }
+  }
+}
+
+// Settling takes long too; what an earlier run has left in the folder doesn't outlive it.
+TEST_F(RunTest, SettlingIsInterruptedAndResumingStartsAfresh) {
+  const std::vector<std::string> overlap = {"body.table.geometry.box.center=0 0 -1.1 mm",
+                                            "duration=30 ms"};
+  run_all("whole", false, overlap);
+  run_all("parts", false, overlap);
+  RunOptions options;
+  options.directory = out("parts");
+  options.after_iteration = [](double t, const NewtonIteration&) {
+    EXPECT_EQ(t, 0);
+    return true;
+  };
+  EXPECT_EQ(run(model(overlap), options), RunOutcome::Interrupted);
+  EXPECT_EQ(split(content(out("parts") / "history.csv"), '\n').size(), 1U);
+  EXPECT_FALSE(fs::exists(out("parts") / "scene.pvd"));
+  run_all("parts", true, overlap);
+  EXPECT_EQ(content(out("parts") / "history.csv"), content(out("whole") / "history.csv"));
+}
+
 // Where the table stands 1 mm in the block: the summary tells how they were set apart, also that of
 // a resumed run, which goes on from there.
 TEST_F(RunTest, SettlingIsToldAndKeptByCheckpoints) {

@@ -99,6 +99,42 @@ INSTANTIATE_TEST_SUITE_P(
                 "\"\\ns\")"}),
     test_name);
 
+std::string choice(const std::string& word, const std::string& when) {
+  return "duration = \"1 s\"\n[choice]\n" + word + "\n" + kBodies + "when = " + when + "\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Choice, ScenarioErrors,
+    ::testing::Values(
+        Mistake{"WordThatNobodyMentions",
+                choice("disc = @\"tisue\"", "{ disc = [\"tissue\", \"rigid\"] }"),
+                "`disc`: no `when` mentions this word; expected one of \"rigid\", \"tissue\", "
+                "found \"tisue\""},
+        Mistake{"ChoiceThatNobodyMentions",
+                choice("disc = \"rigid\"\n@dics = \"rigid\"", "{ disc = \"rigid\" }"),
+                "no `when` mentions the choice `dics`; expected `disc`"},
+        Mistake{"UnknownChoice", choice("disc = \"rigid\"", "{ @disk = \"rigid\" }"),
+                "`when`: there is no choice `disk`; did you mean `disc`?"},
+        Mistake{"WithoutChoices", kStart + "when = { @disc = \"rigid\" }\n",
+                "`when`: there is no choice `disc`; expected it in [choice], which the scenario "
+                "does not have"},
+        Mistake{"WhenIsNoTable", choice("disc = \"rigid\"", "@\"rigid\""),
+                "`when`: expected a table of choices such as { disc = \"tissue\" }, found "
+                "\"rigid\""},
+        Mistake{"WhenIsEmpty", choice("disc = \"rigid\"", "@{}"),
+                "`when`: expected a table of choices such as { disc = \"tissue\" }, found an empty "
+                "one"},
+        Mistake{"WordIsANumber", choice("disc = \"rigid\"", "{ disc = @3 }"),
+                "`disc`: expected a word, or a list of words, found the number 3"},
+        Mistake{"ChosenWordIsANumber", choice("disc = @3", "{ disc = \"rigid\" }"),
+                "`disc`: expected text in quotes, found the number 3"},
+        Mistake{"ChoiceIsNoTable", "choice = @\"rigid\"\n" + kStart,
+                "`choice`: expected a table [choice] of words, found \"rigid\""},
+        Mistake{"WhenOfATable", kStart + "[output]\n@when = { disc = \"rigid\" }\n",
+                "[output]: unknown key `when`; expected one of `interval`, `length_unit`, "
+                "`directory`, `contact_surfaces`, `checkpoint_interval`"}),
+    test_name);
+
 INSTANTIATE_TEST_SUITE_P(
     Values, ScenarioErrors,
     ::testing::Values(
