@@ -10,6 +10,8 @@
 #include "sim/convergence.hpp"
 #include "sim/frames.hpp"
 #include "sim/history.hpp"
+#include "sim/likely_cause.hpp"
+#include "sim/run_warnings.hpp"
 #include "sim/settling.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/summary.hpp"
@@ -54,7 +56,6 @@ class Run {
 
   RunOutcome go() {
     const auto start = std::chrono::steady_clock::now();
-    begin();
     const double duration = model_.scenario.duration;
     RunOutcome outcome = RunOutcome::Finished;
     std::string how = "finished";
@@ -63,10 +64,14 @@ class Run {
       wall.output = output_seconds_;
       wall.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       write_history();
+      if (options_.warn)
+        for (const std::string& warning : run_warnings(model_, state_, stepper_))
+          options_.warn(warning);
       write_text_file(options_.directory / "summary.json",
                       summary_json(model_, state_, stepper_, stepper_.times(), wall, how));
     };
     try {
+      begin();
       while (state_.t < duration) {
         stepper_.step(state_, next_event());
         observe();
@@ -91,6 +96,15 @@ class Run {
     return options_.directory / "checkpoint" / "state.bin";
   }
 
+  /// A law that can't be turned inside out, a start that is: nothing to begin from.
+  void check_start() const {
+    const Dynamics& now = stepper_.dynamics();
+    if (now.forces().allFinite() && std::isfinite(stepper_.stored_energy().total())) return;
+    throw InputError({model_.scenario.file.string()},
+                     "forces at the start are not finite" +
+                         likely_cause(model_, now.configuration(), now.configuration()));
+  }
+
   void begin() {
     state_ = stepper_.initial();
     fingerprint_ = fingerprint(model_);
@@ -98,12 +112,14 @@ class Run {
       if (auto stored = read_checkpoint(checkpoint_file(), fingerprint_)) {
         state_ = std::move(*stored);
         stepper_.restart(state_);
+        check_start();
         writer_.resume_at(state_.t);
         history_.resume(read_text(options_.directory / "history.csv"), state_.t);
         if (is_static()) convergence_ = rows_until(read_text(convergence_file()), state_.t);
         return;
       }
     }
+    check_start();
     if (model_.scenario.settling) settle_start();
     std::error_code ignored;
     std::filesystem::remove(checkpoint_file(), ignored);

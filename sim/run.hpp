@@ -13,6 +13,8 @@ struct RunOptions {
   bool resume = false;
   /// Called once bodies that overlapped at the start have been pushed apart.
   std::function<void(const Settling&)> after_settling;
+  /// Called at the end with each warning that the run itself has given cause for, if any.
+  std::function<void(const std::string&)> warn;
   /// Called after every step; true stops the run (as after Ctrl-C).
   std::function<bool(const State&, double duration)> after_step;
 };
