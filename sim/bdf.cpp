@@ -137,7 +137,8 @@ std::optional<double> Bdf::advance(Eigen::VectorXd& y, double t, double h) {
     case CV_LSOLVE_FAIL:
     case CV_PROJFUNC_FAIL:
     case CV_REPTD_PROJFUNC_ERR:
-    case CV_FIRST_RHSFUNC_ERR:  // forces that are not finite
+    case CV_RHSFUNC_FAIL:  // forces that are not finite
+    case CV_FIRST_RHSFUNC_ERR:
     case CV_REPTD_RHSFUNC_ERR:
     case CV_UNREC_RHSFUNC_ERR:
       break;

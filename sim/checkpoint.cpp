@@ -97,6 +97,7 @@ void write_checkpoint(const std::filesystem::path& file, const State& state,
   put(state.frames, bytes);
   put(state.energy, bytes);
   put(state.counts, bytes);
+  put(state.worst, bytes);
   put(state.settling.solutions, bytes);
   put(state.settling.largest_motion, bytes);
   put(state.settling.overlaps.size(), bytes);
@@ -135,6 +136,7 @@ std::optional<State> read_checkpoint(const std::filesystem::path& file,
     reader.get(state.frames);
     reader.get(state.energy);
     reader.get(state.counts);
+    reader.get(state.worst);
     reader.get(state.settling.solutions);
     reader.get(state.settling.largest_motion);
     std::size_t num_overlaps = 0;

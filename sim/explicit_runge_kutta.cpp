@@ -80,7 +80,8 @@ std::optional<double> ExplicitRungeKutta::advance(Eigen::VectorXd& y, double t, 
   sundials::rethrow(error_);
   switch (flag) {
     case ARK_ERR_FAILURE:
-    case ARK_FIRST_RHSFUNC_ERR:  // forces that are not finite
+    case ARK_RHSFUNC_FAIL:  // forces that are not finite
+    case ARK_FIRST_RHSFUNC_ERR:
     case ARK_REPTD_RHSFUNC_ERR:
     case ARK_UNREC_RHSFUNC_ERR:
       break;

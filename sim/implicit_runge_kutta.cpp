@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/angular_momentum.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/rate_callback.hpp"
 #include "sim/runge_kutta.hpp"
@@ -191,7 +192,8 @@ bool ImplicitRungeKutta::evolve(const Eigen::VectorXd& start, double t, double h
   switch (flag) {
     case ARK_CONV_FAILURE:
     case ARK_LSOLVE_FAIL:
-    case ARK_FIRST_RHSFUNC_ERR:  // forces that are not finite
+    case ARK_RHSFUNC_FAIL:  // forces that are not finite
+    case ARK_FIRST_RHSFUNC_ERR:
     case ARK_REPTD_RHSFUNC_ERR:
     case ARK_UNREC_RHSFUNC_ERR:
       return false;
@@ -221,10 +223,13 @@ std::optional<double> ImplicitRungeKutta::advance(Eigen::VectorXd& y, double t, 
   ++counts_.steps;
   keep_matrix_ = true;
   const int first = model_.layout.velocities();
-  acceleration_ = (view(y_) - y).segment(first, acceleration_.size()) / h;
+  const Eigen::VectorXd before = y;
   y = view(y_);
   for (int r = 0; r < model_.layout.num_rigid; ++r)
     y.segment<4>(model_.layout.bone_q(r)).normalize();
+  if (model_.scenario.integrator.scheme == Integrator::Scheme::ImplicitEuler)
+    keep_angular_momentum(model_, before, h, y);
+  acceleration_ = (y - before).segment(first, acceleration_.size()) / h;
   return t + h;
 }
 

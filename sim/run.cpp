@@ -10,6 +10,8 @@
 #include "sim/convergence.hpp"
 #include "sim/frames.hpp"
 #include "sim/history.hpp"
+#include "sim/likely_cause.hpp"
+#include "sim/run_warnings.hpp"
 #include "sim/settling.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/summary.hpp"
@@ -65,6 +67,9 @@ class Run {
       wall.output = output_seconds_;
       wall.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       write_history();
+      if (options_.warn)
+        for (const std::string& warning : run_warnings(model_, state_, stepper_))
+          options_.warn(warning);
       write_text_file(options_.directory / "summary.json",
                       summary_json(model_, state_, stepper_, stepper_.times(), wall, how));
     };
@@ -99,6 +104,15 @@ class Run {
     return options_.directory / "checkpoint" / "state.bin";
   }
 
+  /// A law that can't be turned inside out, a start that is: nothing to begin from.
+  void check_start() const {
+    const Dynamics& now = stepper_.dynamics();
+    if (now.forces().allFinite() && std::isfinite(stepper_.stored_energy().total())) return;
+    throw InputError({model_.scenario.file.string()},
+                     "forces at the start are not finite" +
+                         likely_cause(model_, now.configuration(), now.configuration()));
+  }
+
   void begin() {
     state_ = stepper_.initial();
     fingerprint_ = fingerprint(model_);
@@ -106,12 +120,14 @@ class Run {
       if (auto stored = read_checkpoint(checkpoint_file(), fingerprint_)) {
         state_ = std::move(*stored);
         stepper_.restart(state_);
+        check_start();
         writer_.resume_at(state_.t);
         history_.resume(read_text(options_.directory / "history.csv"), state_.t);
         if (is_static()) convergence_ = rows_until(read_text(convergence_file()), state_.t);
         return;
       }
     }
+    check_start();
     // Nothing of an earlier run must stand beside what this one leaves when it is interrupted.
     std::error_code ignored;
     std::filesystem::remove(checkpoint_file(), ignored);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "sim/term.hpp"
@@ -58,6 +59,20 @@ struct Settling {
   double largest_motion = 0;  // [m] of a node
 };
 
+/// The worst at the start or the end of any step, for warnings.
+struct Worst {
+  double volume_ratio = 1;  // least of any element
+  int tissue = -1;          // that has it
+  std::int64_t element = -1;
+  double squeezed_at = 0;  // [s]
+  double overlap = 0;      // of two bodies, by the depth that their contact can follow
+  int contact = -1;        // of these
+  double overlap_at = 0;   // [s]
+  double kinetic = 0;      // [J], largest
+  double gravity_low = std::numeric_limits<double>::infinity();  // [J]
+  double gravity_high = -std::numeric_limits<double>::infinity();
+};
+
 /// All that changes: a copy of it at a checkpoint is a restart point.
 struct State {
   double t = 0;                // [s]
@@ -69,6 +84,7 @@ struct State {
   EnergyLedger energy;
   Counts counts;
   Settling settling;
+  Worst worst;
   Eigen::VectorXd stiffening;  // of each contact's stiffness, by max_penetration; ≥ 1
 };
 

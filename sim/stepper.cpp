@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "sim/contact_hooks.hpp"
+#include "sim/likely_cause.hpp"
+#include "sim/worst.hpp"
 
 namespace articular::sim {
 namespace {
@@ -17,6 +19,20 @@ bool has_bounds_in_time(const Model& model) {
   return model.scenario.analysis == Scenario::Analysis::Dynamic &&
          std::any_of(model.contacts.begin(), model.contacts.end(),
                      [](const ContactModel& contact) { return contact.is_bounded; });
+}
+
+const char* words_for(Rejection why) {
+  switch (why) {
+    case Rejection::NoConvergence:
+      return "Newton's iteration did not converge with a step";
+    case Rejection::NoEquilibrium:
+      return "no equilibrium was found with a load step";
+    case Rejection::TooFast:
+      return "bodies move by more than an element, or past each other, in a step";
+    case Rejection::NotFinite:
+      return "forces are not finite after a step";
+  }
+  return "";
 }
 
 }  // namespace
@@ -44,6 +60,7 @@ State Stepper::initial() {
   state.stiffening = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(model_.contacts.size()));
   restart(state);
   state.energy.start = stored_energy().total();
+  note_worst(model_, *dynamics_, state);
   return state;
 }
 
@@ -96,6 +113,7 @@ void Stepper::step(State& state, double t_target) {
 
   state.counts.evaluations += evaluations();
   state.counts.evaluations -= evaluations_before;
+  if (integrator_) stop_where_energy_is_made(state);
   static_cast<SolverCounts&>(state.counts) = state.counts + (solver_counts() - solver_before);
   if (search_) {
     state.counts.tree_updates += search_->counts().tree_updates - search_before.tree_updates;
@@ -150,6 +168,7 @@ bool Stepper::try_time_step(State& state, double h) {
   const Configuration end = predicted(model_, start_, h);
   if (search_ && search_->passes_unseen(start_, end)) {
     ++state.counts.rejected_motion;
+    why_ = Rejection::TooFast;
     return false;
   }
   const Configuration& where = only_end ? end : start_;
@@ -159,13 +178,21 @@ bool Stepper::try_time_step(State& state, double h) {
     const std::optional<double> reached =
         y_.size() == 0 ? std::optional(state.t + h)  // only driven bones move
                        : integrator_->advance(y_, state.t, h);
-    if (!reached) return false;
+    if (!reached) {
+      why_ = Rejection::NoConvergence;
+      return false;
+    }
     dynamics_->evaluate(y_.data(), *reached);
+    if (!dynamics_->forces().allFinite()) {
+      why_ = Rejection::NotFinite;
+      return false;
+    }
     bool covered = true;
     if (search_) {
       const double stray = search_->motion_since(dynamics_->configuration());
       if (stray > dynamics_->trusted_motion()) {
         ++state.counts.rejected_motion;
+        why_ = Rejection::TooFast;
         return false;
       }
       covered = stray <= 0.5 * state.next_margin;
@@ -214,6 +241,7 @@ bool Stepper::try_load_step(State& state, double h) {
                                                state.t + h, y_, convergence_);
   loose_ = result.loose;
   if (!result.reached) {
+    why_ = Rejection::NoEquilibrium;
     if (loose_) fail(state, h);  // a smaller load would not hold it either
     return false;
   }
@@ -264,32 +292,34 @@ void Stepper::account(State& after) {
     ledger.motion_work -=
         force.dot(now.poses[b].p - start_.poses[b].p) + moment.dot(turn.angle() * turn.axis());
   }
-  for (const ContactSummary& contact : dynamics_->contacts())
-    after.max_penetration = std::max(after.max_penetration, contact.max_depth);
+  note_worst(model_, *dynamics_, after);
 }
 
-void Stepper::fail(const State& state, double h) const {
-  // The likely cause: the element that is squeezed most where the step was tried.
-  std::string cause;
-  double least = 1;
-  for (const Tissue& tissue : model_.tissues) {
-    Positions x;
-    positions_of(dynamics_->configuration(), tissue.nodes, x);
-    const Eigen::VectorXd J = tissue.elements.volume_ratio(x);
-    Eigen::Index worst = 0;
-    const double lowest = J.minCoeff(&worst);
-    if (!(lowest < least)) continue;
-    least = lowest;
-    cause = fmt::format("; the most squeezed element is {} of tissue `{}` (volume ratio {:.3g})",
-                        worst, model_.bodies[static_cast<std::size_t>(tissue.body)].name, lowest);
-  }
-  if (loose_)
-    cause = fmt::format("; {}: a support is missing, or contact is not made", loose_->words);
-  const char* what = integrator_ ? "Newton's iteration did not converge with a step"
-                                 : "no equilibrium was found with a load step";
+/// Once most of the energy that is there was put there by nobody, what follows means nothing.
+void Stepper::stop_where_energy_is_made(const State& state) const {
+  constexpr double kMost = 0.5;
+  constexpr double kFarFromTolerance = 1e4;  // a hundred times its velocity
+  const double made = -numerical_loss(state, stored_energy()), whole = turned_over(state);
+  if (!(made > kMost * whole) || made < kFarFromTolerance * energy_of_tolerance(model_)) return;
+  throw SimulationError(
+      fmt::format("the simulation cannot go on at t = {:.6g} s: of {:.2g} J that were turned over "
+                  "{:.2g} J were "
+                  "made out of nothing{}{}; results are valid until shortly before",
+                  state.t, whole, made, deepest_contact(model_, dynamics_->contacts()),
+                  likely_cause(model_, start_, dynamics_->configuration())));
+}
+
+void Stepper::fail(const State& state, double h) {
+  // Of a load step nothing has a speed: what is loose says more.
+  const std::string cause =
+      loose_ ? fmt::format("; {}: a support is missing, or contact is not made", loose_->words)
+             : likely_cause(model_, start_, dynamics_->configuration());
+  // Back to the last state, for what the summary says of it.
+  find_contacts(start_, state.next_margin);
+  dynamics_->evaluate(state.y.data(), state.t);
   throw SimulationError(fmt::format(
       "the simulation cannot go on at t = {:.6g} s: {} of {:.3g} s{}; results are valid until then",
-      state.t, what, h, cause));
+      state.t, words_for(why_), h, cause));
 }
 
 StoredEnergy Stepper::stored_energy() const {

@@ -25,6 +25,9 @@ struct PhaseTimes {
   double elastic_force = 0, contact_force = 0, assembly = 0, solve = 0;
 };
 
+/// Why a step was not taken.
+enum class Rejection { NoConvergence, NoEquilibrium, TooFast, NotFinite };
+
 /// Scratch memory, trees, integrator and factors for one model.
 class Stepper {
  public:
@@ -67,7 +70,8 @@ class Stepper {
   bool stiffen(State& state) const;
   SolverCounts solver_counts() const;
   void account(State& after);
-  [[noreturn]] void fail(const State& state, double h) const;
+  void stop_where_energy_is_made(const State& state) const;
+  [[noreturn]] void fail(const State& state, double h);
 
   const Model& model_;
   std::unique_ptr<ContactSearch> search_;
@@ -77,7 +81,8 @@ class Stepper {
   std::vector<ConvergenceRow> convergence_;
   std::optional<FreeMotion> loose_;  // in the last load step: what nothing holds
   std::vector<FreeMotion> indifferent_;
-  Eigen::VectorXd y_;  // being tried
+  Eigen::VectorXd y_;                         // being tried
+  Rejection why_ = Rejection::NoConvergence;  // the last step that was not taken
 
   /// What the step started from, for the prediction and the ledger.
   Configuration start_;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/linear_solver.hpp"
+#include "sim/run_warnings.hpp"
 #include "sim/version.hpp"
 
 namespace articular::sim {
@@ -107,8 +108,8 @@ std::string summary_json(const Model& model, const State& state, const Stepper& 
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   std::vector<std::string> warnings = model.warnings;
-  for (const FreeMotion& motion : stepper.indifferent())
-    warnings.push_back(motion.words + ": nothing holds it, and nothing drives it");
+  for (std::string& warning : run_warnings(model, state, stepper))
+    warnings.push_back(std::move(warning));
   Json json = {
       {"outcome", outcome},
       {"scenario", model.scenario.file.filename().string()},

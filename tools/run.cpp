@@ -64,6 +64,10 @@ int run_scenario(const RunArguments& arguments) {
   options.after_settling = [&](const sim::Settling& settling) {
     if (!arguments.quiet) print(model, settling);
   };
+  options.warn = [&](const std::string& warning) {
+    progress.finish();
+    fmt::print(stderr, "articular: warning: {}\n", warning);
+  };
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
   sim::RunOutcome outcome = sim::RunOutcome::Finished;

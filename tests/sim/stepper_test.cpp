@@ -98,7 +98,29 @@ TEST_P(EachScheme, AngularMomentumDriftsAtTheSchemesOrder) {
     const Vec3 H = R * Vec3(1, 2, 3).asDiagonal() * R.transpose() * run.now().velocities[0].angular;
     return (H - Vec3(3, 8, 15)).norm();
   };
-  EXPECT_NEAR(measured_order(drift, 1e-3), order_of(GetParam()), 0.2);
+  // Of implicit Euler by what Newton's iteration leaves alone, see keep_angular_momentum().
+  if (GetParam() == Scheme::ImplicitEuler)
+    EXPECT_LT(drift(0.02), 1e-8 * 17);
+  else
+    EXPECT_NEAR(measured_order(drift, 1e-3), order_of(GetParam()), 0.2);
+}
+
+// 0.1 rad a step about an axis between those of its inertia. It ends spinning about the axis of the
+// largest moment, with the least energy that its angular momentum can have, |H|²/2I₃.
+TEST(Stepper, ImplicitEulerTakesEnergyFromATumblingBodyAndNeverGivesIt) {
+  Scenario s = scene(1e-3);
+  s.bodies = {mass_body("body", 1, Vec3::Zero(), {1, 2, 2.5})};
+  s.bodies[0].angular_velocity = {60, 50, 60};
+  Simulation run(s);
+  const double least = Vec3(60, 100, 150).squaredNorm() / 5;
+  double energy = run.stepper.stored_energy().kinetic;
+  run.advance(3, [&] {
+    const double now = run.stepper.stored_energy().kinetic;
+    EXPECT_LE(now, energy * (1 + 1e-12));
+    energy = now;
+  });
+  EXPECT_GE(energy, least * (1 - 1e-6));  // Newton's iteration ends at 1e-9 m
+  EXPECT_LT(energy, 1.01 * least);
 }
 
 TEST(Stepper, ABodyThatSpinsAboutItsMiddleAxisTurnsOver) {

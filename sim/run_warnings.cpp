@@ -1,0 +1,63 @@
+#include "sim/run_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include "sim/worst.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Parts of the energy that was turned over.
+constexpr double kMuchLost = 0.05, kMuchMade = 0.05;
+/// Of the depth to which contact is followed: half an element, where it is a tissue's.
+constexpr double kDeep = 0.5;
+
+const std::string& name_of(const Model& model, int body) {
+  return model.bodies[static_cast<std::size_t>(body)].name;
+}
+
+void warn_of_energy(const Model& model, const State& state, const Stepper& stepper,
+                    std::vector<std::string>& warnings) {
+  if (model.scenario.analysis == Scenario::Analysis::Static) return;
+  const double loss = numerical_loss(state, stepper.stored_energy()), whole = turned_over(state);
+  if (!(whole > energy_of_tolerance(model))) return;
+  if (loss > kMuchLost * whole)
+    warnings.push_back(
+        fmt::format("the time integration took {:.2g} J, {:.0f} % of the energy that was turned "
+                    "over ({:.2g} J): motion dies out sooner than it would; a smaller "
+                    "integrator.step or a scheme of higher order takes less",
+                    loss, 100 * loss / whole, whole));
+  if (loss < -kMuchMade * whole)
+    warnings.push_back(fmt::format(
+        "the time integration made {:.2g} J out of nothing, {:.0f} % of the energy that "
+        "was turned over ({:.2g} J); a smaller integrator.step makes less",
+        -loss, -100 * loss / whole, whole));
+}
+
+}  // namespace
+
+std::vector<std::string> run_warnings(const Model& model, const State& state,
+                                      const Stepper& stepper) {
+  std::vector<std::string> warnings;
+  const Worst& worst = state.worst;
+  if (worst.volume_ratio <= 0)
+    warnings.push_back(fmt::format(
+        "element {} of tissue `{}` was inside out at t = {:.4g} s (volume ratio {:.3g}): it was "
+        "driven or pressed harder than its law can bear",
+        worst.element, name_of(model, model.tissues[static_cast<std::size_t>(worst.tissue)].body),
+        worst.squeezed_at, worst.volume_ratio));
+  if (worst.overlap > kDeep) {
+    const ContactModel& contact = model.contacts[static_cast<std::size_t>(worst.contact)];
+    warnings.push_back(fmt::format(
+        "`{}` and `{}` lay in each other at t = {:.4g} s, to {:.1f} times the depth to which "
+        "contact "
+        "is followed: one may go through the other",
+        name_of(model, contact.a), name_of(model, contact.b), worst.overlap_at, worst.overlap));
+  }
+  warn_of_energy(model, state, stepper, warnings);
+  for (const FreeMotion& motion : stepper.indifferent())
+    warnings.push_back(motion.words + ": nothing holds it, and nothing drives it");
+  return warnings;
+}
+
+}  // namespace articular::sim

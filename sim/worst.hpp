@@ -1,0 +1,18 @@
+#pragma once
+
+#include "sim/dynamics.hpp"
+#include "sim/state.hpp"
+
+namespace articular::sim {
+
+/// Notes in state.worst, and max_penetration, what is worse than it has been, at the last
+/// evaluate().
+void note_worst(const Model& model, const Dynamics& dynamics, State& state);
+
+/// What moved, fell or was put in since the start [J]: what a loss is much or little of.
+double turned_over(const State& state);
+
+/// Kinetic energy at velocities that Newton's iteration does not tell from rest [J].
+double energy_of_tolerance(const Model& model);
+
+}  // namespace articular::sim

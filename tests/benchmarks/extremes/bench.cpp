@@ -1,0 +1,71 @@
+#include "tests/benchmarks/extremes/bench.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "sim/checkpoint.hpp"
+#include "sim/scenario.hpp"
+#include "sim/stepper.hpp"
+#include "sim/worst.hpp"
+#include "tests/benchmarks/extremes/limited_child.hpp"
+
+namespace articular::benchmarks {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string last_line(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line, last;
+  while (std::getline(in, line))
+    if (!line.empty()) last = line;
+  return last;
+}
+
+}  // namespace
+
+Bench::Bench(fs::path program, fs::path folder)
+    : program_(std::move(program)), folder_(std::move(folder)) {
+  fs::remove_all(folder_);
+  fs::create_directories(folder_);
+}
+
+ProgramRun Bench::start(const std::vector<std::string>& arguments, const std::string& name,
+                        double limit) const {
+  std::vector<std::string> command = {
+      program_.string(), "run",          (folder_ / (name + ".toml")).string(),
+      "--out",           folder_ / name, "--quiet"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const fs::path log = folder_ / (name + ".log");
+  const ChildEnd end = run_limited(command, log, limit);
+  return {.exit_code = end.exit_code,
+          .timed_out = end.timed_out,
+          .seconds = end.seconds,
+          .message = last_line(log),
+          .results = folder_ / name};
+}
+
+ProgramRun Bench::run(const std::string& name, const std::string& scenario, double limit) const {
+  std::ofstream(folder_ / (name + ".toml")) << scenario;
+  return start({}, name, limit);
+}
+
+ProgramRun Bench::run_from(
+    const std::string& name, const std::string& scenario, double limit,
+    const std::function<void(const sim::Model&, sim::State&)>& change) const {
+  const fs::path file = folder_ / (name + ".toml");
+  std::ofstream(file) << scenario;
+  const sim::Model model = sim::build_model(sim::read_scenario(file));
+  sim::Stepper stepper(model);
+  sim::State state = stepper.initial();
+  change(model, state);
+  stepper.restart(state);
+  state.energy.start = stepper.stored_energy().total();
+  sim::note_worst(model, stepper.dynamics(), state);
+  const fs::path checkpoint = folder_ / name / "checkpoint";
+  fs::create_directories(checkpoint);
+  sim::write_checkpoint(checkpoint / "state.bin", state, sim::fingerprint(model));
+  return start({"--resume"}, name, limit);
+}
+
+}  // namespace articular::benchmarks

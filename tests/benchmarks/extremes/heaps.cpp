@@ -1,0 +1,71 @@
+// Many bodies fall into one heap on a floor.
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "tests/benchmarks/extremes/energy_error.hpp"
+#include "tests/benchmarks/extremes/judge.hpp"
+#include "tests/benchmarks/extremes/scene_text.hpp"
+#include "tests/scenarios/scenario_results.hpp"
+
+namespace articular::benchmarks {
+namespace {
+
+constexpr double kSide = 0.005, kGap = 0.001;  // [m]
+
+/// A cube of n³ cubes of rigid bodies or tissue, a little out of line, so that they don't stay a
+/// tower.
+std::string cubes(int n, bool rigid) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> jitter(-kGap / 2, kGap / 2);
+  std::string text;
+  for (int i = 0; i < n * n * n; ++i) {
+    const auto at = [&](int k) { return (kSide + kGap) * (k - 0.5 * (n - 1)) + jitter(random); };
+    const double x = at(i % n), y = at(i / n % n);
+    const double z = kSide / 2 + kGap + (kSide + kGap) * (i / n / n);
+    text += box(fmt::format("cube {}", i), rigid ? "rigid" : "tissue",
+                {.size = {kSide, kSide, kSide}, .cells = {1, 1, 1}, .center = {x, y, z}},
+                rigid ? density(1000) : solid(1000, "neo-hookean", 1e5, 0.3));
+  }
+  return text;
+}
+
+Finding study(const Bench& bench, int n, bool rigid, double limit) {
+  const std::string scene =
+      general(0.2, 1e-3) + cubes(n, rigid) +
+      box("floor", "fixed",
+          {.size = {0.3, 0.3, 0.01}, .cells = {10, 10, 1}, .center = {0, 0, -0.005}}) +
+      gravity(9.81) + energy_probe();
+  const ProgramRun run = bench.run("heap", scene, limit);
+  if (const auto end = ended_early(run)) return *end;
+  std::ifstream in(run.results / "summary.json");
+  const double penetration = nlohmann::json::parse(in).at("max_penetration_m");
+  Finding finding = judged(run, penetration / kSide, {.right = 0.05, .stable = 0.5},
+                           "largest penetration by the side");
+  finding.measured += fmt::format("; energy made of nothing: {:.1g}; {:.0f} s of wall time",
+                                  energy_created(ScenarioResults(run.results)), run.seconds);
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Extreme> heaps() {
+  std::vector<Extreme> rows;
+  for (const bool rigid : {true, false})
+    for (const int n : {2, 5, 10})
+      rows.push_back({.name = "bodies in one heap",
+                      .range = fmt::format("{} {}", n * n * n, rigid ? "rigid" : "of tissue"),
+                      // Cubes of one cell catch each other by their corners, see sim/README.md.
+                      .expected = rigid    ? Outcome::Refused
+                                  : n == 2 ? Outcome::Right
+                                           : Outcome::Degraded,
+                      .quick = n == 2,
+                      .study = [=](const Bench& bench) {
+                        return study(bench, n, rigid, n == 10 ? 1200 : 300);
+                      }});
+  return rows;
+}
+
+}  // namespace articular::benchmarks

@@ -1,0 +1,91 @@
+// What a run says of itself: energy that was lost or made, elements inside out, deep contact.
+#include "sim/run_warnings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "scene.hpp"
+#include "sim/error.hpp"
+
+namespace articular::sim {
+namespace {
+
+std::string all_warnings(const Simulation& run) {
+  std::string all;
+  for (const std::string& warning : run_warnings(run.model, run.state, run.stepper))
+    all += warning + "\n";
+  return all;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A column that gravity begins to pull; it swings with a period of 10 ms.
+Scenario column(double step, Integrator::Scheme scheme) {
+  Scenario s = scene(step, scheme);
+  s.bodies = {box_body("column", Body::Kind::Tissue, {0.002, 0.002, 0.01}, Vec3::Zero(), {1, 1, 5}),
+              stand("wall")};
+  s.attachments = {attach("column", "wall", {-1, -1, 0.00499}, {1, 1, 1})};
+  s.loads = {gravity({0, 0, -10})};
+  return s;
+}
+
+TEST(RunWarnings, ASwingThatItsStepsDampIsTold) {
+  Simulation run(column(5e-3, Integrator::Scheme::ImplicitEuler));
+  run.advance(0.1);
+  EXPECT_TRUE(has(all_warnings(run), "the time integration took")) << all_warnings(run);
+}
+
+TEST(RunWarnings, OneThatIsFollowedGivesNone) {
+  Simulation run(column(1e-4, Integrator::Scheme::Dirk3));
+  run.advance(0.02);
+  EXPECT_EQ(all_warnings(run), "");
+}
+
+// All of a block lies mirrored at the start: every element is inside out, and comes back.
+TEST(RunWarnings, ElementsInsideOutAreNamed) {
+  Scenario s = scene(2e-3);
+  s.bodies = {box_body("block", Body::Kind::Tissue, {0.01, 0.01, 0.01}, Vec3::Zero(), {2, 2, 2})};
+  Simulation run(s);
+  run.state.y.head(3 * run.model.layout.num_free_nodes) *= -1;
+  run.stepper.restart(run.state);
+  run.state.energy.start = run.stepper.stored_energy().total();
+  run.advance(2e-3);
+  EXPECT_LT(run.state.worst.volume_ratio, 0);
+  EXPECT_TRUE(has(all_warnings(run), "of tissue `block` was inside out")) << all_warnings(run);
+}
+
+// A run is stopped once most of its energy has come from nowhere, with the fastest body by name.
+TEST(RunWarnings, EnergyMadeOfNothingEndsARun) {
+  Scenario s = scene(1e-3);
+  s.bodies = {mass_body("mass", 1)};
+  s.bodies[0].velocity = {0, 0, 3};
+  Simulation run(s);
+  run.advance(2e-3);
+  run.state.energy.start -= 4;  // of 4.5 J: as if it had begun slower
+  try {
+    run.advance(3e-3);
+    FAIL() << "it went on";
+  } catch (const SimulationError& error) {
+    EXPECT_TRUE(has(error.what(), "made out of nothing")) << error.what();
+    EXPECT_TRUE(has(error.what(), "body `mass` (3 m/s)")) << error.what();
+  }
+}
+
+// Where no step can be made, what the summary is made from is that of the last one that was.
+TEST(RunWarnings, AfterAFailureTheStepperIsBackAtTheLastState) {
+  Scenario s = column(1e-3, Integrator::Scheme::ImplicitEuler);
+  s.integrator.max_iterations = 1;  // too few for anything that is not linear
+  s.integrator.min_step = 1e-3;
+  s.loads = {gravity({0, 0, -1e5})};
+  Simulation run(s);
+  const double before = run.stepper.stored_energy().total();
+  EXPECT_THROW(run.advance(0.1), SimulationError);
+  EXPECT_EQ(run.state.t, 0);
+  EXPECT_EQ(run.stepper.stored_energy().total(), before);
+}
+
+}  // namespace
+}  // namespace articular::sim
