@@ -57,7 +57,7 @@ std::vector<Extreme> heaps() {
     for (const int n : {2, 5, 10})
       rows.push_back({.name = "bodies in one heap",
                       .range = fmt::format("{} {}", n * n * n, rigid ? "rigid" : "of tissue"),
-                      // Cubes of one cell catch each other by their corners, see sim/README.md.
+                      // Cubes of one cell catch each other by their corners, see tests/benchmarks/README.md.
                       .expected = rigid    ? Outcome::Refused
                                   : n == 2 ? Outcome::Right
                                            : Outcome::Degraded,

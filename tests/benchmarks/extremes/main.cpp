@@ -2,7 +2,7 @@
 // `articular run` in a process of its own, and says how each came out: right, degraded (stable, and
 // warned of), refused (with a message), failed.
 //
-//     extremes [--only NAME] [--quick] [--jobs N] [--out DIR] [--program FILE] [--energy]
+//     extremes [--only NAME] [--quick] [--jobs N] [--out DIR] [--program FILE]
 //
 // Prints a Markdown table; DIR has extremes.csv and what every run has left. Exit code 1 where
 // something failed or came out otherwise than the code of this program expects.
@@ -19,7 +19,6 @@
 #include <mutex>
 #include <thread>
 
-#include "tests/benchmarks/extremes/energy_study.hpp"
 #include "tests/benchmarks/extremes/extreme.hpp"
 #include "tests/benchmarks/extremes/table.hpp"
 
@@ -30,7 +29,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::string only;
-  bool quick = false, energy = false;
+  bool quick = false;
   int jobs = 1;
   fs::path out = "out/extremes", program = ARTICULAR_PROGRAM;
 };
@@ -97,13 +96,6 @@ int main(int argc, char** argv) {
   app.add_option("--jobs", arguments.jobs, "Rows at a time [1]")->check(CLI::Range(1, 64));
   app.add_option("--out", arguments.out, "Folder of extremes.csv and the runs [out/extremes]");
   app.add_option("--program", arguments.program, "articular, if not the one built beside this");
-  app.add_flag("--energy", arguments.energy,
-               "Instead: what each integrator does to energy and momentum (some minutes)");
   CLI11_PARSE(app, argc, argv);
-  if (arguments.energy) {
-    articular::benchmarks::study_energy(std::filesystem::absolute(arguments.program),
-                                        std::filesystem::absolute(arguments.out));
-    return 0;
-  }
   return articular::benchmarks::study(arguments);
 }
