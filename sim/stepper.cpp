@@ -295,9 +295,10 @@ void Stepper::account(State& after) {
   note_worst(model_, *dynamics_, after);
 }
 
-/// Once most of the energy that is there was put there by nobody, what follows means nothing.
+/// Once more energy was put there by nobody than by all that drives the scene, what follows means
+/// nothing.
 void Stepper::stop_where_energy_is_made(const State& state) const {
-  constexpr double kMost = 0.5;
+  constexpr double kMost = 1;
   constexpr double kFarFromTolerance = 1e4;  // a hundred times its velocity
   const double made = -numerical_loss(state, stored_energy()), whole = turned_over(state);
   if (!(made > kMost * whole) || made < kFarFromTolerance * energy_of_tolerance(model_)) return;
