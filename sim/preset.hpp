@@ -6,17 +6,16 @@
 
 namespace articular::sim {
 
-/// What `accuracy = "..."` stands for in a dynamic analysis; a static one takes nothing of it but the
-/// step and the tolerance.
+/// What `accuracy = "..."` stands for in a dynamic analysis; a static one takes nothing of it but
+/// the step and the tolerance.
 struct Preset {
   Integrator integrator;
   Detection::Sides sides = Detection::Sides::Both;
-  /// What came out on the jaw's opening, scenarios/mandible/README.md.
+  /// What came out in mandible/opening-study.toml: largest error of the incisors' path.
   std::string promise;
 };
 
-/// Chosen from the studies in scenarios/: each lies on the front of error against time there, or
-/// near it.
+/// Chosen from the studies in scenarios/mandible and scenarios/verification.
 Preset preset(Scenario::Accuracy accuracy);
 
 }  // namespace articular::sim

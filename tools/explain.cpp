@@ -7,6 +7,7 @@
 
 #include "sim/linear_solver.hpp"
 #include "sim/model.hpp"
+#include "sim/preset.hpp"
 #include "tools/commands.hpp"
 #include "tools/term_costs.hpp"
 
@@ -124,6 +125,14 @@ Json costs_as_json(const SceneCosts& costs, int unknowns, double model_bytes) {
             {"linear_solver", costs.solver_bytes / 1e6}}}};
 }
 
+/// What the scenario's `accuracy` promises; its own settings may have changed that.
+std::string promise(const sim::Scenario& scenario) {
+  if (scenario.analysis == sim::Scenario::Analysis::Static)
+    return "in a static analysis `accuracy` sets the load step and the tolerance alone";
+  return sim::preset(scenario.accuracy).promise +
+         " (scenarios/mandible/README.md), as far as [integrator] and [detection] leave it";
+}
+
 Json explain(const sim::Model& model) {
   Json bodies = Json::array(), pairs = Json::array();
   for (const sim::BodyModel& body : model.bodies) bodies.push_back(explain_body(model, body));
@@ -141,6 +150,7 @@ Json explain(const sim::Model& model) {
           {"unknown_velocities", 3 * model.layout.num_unknown_blocks()},
           {"muscle_activations", model.layout.num_muscles},
           {"linear_solver", linear_solver(model)},
+          {"promise", promise(model.scenario)},
           {"settings", Json::parse(model.scenario.settings_json)},
           {"left_out", left_out(model)},
           {"warnings", model.warnings}};
@@ -196,6 +206,7 @@ void print(const Json& json) {
   if (const Json& solver = json["linear_solver"]; !solver.is_null())
     fmt::print("Linear solver: {} ({})\n", solver["name"].get<std::string>(),
                solver["reason"].get<std::string>());
+  fmt::print("Accuracy: {}\n", json["promise"].get<std::string>());
   fmt::print("Settings: {}\n", json["settings"].dump());
   for (const Json& warning : json["warnings"])
     fmt::print("warning: {}\n", warning.get<std::string>());

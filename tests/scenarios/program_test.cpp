@@ -193,7 +193,8 @@ TEST(Program, HelpNamesEverySubcommand) {
   const ProgramResult result = run_program(folder, "--help");
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
-  for (const char* command : {"run", "check", "explain", "render", "collide", "mesh", "anatomy"}) {
+  for (const char* command :
+       {"run", "check", "explain", "render", "study", "collide", "mesh", "anatomy"}) {
     EXPECT_NE(result.out.find(std::string("  ") + command + " "), std::string::npos) << command;
     const ProgramResult own = run_program(folder, std::string(command) + " --help");
     EXPECT_EQ(own.exit_code, 0) << command;
@@ -246,6 +247,7 @@ TEST(Program, ExplainMeasuresTermsAndMemory) {
   EXPECT_FALSE(nlohmann::json::parse(plain.out).contains("costs"));
   const ProgramResult text = run_program(folder, "explain " + scene);
   EXPECT_NE(text.out.find("elasticity of `layer`"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("Accuracy: within "), std::string::npos) << text.out;
 }
 
 }  // namespace
