@@ -15,6 +15,7 @@
 #include "sim/settling.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/summary.hpp"
+#include "sim/worst.hpp"
 
 namespace articular::sim {
 namespace {
@@ -141,6 +142,9 @@ class Run {
     state_.settling = settle(model_, state_.y, options_.after_iteration);
     if (state_.settling.overlaps.empty()) return;
     stepper_.restart(state_);
+    state_.worst = {};  // what was worst before is told as settling
+    state_.max_penetration = 0;
+    note_worst(model_, stepper_.dynamics(), state_);
     state_.energy.start = stepper_.stored_energy().total();
     if (options_.after_settling) options_.after_settling(state_.settling);
   }

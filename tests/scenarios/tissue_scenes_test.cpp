@@ -54,5 +54,46 @@ TEST(TissueScenes, AMuscleAsALinePullsAsMuchWithoutAnyUnknowns) {
   EXPECT_GT(results.summary().at("evaluations").at("line_muscle"), 0);
 }
 
+// Every scheme takes energy of a swing, none makes any; of first order five times what a second
+// takes.
+TEST(TissueScenes, ASwingingBeamLosesWhatItsSchemeTakes) {
+  const auto lost = [](const std::string& scheme, const std::string& step) {
+    const ScenarioResults results =
+        run_scenario("verification/swinging_beam.toml",
+                     {"duration=0.2 s", "integrator.scheme=" + scheme, "integrator.step=" + step});
+    return results.last("energy.numerical_loss [J]") / results.column("energy.kinetic [J]")[0];
+  };
+  const double euler = lost("implicit-euler", "1 ms"), second = lost("tr-bdf2", "1 ms");
+  EXPECT_LT(euler, 1);
+  EXPECT_GT(euler, 5 * second);
+  EXPECT_GT(second, 1.5 * lost("tr-bdf2", "0.25 ms"));
+  EXPECT_GT(lost("dirk-3", "1 ms"), 0);
+}
+
+TEST(TissueScenes, ATumblingBodyKeepsItsEnergy) {
+  const auto lost = [](const std::string& scheme, const std::string& step) {
+    const ScenarioResults results =
+        run_scenario("verification/tumbling_body.toml",
+                     {"integrator.scheme=" + scheme, "integrator.step=" + step});
+    return results.last("energy.numerical_loss [J]") / results.column("energy.kinetic [J]")[0];
+  };
+  for (const char* const scheme : {"tr-bdf2", "dirk-3"}) EXPECT_NEAR(lost(scheme, "2 ms"), 0, 1e-4);
+  const double coarse = lost("implicit-euler", "1 ms"), fine = lost("implicit-euler", "0.5 ms");
+  EXPECT_NEAR(coarse / fine, 2, 0.2);
+}
+
+// Nearly incompressible, plain tetrahedra lock.
+TEST(TissueScenes, CooksMembraneLocksWithPlainElementsAlone) {
+  const auto raised = [](const std::string& element, const std::string& cells) {
+    const ScenarioResults results =
+        run_scenario("verification/cook.toml", {"body.panel.material.element=" + element,
+                                                "body.panel.geometry.hexahedron.cells=" + cells});
+    return results.last("corner.position.y [mm]") - 60;
+  };
+  const double fine = raised("smoothed", "[12, 12, 3]");
+  EXPECT_NEAR(raised("smoothed", "[8, 8, 2]"), fine, 0.06 * fine);
+  EXPECT_LT(raised("plain", "[8, 8, 2]"), 0.88 * fine);
+}
+
 }  // namespace
 }  // namespace articular

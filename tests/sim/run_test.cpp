@@ -379,6 +379,9 @@ TEST_F(RunTest, SettlingIsToldAndKeptByCheckpoints) {
   EXPECT_NEAR(settling["overlaps"][0]["before_m"], 0.9e-3, 1e-9);
   EXPECT_LT(settling["overlaps"][0]["after_m"], 0.05e-3);
   EXPECT_NEAR(settling["largest_motion_m"], 0.9e-3, 0.1e-3);
+  // The overlap that there was is no penetration of the run.
+  EXPECT_LT(nlohmann::json::parse(content(out("whole") / "summary.json"))["max_penetration_m"],
+            0.2e-3);
   EXPECT_TRUE(settled("as it is", {"settling=false"}).is_null());
   EXPECT_EQ(calls, 1);
   run_until(0.023, "parts", false, overlap);
