@@ -235,6 +235,7 @@ TEST(Program, ExplainMeasuresTermsAndMemory) {
   EXPECT_NEAR(share, 1, 1e-12);  // the tool is driven
   EXPECT_GT(json.at("costs").at("iteration_s").at("factor").get<double>(), 0);
 
+#ifndef __SANITIZE_ADDRESS__  // which keeps what was freed
   ASSERT_EQ(
       run_program(folder, "run " + scene + " --quiet --out out --set duration='10 ms'").exit_code,
       0);
@@ -242,6 +243,7 @@ TEST(Program, ExplainMeasuresTermsAndMemory) {
       nlohmann::json::parse(content(folder / "out/summary.json")).at("peak_memory_MB");
   EXPECT_LT(json.at("costs").at("estimated_memory_MB").get<double>(), 1.5 * needed);
   EXPECT_GT(json.at("costs").at("estimated_memory_MB").get<double>(), needed / 1.5);
+#endif
 
   const ProgramResult plain = run_program(folder, "explain " + scene + " --json --no-costs");
   EXPECT_FALSE(nlohmann::json::parse(plain.out).contains("costs"));
