@@ -73,14 +73,10 @@ interval = "10 ms"
 std::vector<double> curve(const std::string& scenario, const std::string& column,
                           const std::vector<std::string>& overrides) {
   const TemporaryFolder folder;
-  const sim::Model model =
-      sim::build_model(sim::read_scenario(folder.file("scene.toml", scenario), overrides));
-  sim::RunOptions options;
-  options.directory = folder.path();
-  sim::run(model, options);
-  const ScenarioResults results(folder.path());
+  const ScenarioResults results =
+      run_scenario(folder.file("scene.toml", scenario).string(), overrides);
   std::vector<double> values;  // at times that all steps meet
-  const double duration = model.scenario.duration;
+  const double duration = results.column("time [s]").back();
   for (int i = 1; i * 2e-3 < duration * (1 + 1e-9); ++i)
     values.push_back(results.at(column, i * 2e-3));
   return values;

@@ -56,7 +56,7 @@ class ScenarioResults {
   std::map<std::string, std::vector<double>> columns_;
 };
 
-/// Runs scenarios/FILE with overrides as of `--set`.
+/// Runs scenarios/FILE, or the file of an absolute path, with overrides as of `--set`.
 inline ScenarioResults run_scenario(const std::string& file,
                                     const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;

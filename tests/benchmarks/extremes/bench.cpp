@@ -7,7 +7,7 @@
 #include "sim/scenario.hpp"
 #include "sim/stepper.hpp"
 #include "sim/worst.hpp"
-#include "tests/benchmarks/extremes/limited_child.hpp"
+#include "tools/measured_program.hpp"
 
 namespace articular::benchmarks {
 namespace {
@@ -37,10 +37,10 @@ ProgramRun Bench::start(const std::vector<std::string>& arguments, const std::st
       "--out",           folder_ / name, "--quiet"};
   command.insert(command.end(), arguments.begin(), arguments.end());
   const fs::path log = folder_ / (name + ".log");
-  const ChildEnd end = run_limited(command, log, limit);
-  return {.exit_code = end.exit_code,
-          .timed_out = end.timed_out,
-          .seconds = end.seconds,
+  const tools::ProgramUse use = tools::run_measured(command, {}, log, limit, [] { return false; });
+  return {.exit_code = use.end == tools::ProgramUse::End::Exited ? use.code : -1,
+          .timed_out = use.end == tools::ProgramUse::End::TimeLimit,
+          .seconds = use.wall_seconds,
           .message = last_line(log),
           .results = folder_ / name};
 }
