@@ -201,9 +201,11 @@ void ContactResponse::find_patches(std::size_t d, const Configuration& configura
   }
 }
 
-void ContactResponse::add_force(const Configuration& configuration, Eigen::VectorXd& f) const {
+void ContactResponse::add_force(const Configuration& configuration, Eigen::VectorXd& f) {
+  force_on_bodies_.assign(model_.bodies.size(), 0);
   for (std::size_t d = 0; d < directions_.size(); ++d) {
     const Sides side = sides(d);
+    Vec3 on_triangles = Vec3::Zero();
     for (const DirectionMoment::Patch& entry : directions_[d].patches()) {
       if (!carries(directions_[d], entry.triangle, side.triangles.surface.faces)) continue;
       const Vec18 forces = forces_on_nodes(directions_[d], entry, side.triangles.surface.faces);
@@ -211,13 +213,27 @@ void ContactResponse::add_force(const Configuration& configuration, Eigen::Vecto
       for (std::size_t i = 0; i < 6; ++i)
         sim::add_force(configuration, *nodes[i],
                        forces.segment<3>(3 * static_cast<Eigen::Index>(i)), f);
+      on_triangles += forces.segment<3>(0) + forces.segment<3>(3) + forces.segment<3>(6);
     }
+    if (side.triangle_body == side.face_body) continue;
+    for (const int body : {side.triangle_body, side.face_body})
+      force_on_bodies_[static_cast<std::size_t>(body)] += on_triangles.norm();
   }
 }
 
 bool ContactResponse::has_patches() const {
   return std::any_of(directions_.begin(), directions_.end(),
                      [](const DirectionMoment& direction) { return direction.num_patches > 0; });
+}
+
+std::vector<double> ContactResponse::point_depths() const {
+  std::vector<double> deepest(model_.contacts.size(), 0);
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    double& depth = deepest[static_cast<std::size_t>((*candidates_)[d].contact)];
+    for (const DirectionMoment::Patch& entry : directions_[d].patches())
+      depth = std::max(depth, entry.patch.depth_max);
+  }
+  return deepest;
 }
 
 double ContactResponse::largest_force() const {

@@ -102,7 +102,7 @@ class ContactResponse {
   void evaluate(const Configuration& configuration, const std::vector<CandidateList>& candidates);
 
   /// f += contact forces (block forces).
-  void add_force(const Configuration& configuration, Eigen::VectorXd& f) const;
+  void add_force(const Configuration& configuration, Eigen::VectorXd& f);
   /// A += contact stiffness: all of it, or (projected) the positive semidefinite part
   /// Σ k_a W_a ∇g_a ∇g_aᵀ; and the damping. How friction grows with the pressure is left out: it is
   /// not symmetric.
@@ -119,8 +119,14 @@ class ContactResponse {
 
   /// Something lies opposite a face within the depths that count.
   bool has_patches() const;
+  /// By contact: how far any point of one body is behind a face of the other [m], whether or not
+  /// the mean around a node is; 0 where none is.
+  std::vector<double> point_depths() const;
   /// On one node [N]: what a residual is small against.
   double largest_force() const;
+  /// By body [N]: the sizes of the forces from others, one a pair and side, of the last
+  /// add_force().
+  const std::vector<double>& force_on_bodies() const { return force_on_bodies_; }
 
   /// One a contact of the model.
   std::vector<ContactSummary> summaries(const Configuration& configuration) const;
@@ -162,6 +168,7 @@ class ContactResponse {
   const std::vector<CandidateList>* candidates_ = nullptr;
   std::vector<DirectionMoment> directions_;  // one a candidate list
 
+  std::vector<double> force_on_bodies_;
   EvaluationCounts evaluations_;
 
   // Scratch of find_patches: the faces met so far.

@@ -134,6 +134,7 @@ void ContactSearch::update(Moving& moving, const Configuration& configuration, d
 
 void ContactSearch::find(const Configuration& configuration, double margin) {
   const auto start = Clock::now();
+  margin_ = margin;
   for (Moving& moving : moving_) update(moving, configuration, margin + open_depth_);
   counts_.update_seconds += seconds_since(start);
 

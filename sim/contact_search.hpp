@@ -58,6 +58,9 @@ class ContactSearch {
   /// face can be found behind a triangle: one could be through the other at the end.
   bool passes_unseen(const Configuration& from, const Configuration& to) const;
 
+  /// Of the last find() [m].
+  double margin() const { return margin_; }
+
   /// Largest distance of a node of any collider from where find() had it [m].
   double motion_since(const Configuration& configuration) const;
 
@@ -91,6 +94,7 @@ class ContactSearch {
   std::vector<Moving> moving_;       // one a collider
   std::vector<int> moving_of_body_;  // -1: none
   std::vector<CandidateList> candidates_;
+  double margin_ = 0;      // [m]
   double open_depth_ = 0;  // [m] largest of all sides that are averaged over
   std::vector<collision::Penetration> found_of_a_, found_of_b_;
   Direction of_a_, of_b_;

@@ -29,6 +29,8 @@ struct FreeTable {
 
 /// Newton's correction is converged when it is below this part of the tolerances.
 constexpr double kNewtonFraction = 0.1;
+/// Of that part: residuals below count as none.
+constexpr double kLeastResidual = 1e-12;
 /// Contact that opens and closes makes corrections grow for an iteration or two; ARKODE's limit of
 /// 2.3 gives up then.
 constexpr double kDivergenceRatio = 1e3;
@@ -95,7 +97,8 @@ int ImplicitRungeKutta::weights(N_Vector, N_Vector w, void* data) {
 }
 
 /// ARKODE's own test, but for corrections that were shortened: they are small however far the
-/// solution is, and steps accepted after one don't keep the momentum.
+/// solution is, and steps accepted after one don't keep the momentum. And what touches must be in
+/// balance: its residual falls as the corrections do.
 int ImplicitRungeKutta::is_converged(SUNNonlinearSolver solver, N_Vector, N_Vector correction,
                                      realtype tolerance, N_Vector weights, void* data) {
   constexpr double kLeastRateFall = 0.3;
@@ -106,7 +109,8 @@ int ImplicitRungeKutta::is_converged(SUNNonlinearSolver solver, N_Vector, N_Vect
   self.correction_size_ = size;
   self.convergence_rate_ =
       iteration == 0 ? 1 : std::max(kLeastRateFall * self.convergence_rate_, size / last);
-  if (!self.newton_.shortened() && std::min(1.0, self.convergence_rate_) * size <= tolerance)
+  const double rate = std::min(1.0, self.convergence_rate_);
+  if (!self.newton_.shortened() && rate * size <= tolerance && rate * self.newton_.imbalance() <= 1)
     return SUN_NLS_SUCCESS;
   return iteration > 0 && size > kDivergenceRatio * last ? SUN_NLS_CONV_RECVR : SUN_NLS_CONTINUE;
 }
@@ -168,6 +172,8 @@ ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics)
   check(SUNNonlinSolSetConvTestFn(nonlinear_.get(), is_converged, this),
         "SUNNonlinSolSetConvTestFn");
   check(ARKStepSetLinearSolver(arkode, solver_.get(), nullptr), "ARKStepSetLinearSolver");
+  // Else ARKODE takes small residuals for solved and leaves the correction at zero.
+  check(ARKStepSetEpsLin(arkode, kLeastResidual), "ARKStepSetEpsLin");
   check(ARKStepSetMaxNonlinIters(arkode, model.scenario.integrator.max_iterations),
         "ARKStepSetMaxNonlinIters");
   check(ARKStepSetMaxConvFails(arkode, 1), "ARKStepSetMaxConvFails");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/contact_imbalance.hpp"
 #include "sim/held_bone.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/stopwatch.hpp"
@@ -148,6 +149,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   mass_rhs_ += gamma * pull_.head(num_velocities);
   keep_free_part(model_, mass_rhs_);
 
+  imbalance_ = contact_imbalance(model_, dynamics_, mass_rhs_, gamma);
   last_residual_ = residual_;
   residual_ = mass_rhs_.norm();
   w_.resize(num_velocities);

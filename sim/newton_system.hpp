@@ -34,6 +34,8 @@ class NewtonSystem {
   bool used_projected_only() const { return !used_consistent_; }
   /// The last correction is only a part of Newton's: however small, it says nothing of convergence.
   bool shortened() const { return shortened_; }
+  /// contact_imbalance() of the state that the last solve() corrected.
+  double imbalance() const { return imbalance_; }
   double solve_seconds() const { return solve_seconds_; }
 
  private:
@@ -56,6 +58,7 @@ class NewtonSystem {
   bool used_consistent_ = false;                     // in this step
   int iteration_ = 0;                                // in this step
   bool shortened_ = false;                           // the last correction
+  double imbalance_ = 0;                             // see imbalance()
   double residual_ = 0, last_residual_ = 0;          // of this iteration and the one before
   double solve_seconds_ = 0;
 };

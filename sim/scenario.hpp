@@ -288,6 +288,7 @@ struct Integrator {
 struct Detection {
   /// Of a pair in a dynamic analysis, whose triangles look for the other's faces.
   enum class Sides { Both, One } sides = Sides::Both;
+  bool lagged = false;           // a dynamic analysis looks anew only when things have moved
   std::optional<double> margin;  // [m], least distance at which pairs are kept as candidates
   collision::NarrowTest narrow_test = collision::NarrowTest::SeparatingAxes;
 };

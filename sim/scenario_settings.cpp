@@ -48,13 +48,16 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
 }
 
 void read_detection(const Node& node, Scenario::Analysis analysis, Detection& detection) {
-  const TableReader table(node, "[detection]", {"sides", "margin", "narrow_test"});
-  if (analysis == Scenario::Analysis::Static)
+  const TableReader table(node, "[detection]", {"sides", "lagged", "margin", "narrow_test"});
+  if (analysis == Scenario::Analysis::Static) {
     table.refuse({"sides"}, "a static analysis looks from one side");
+    table.refuse({"lagged"}, "a static analysis looks wherever its iteration has come to");
+  }
   table.may("sides", detection.sides, [](const Node& n) {
     return read_choice<Detection::Sides>(
         n, {{"both", Detection::Sides::Both}, {"one", Detection::Sides::One}});
   });
+  table.may("lagged", detection.lagged, read_boolean);
   table.may("margin", detection.margin, as_quantity(kLength, kPositive));
   table.may("narrow_test", detection.narrow_test, [](const Node& n) {
     return read_choice<collision::NarrowTest>(
@@ -142,6 +145,7 @@ std::string settings_as_json(const Scenario& scenario) {
     json["integrator"]["position_tolerance_of_element"] = integrator.element_tolerance;
   json["detection"] = {
       {"sides", scenario.detection.sides == Detection::Sides::One ? "one" : "both"},
+      {"lagged", scenario.detection.lagged},
       {"margin_m", nullptr},  // chosen by the elements
       {"narrow_test",
        scenario.detection.narrow_test == collision::NarrowTest::Gjk ? "gjk" : "separating-axes"}};

@@ -46,12 +46,13 @@ bool are_tied(const Model& model, const ContactModel& contact) {
 }
 
 /// What lies so deep in another body that contact can't tell the way out is no start.
-void refuse_lost_bodies(const Model& model, const std::vector<double>& depths) {
+/// @param seen  by contact: depths that contact finds a face for [m]
+void refuse_lost_bodies(const Model& model, const std::vector<double>& seen) {
   for (const InitialOverlap& overlap : initial_overlaps(model)) {
     const auto same = [&](const ContactModel& c) { return c.a == overlap.a && c.b == overlap.b; };
     const auto contact = std::find_if(model.contacts.begin(), model.contacts.end(), same);
     if (overlap.depth <= contact->max_penetration || are_tied(model, *contact)) continue;
-    if (depths[static_cast<std::size_t>(contact - model.contacts.begin())] > 0) continue;
+    if (seen[static_cast<std::size_t>(contact - model.contacts.begin())] > 0) continue;
     throw SimulationError(
         fmt::format("{} overlap at the start by {:.3g} mm, at ({:.3f} {:.3f} {:.3f}) mm, and "
                     "contact can't tell the way out: move one of them, or start as they are with "
@@ -77,7 +78,8 @@ class Settler {
   /// Deeper than they may be.
   std::vector<SettledOverlap> overlaps(const Eigen::VectorXd& y) {
     const std::vector<double> depth = depths(at_rest(model_, y));
-    refuse_lost_bodies(model_, depth);
+    // Where depths are averaged, facets of a round surface may cut into another and carry nothing.
+    refuse_lost_bodies(model_, dynamics_.contact().point_depths());
     std::vector<SettledOverlap> overlaps;
     for (std::size_t c = 0; c < depth.size(); ++c)
       if (depth[c] > model_.contacts[c].max_penetration)

@@ -63,6 +63,7 @@ class Stepper {
 
  private:
   void find_contacts(const Configuration& where, double margin);
+  bool is_still_found(const Configuration& end) const;
   void remember_start(const State& state);
   bool try_step(State& state, double h);
   bool try_time_step(State& state, double h);
@@ -81,6 +82,7 @@ class Stepper {
   std::vector<ConvergenceRow> convergence_;
   std::optional<FreeMotion> loose_;  // in the last load step: what nothing holds
   std::vector<FreeMotion> indifferent_;
+  bool found_in_step_ = false;                // the candidates, not by restart()
   Eigen::VectorXd y_;                         // being tried
   Rejection why_ = Rejection::NoConvergence;  // the last step that was not taken
 

@@ -117,5 +117,50 @@ TEST(ContactAtRest, AHeavyBlockOnAPadComesToRestWithItsWeight) {
   EXPECT_LT(penetration / nodes, 0.01 * element);
 }
 
+// Between rigid bodies contact is so stiff that its depth at rest is far below the tolerance of
+// positions: what Newton's iteration may leave of the forces must be small against them, or the
+// block drifts and rocks.
+TEST(ContactAtRest, ARigidBlockOnARigidFloorStaysWhereItWasPut) {
+  constexpr double kSide = 0.01;
+  Scenario s = contact_scene(1e-3);
+  s.bodies = {box_body("block", Body::Kind::Rigid, Vec3::Constant(kSide)),
+              box_body("floor", Body::Kind::Fixed, {3 * kSide, 3 * kSide, kSide}, {0, 0, -kSide})};
+  s.loads = {gravity({0, 0, -kGravity})};
+  Simulation run(s);
+  const int block = bone_of(run, "block");
+  run.advance(1);
+  const Pose& pose = run.now().poses[static_cast<std::size_t>(block)];
+  EXPECT_LT(pose.p.norm(), 1e-7 * kSide);
+  EXPECT_LT((pose.R - Mat3::Identity()).norm(), 1e-7);
+  EXPECT_LT(kinetic_energy(run), 1e-20 * kGravity * kSide);  // [J], of 1 g
+  const double weight = 1000 * kSide * kSide * kSide * kGravity;
+  EXPECT_NEAR(run.force_on(bone_of(run, "floor")).z(), -weight, 1e-6 * weight);
+}
+
+// The contact force that a correction of the size of the tolerance makes is fifty times the weight
+// of the light block.
+TEST(ContactAtRest, ALightBlockPressesAHeavyOneWithItsWeight) {
+  constexpr double kSide = 0.01, kHeavy = 1e6, kLight = 1;  // [m], [kg/m³]
+  Scenario s = contact_scene(1e-3);
+  s.integrator.position_tolerance = 1e-6;
+  s.bodies = {
+      box_body("below", Body::Kind::Tissue, Vec3::Constant(kSide), {0, 0, -kSide / 2}, {3, 3, 3}),
+      box_body("above", Body::Kind::Tissue, {0.8 * kSide, 0.8 * kSide, kSide}, {0, 0, kSide / 2},
+               {3, 3, 3}),
+      stand("floor")};
+  for (std::size_t b : {0U, 1U}) {
+    s.bodies[b].material = material_of(fem::NeoHookean(1e7, 0.3));
+    s.bodies[b].material->mass_damping = 200;
+  }
+  s.bodies[0].density = kHeavy;
+  s.bodies[1].density = kLight;
+  s.attachments = {attach("below", "floor", {-1, -1, -1}, {1, 1, 1e-6 - kSide})};
+  s.loads = {gravity({0, 0, -kGravity})};
+  Simulation run(s);
+  run.advance(0.2);
+  const double weight = kLight * 0.64 * kSide * kSide * kSide * kGravity;
+  EXPECT_NEAR(run.stepper.dynamics().contacts()[0].force.norm(), weight, 0.01 * weight);
+}
+
 }  // namespace
 }  // namespace articular::sim

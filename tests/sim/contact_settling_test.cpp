@@ -50,6 +50,37 @@ TEST(Settling, ABlockDeepInAnotherIsPushedOutUnstressed) {
   }
 }
 
+// The coarse facets of a cup cut into the finer head that lies in it with clearance everywhere. In
+// statics the means around the nodes are open: there is nothing to settle, and it is no error.
+TEST(Settling, FacetsThatCutIntoARoundBodyAreNoOverlapOfTheMeans) {
+  constexpr double kRadius = 0.01, kClearance = 2.5e-4;  // [m]; the chords' sagitta is 3.3e-4
+  const auto round = [](double radius, double lowest) {
+    return [=](Vec3 X) {
+      const double arc = radius - std::sqrt(radius * radius - X.x() * X.x());
+      X.z() += arc + lowest;
+      return X;
+    };
+  };
+  const TemporaryFolder folder;
+  Scenario s = contact_scene(1e-3);
+  s.analysis = Scenario::Analysis::Static;
+  s.bodies = {
+      mesh_body("cup", Body::Kind::Tissue,
+                bent({{0.01, 0.01, 0.004}, {2, 2, 2}, {0, 0, -0.002}}, round(kRadius, 0)), folder),
+      mesh_body("head", Body::Kind::Rigid,
+                bent({{0.012, 0.008, 0.004}, {24, 8, 4}, {0, 0, 0.002}},
+                     round(kRadius - kClearance, kClearance)),
+                folder),
+      stand("floor")};
+  s.attachments = {attach("cup", "floor", {-1, -1, -1}, {1, 1, -0.0025})};
+  const Settled settled(s);
+  const auto overlaps = initial_overlaps(settled.run.model);
+  ASSERT_EQ(overlaps.size(), 1U);  // by the facets
+  EXPECT_GT(overlaps[0].depth, settled.run.model.contacts[0].max_penetration);
+  EXPECT_TRUE(settled.settling.overlaps.empty());
+  EXPECT_EQ(settled.settling.largest_motion, 0);
+}
+
 TEST(Settling, VelocitiesAndActivationsStayAsTheyWere) {
   Scenario s = block_in_block();
   s.bodies[2].velocity = {0.1, 0.2, -0.3};
