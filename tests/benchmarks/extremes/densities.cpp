@@ -37,19 +37,17 @@ Finding study(const Bench& bench, double below, double above, double tolerance) 
 
 std::vector<Extreme> densities() {
   std::vector<Extreme> rows;
-  const auto add = [&](const std::string& range, double below, double above, double tolerance,
-                       Outcome expected) {
+  const auto add = [&](const std::string& range, double below, double above, double tolerance) {
     rows.push_back(
         {.name = "density ratio 10⁶",
          .range = fmt::format("{}, position_tolerance {:g} m", range, tolerance),
-         .expected = expected,
          .study = [=](const Bench& bench) { return study(bench, below, above, tolerance); }});
   };
-  // Where Newton's iteration ends at 1 µm, a contact force is known to that times its stiffness:
-  // 0.3 mN here, fifty times what the light block weighs.
-  add("heavy on light", 1, 1e6, 1e-6, Outcome::Right);
-  add("light on heavy", 1e6, 1, 1e-6, Outcome::Failed);
-  add("light on heavy", 1e6, 1, 1e-11, Outcome::Right);
+  // A correction of 1 µm changes the contact force by 0.3 mN, fifty times what the light block
+  // weighs: Newton's iteration must go on until what touches is in balance.
+  add("heavy on light", 1, 1e6, 1e-6);
+  add("light on heavy", 1e6, 1, 1e-6);
+  add("light on heavy", 1e6, 1, 1e-11);
   return rows;
 }
 
