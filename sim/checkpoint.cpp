@@ -12,7 +12,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 5\n";
+constexpr char kMagic[] = "articular checkpoint 6\n";
 
 /// FNV-1a: a plain hash is enough to notice damage and mix-ups.
 std::uint64_t hash_bytes(const char* data, std::size_t size) {
@@ -80,6 +80,8 @@ void each_of_worst(Worst& worst, const Visit& visit) {
   visit(worst.contact);
   visit(worst.overlap_at);
   visit(worst.kinetic);
+  visit(worst.work);
+  visit(worst.made);
   visit(worst.gravity_low);
   visit(worst.gravity_high);
 }
