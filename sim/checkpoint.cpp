@@ -80,6 +80,8 @@ void each_of_worst(Worst& worst, const Visit& visit) {
   visit(worst.contact);
   visit(worst.overlap_at);
   visit(worst.kinetic);
+  visit(worst.work);
+  visit(worst.made);
   visit(worst.gravity_low);
   visit(worst.gravity_high);
 }

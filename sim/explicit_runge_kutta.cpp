@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/explicit_limit.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/rate_callback.hpp"
 #include "sim/runge_kutta.hpp"
@@ -12,16 +13,23 @@ namespace {
 using sundials::check;
 using sundials::view;
 
+constexpr ARKODE_ERKTableID kTable = ARKODE_BOGACKI_SHAMPINE_4_2_3;
+
 struct FreeArkode {
   void operator()(void* memory) const { ARKStepFree(&memory); }
+};
+struct FreeTable {
+  void operator()(ARKodeButcherTable table) const { ARKodeButcherTable_Free(table); }
 };
 
 class ExplicitRungeKutta final : public TimeIntegrator {
  public:
-  ExplicitRungeKutta(const Model& model, Dynamics& dynamics);
+  ExplicitRungeKutta(const Model& model, Dynamics& dynamics, ExplicitSteps steps);
   std::optional<double> advance(Eigen::VectorXd& y, double t, double h) override;
   void restart(double next_step) override { next_step_ = next_step; }
-  std::optional<double> next_step() const override { return next_step_; }
+  std::optional<double> next_step() const override {
+    return fixed_ ? std::nullopt : std::optional(next_step_);
+  }
   const SolverCounts& counts() const override { return counts_; }
   double solve_seconds() const override { return 0; }
 
@@ -31,6 +39,7 @@ class ExplicitRungeKutta final : public TimeIntegrator {
 
   const Model& model_;
   Dynamics& dynamics_;
+  const bool fixed_;
   SolverCounts counts_;
   double next_step_ = 0;  // [s]
   std::exception_ptr error_;
@@ -52,9 +61,10 @@ int ExplicitRungeKutta::weights(N_Vector, N_Vector w, void* data) {
   return 0;
 }
 
-ExplicitRungeKutta::ExplicitRungeKutta(const Model& model, Dynamics& dynamics)
+ExplicitRungeKutta::ExplicitRungeKutta(const Model& model, Dynamics& dynamics, ExplicitSteps steps)
     : model_(model),
       dynamics_(dynamics),
+      fixed_(steps == ExplicitSteps::Fixed),
       context_(sundials::make_context()),
       y_(sundials::make_vector(model.layout.size(), context_)),
       arkode_(ARKStepCreate(rate, nullptr, 0, y_.get(), context_.get())) {
@@ -64,8 +74,8 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Model& model, Dynamics& dynamics)
         "ARKStepSetErrHandlerFn");
   check(ARKStepSetUserData(arkode, this), "ARKStepSetUserData");
   check(ARKStepWFtolerances(arkode, weights), "ARKStepWFtolerances");
-  check(ARKStepSetTableNum(arkode, ARKODE_DIRK_NONE, ARKODE_BOGACKI_SHAMPINE_4_2_3),
-        "ARKStepSetTableNum");
+  check(ARKStepSetTableNum(arkode, ARKODE_DIRK_NONE, kTable), "ARKStepSetTableNum");
+  if (fixed_) return;
   check(ARKStepSetMaxStep(arkode, model.scenario.integrator.step), "ARKStepSetMaxStep");
 }
 
@@ -73,13 +83,17 @@ std::optional<double> ExplicitRungeKutta::advance(Eigen::VectorXd& y, double t, 
   view(y_) = y;
   void* arkode = arkode_.get();
   check(ARKStepReset(arkode, t, y_.get()), "ARKStepReset");
-  check(ARKStepSetInitStep(arkode, std::min(next_step_, h)), "ARKStepSetInitStep");
+  if (fixed_)
+    check(ARKStepSetFixedStep(arkode, h), "ARKStepSetFixedStep");
+  else
+    check(ARKStepSetInitStep(arkode, std::min(next_step_, h)), "ARKStepSetInitStep");
   check(ARKStepSetStopTime(arkode, t + h), "ARKStepSetStopTime");
   double reached = t;
   const int flag = ARKStepEvolve(arkode, t + h, y_.get(), &reached, ARK_ONE_STEP);
   sundials::rethrow(error_);
   switch (flag) {
     case ARK_ERR_FAILURE:
+    case ARK_TOO_MUCH_ACC:  // so much motion that its round-off is beyond the tolerance
     case ARK_RHSFUNC_FAIL:  // forces that are not finite
     case ARK_FIRST_RHSFUNC_ERR:
     case ARK_REPTD_RHSFUNC_ERR:
@@ -106,8 +120,27 @@ std::optional<double> ExplicitRungeKutta::advance(Eigen::VectorXd& y, double t, 
 
 }  // namespace
 
-std::unique_ptr<TimeIntegrator> make_explicit_runge_kutta(const Model& model, Dynamics& dynamics) {
-  return std::make_unique<ExplicitRungeKutta>(model, dynamics);
+std::unique_ptr<TimeIntegrator> make_explicit_runge_kutta(const Model& model, Dynamics& dynamics,
+                                                          ExplicitSteps steps) {
+  return std::make_unique<ExplicitRungeKutta>(model, dynamics, steps);
+}
+
+std::vector<double> explicit_growth() {
+  const std::unique_ptr<ARKodeButcherTableMem, FreeTable> table(ARKodeButcherTable_LoadERK(kTable));
+  if (!table) throw std::runtime_error("ARKodeButcherTable_LoadERK failed");
+  const int stages = table->stages;
+  Eigen::MatrixXd A(stages, stages);
+  Eigen::VectorXd b(stages), power = Eigen::VectorXd::Ones(stages);
+  for (int i = 0; i < stages; ++i) {
+    b[i] = table->b[i];
+    for (int j = 0; j < stages; ++j) A(i, j) = table->A[i][j];
+  }
+  std::vector<double> coefficients = {1};
+  for (int k = 0; k < stages; ++k) {
+    coefficients.push_back(b.dot(power));
+    power = A * power;
+  }
+  return coefficients;
 }
 
 }  // namespace articular::sim

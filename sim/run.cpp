@@ -177,6 +177,7 @@ class Run {
 
   void output_frame() {
     const Stopwatch watch(output_seconds_);
+    note_balance(numerical_loss(state_, stepper_.stored_energy()), state_);
     write_frame(model_, stepper_, state_.frames, state_.t, writer_);
     write_history();
     ++state_.frames;

@@ -9,7 +9,10 @@ namespace articular::sim {
 std::unique_ptr<TimeIntegrator> make_implicit_runge_kutta(const Model& model, Dynamics& dynamics);
 
 /// An explicit pair of ARKODE with error control, as a reference: its steps stay below the limit
-/// of stability because the error would grow.
-std::unique_ptr<TimeIntegrator> make_explicit_runge_kutta(const Model& model, Dynamics& dynamics);
+/// of stability because the error would grow. Fixed: steps of the length that advance() asks for,
+/// whatever the error, to see where that limit is.
+enum class ExplicitSteps { ByError, Fixed };
+std::unique_ptr<TimeIntegrator> make_explicit_runge_kutta(
+    const Model& model, Dynamics& dynamics, ExplicitSteps steps = ExplicitSteps::ByError);
 
 }  // namespace articular::sim

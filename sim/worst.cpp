@@ -17,7 +17,15 @@ double followed_depth(const Model& model, const ContactModel& contact) {
                   depth_range(b, a, contact.averaged).reach);
 }
 
+double work_done(const EnergyLedger& l) {
+  return std::abs(l.muscle_work) + std::abs(l.load_work) + std::abs(l.motion_work);
+}
+
 }  // namespace
+
+void note_balance(double numerical_loss, State& state) {
+  state.worst.made = std::max(state.worst.made, -numerical_loss);
+}
 
 void note_worst(const Model& model, const Dynamics& dynamics, State& state) {
   Worst& worst = state.worst;
@@ -43,15 +51,15 @@ void note_worst(const Model& model, const Dynamics& dynamics, State& state) {
     worst.overlap_at = state.t;
   }
   worst.kinetic = std::max(worst.kinetic, dynamics.kinetic_energy());
+  worst.work = std::max(worst.work, work_done(state.energy));
   const double gravity = dynamics.gravity_energy();
   worst.gravity_low = std::min(worst.gravity_low, gravity);
   worst.gravity_high = std::max(worst.gravity_high, gravity);
 }
 
 double turned_over(const State& state) {
-  const EnergyLedger& l = state.energy;
   return std::max({state.worst.kinetic, state.worst.gravity_high - state.worst.gravity_low,
-                   std::abs(l.muscle_work) + std::abs(l.load_work) + std::abs(l.motion_work)});
+                   state.worst.work, work_done(state.energy)});
 }
 
 double energy_of_tolerance(const Model& model) {

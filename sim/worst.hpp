@@ -9,7 +9,11 @@ namespace articular::sim {
 /// evaluate().
 void note_worst(const Model& model, const Dynamics& dynamics, State& state);
 
-/// What moved, fell or was put in since the start [J]: what a loss is much or little of.
+/// Notes what the balance of energy lacks: what numerical_loss() is below zero [J].
+void note_balance(double numerical_loss, State& state);
+
+/// What moved, fell or was put in at any time since the start [J]: what a loss is much or little
+/// of. A press that was lifted again has taken back what it had put in.
 double turned_over(const State& state);
 
 /// Kinetic energy at velocities that Newton's iteration does not tell from rest [J].

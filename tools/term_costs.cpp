@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <optional>
 
 #include "fem/smoothed_elasticity.hpp"
 #include "sim/contact_search.hpp"
 #include "sim/dynamics.hpp"
+#include "sim/explicit_limit.hpp"
 #include "sim/linear_solver.hpp"
 
 namespace articular::tools {
@@ -69,6 +71,7 @@ class Measurement {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     costs_.peak_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
+    find_explicit_limit(dynamics);
     return costs_;
   }
 
@@ -212,6 +215,15 @@ class Measurement {
                                         acts(&sim::SurfaceLaw::friction) ? ", friction" : "",
                                         acts(&sim::SurfaceLaw::damping) ? ", damping" : ""),
                             0, dynamics.times().contact_force - before, 0});
+  }
+
+  /// Takes memory that a run does not.
+  void find_explicit_limit(sim::Dynamics& dynamics) {
+    constexpr double kAccuracy = 0.01;
+    if (!in_time() || model_.layout.num_unknown_blocks() == 0) return;
+    const double step =
+        sim::longest_explicit_step(sim::fastest_rates(model_, dynamics, y_, 0, kAccuracy));
+    if (std::isfinite(step)) costs_.longest_explicit_step = step;
   }
 
   void measure_linear_solver(sim::Dynamics& dynamics) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct SceneCosts {
   // Heap that each of them holds [bytes]:
   double detection_bytes = 0, matrix_bytes = 0, solver_bytes = 0;
   double peak_bytes = 0;  // of this process by now: about what a run needs
+  /// Of a dynamic analysis [s], where things are at the start: see sim/explicit_limit.hpp.
+  std::optional<double> longest_explicit_step;
 
   /// One iteration of Newton's method: forces, matrix, factor and solution.
   double iteration_seconds() const {

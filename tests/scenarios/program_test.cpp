@@ -234,6 +234,7 @@ TEST(Program, ExplainMeasuresTermsAndMemory) {
   EXPECT_GT(forces, 0);
   EXPECT_NEAR(share, 1, 1e-12);  // the tool is driven
   EXPECT_GT(json.at("costs").at("iteration_s").at("factor").get<double>(), 0);
+  EXPECT_GT(json.at("costs").at("longest_explicit_step_s").get<double>(), 0);
 
 #ifndef __SANITIZE_ADDRESS__  // which keeps what was freed
   ASSERT_EQ(
@@ -249,6 +250,7 @@ TEST(Program, ExplainMeasuresTermsAndMemory) {
   EXPECT_FALSE(nlohmann::json::parse(plain.out).contains("costs"));
   const ProgramResult text = run_program(folder, "explain " + scene);
   EXPECT_NE(text.out.find("elasticity of `layer`"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("`explicit` would be stable"), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("Accuracy: within "), std::string::npos) << text.out;
 }
 

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "scene.hpp"
 #include "sim/error.hpp"
+#include "sim/worst.hpp"
 
 namespace articular::sim {
 namespace {
@@ -55,6 +58,57 @@ TEST(RunWarnings, ElementsInsideOutAreNamed) {
   run.advance(2e-3);
   EXPECT_LT(run.state.worst.volume_ratio, 0);
   EXPECT_TRUE(has(all_warnings(run), "of tissue `block` was inside out")) << all_warnings(run);
+}
+
+/// Soft tissue between two plates, pressed to a part of its height, and let go again.
+Scenario press(double stretch, bool lifted) {
+  constexpr double kSide = 0.01;
+  Scenario s = scene(0.01);
+  s.contact = true;
+  s.integrator.position_tolerance.reset();
+  const Vec3 plate(0.06, 0.06, 0.01);
+  s.bodies = {
+      box_body("floor", Body::Kind::Fixed, plate, {0, 0, -0.01}),
+      box_body("press", Body::Kind::Fixed, plate, {0, 0, 0.01}),
+      box_body("block", Body::Kind::Tissue, Vec3::Constant(kSide), Vec3::Zero(), {2, 2, 2})};
+  s.bodies[2].material = material_of(fem::NeoHookean(1e4, 0.49));
+  s.bodies[2].material->mass_damping = 20;
+  const Vec3 way(0, 0, -(1 - stretch) * kSide);
+  s.loads = {shift("press", 0.5, way)};
+  if (lifted) {
+    s.loads[0].motion.time.push_back(1);
+    s.loads[0].motion.translation.emplace_back(Vec3::Zero());
+  }
+  return s;
+}
+
+// Deep contact stores more than the press has put in. It is told by what was made at any frame.
+TEST(RunWarnings, EnergyThatDeepContactMakesIsTold) {
+  Simulation run(press(0.05, false));
+  run.advance(0.5);
+  EXPECT_LT(run.loss(), -0.01 * turned_over(run.state));
+  const std::string told = all_warnings(run);
+  EXPECT_TRUE(has(told, "were made out of nothing")) << told;
+  EXPECT_TRUE(has(told, "contact of `")) << told;
+  EXPECT_TRUE(has(told, "max_penetration")) << told;
+}
+
+TEST(RunWarnings, EnergyThatWasMadeInBetweenIsTold) {
+  Simulation run(column(1e-4, Integrator::Scheme::Dirk3));
+  run.advance(0.02);
+  note_balance(-0.02 * turned_over(run.state), run.state);
+  EXPECT_TRUE(has(all_warnings(run), "made out of nothing, 2 % of")) << all_warnings(run);
+}
+
+// When it is let go again a press has done no work on the whole: what it had done in between is
+// what a loss is much or little of.
+TEST(RunWarnings, APressThatIsLiftedAgainGivesNone) {
+  Simulation run(press(0.8, true));
+  double most = 0;
+  run.advance(1, [&] { most = std::max(most, run.stepper.stored_energy().elastic); });
+  EXPECT_LT(std::abs(run.state.energy.motion_work), 0.1 * most);
+  EXPECT_GT(turned_over(run.state), 0.99 * most);
+  EXPECT_EQ(all_warnings(run), "");
 }
 
 // A run is stopped once most of its energy has come from nowhere, with the fastest body by name.

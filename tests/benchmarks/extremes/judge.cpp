@@ -13,6 +13,11 @@ namespace {
 
 constexpr int kBadInput = 2, kCannotGoOn = 3;
 
+nlohmann::json summary_of(const ProgramRun& run) {
+  std::ifstream in(run.results / "summary.json");
+  return nlohmann::json::parse(in);
+}
+
 }  // namespace
 
 std::optional<Finding> ended_early(const ProgramRun& run) {
@@ -31,11 +36,12 @@ std::optional<Finding> ended_early(const ProgramRun& run) {
 }
 
 std::string warnings_of(const ProgramRun& run) {
-  std::ifstream in(run.results / "summary.json");
-  const nlohmann::json summary = nlohmann::json::parse(in);
+  const nlohmann::json summary = summary_of(run);
+  const std::string file = summary.at("scenario").get<std::string>() + ":";
   std::string all;
-  for (const auto& warning : summary.at("warnings"))
-    all += (all.empty() ? "" : "; ") + warning.get<std::string>();
+  for (const auto& item : summary.at("warnings"))
+    if (const std::string warning = item; warning.find(file) == std::string::npos)
+      all += (all.empty() ? "" : "; ") + warning;
   return all;
 }
 
@@ -43,7 +49,8 @@ Finding judged(const ProgramRun& run, double error, const Bound& bound, const st
   const std::string measured = fmt::format("{}: {:.2g} (bound {:.2g})", what, error, bound.right);
   if (error <= bound.right) return {Outcome::Right, measured};
   const std::string warnings = warnings_of(run);
-  if (!(error <= bound.stable))
+  const bool is_static = summary_of(run).at("settings").at("analysis") == "static";
+  if (!(is_static ? std::isfinite(error) : error <= bound.stable))
     return {Outcome::Failed, fmt::format("{}, beyond {:.2g}; {}", measured, bound.stable,
                                          warnings.empty() ? "no warning" : warnings)};
   if (warnings.empty()) return {Outcome::Failed, measured + ", and no warning"};

@@ -79,18 +79,19 @@ std::vector<Extreme> squeezes() {
                     .range = fmt::format("to {:g} % of its height, {}", 100 * stretch,
                                          is_static ? "static" : "dynamic"),
                     .expected = expected,
-                    .quick = stretch == 0.05 && expected != Outcome::Failed,
+                    .quick = stretch == 0.05,
                     .study = [=](const Bench& bench) { return study(bench, stretch, is_static); }});
   };
   for (const bool is_static : {true, false}) {
     for (const double stretch : {0.5, 0.2, 0.1, 0.05, 0.01, 0.0, -0.2, -1.0})
       add("compression, ends tied", stretch, is_static,
-          is_static && stretch < -0.5 ? Outcome::Failed : Outcome::Right, tied);
+          // A bar that is turned through itself has more than one equilibrium.
+          is_static && stretch < -0.5 ? Outcome::Degraded : Outcome::Right, tied);
     for (const double stretch : {0.5, 0.2, 0.1, 0.05})
       add("compression between plates", stretch, is_static,
           stretch > 0.09 ? Outcome::Right
           : is_static    ? Outcome::Refused
-                         : Outcome::Failed,
+                         : Outcome::Degraded,
           between_plates);
   }
   return rows;
