@@ -52,6 +52,9 @@ std::vector<Side> read_sides(const TableReader& table);
 std::string side_suffix(const TableReader& table, Side side);
 
 /// The body that a node names. @throws InputError  if there is none, with the nearest name
+/// "translation.x" to "rotation.z", by Hold::held.
+std::string_view freedom_name(std::size_t freedom);
+
 const Body& read_body_reference(const Node& node, const Context& context);
 
 bool has_surface(const Body& body);
