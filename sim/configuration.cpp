@@ -16,6 +16,38 @@ Vec3 Configuration::velocity(const WeightedPoint& point) const {
   return result;
 }
 
+namespace {
+
+/// In statics nothing has a velocity.
+RigidVelocity velocity_of_motion(const Model& model, const Bone& bone, const Pose& rest, double t) {
+  if (model.scenario.analysis == Scenario::Analysis::Static) return {};
+  return driven_velocity(*bone.motion, rest, t);
+}
+
+/// From where its free freedoms took a held bone.
+void add_drive(const Model& model, const Bone& bone, double t, Pose& pose,
+               RigidVelocity& velocity) {
+  const RigidVelocity drive = velocity_of_motion(model, bone, Pose{}, t);
+  velocity.linear += drive.linear;
+  velocity.angular += pose.R * drive.angular;
+  pose = with_drive(pose, drive_of(bone, t));
+}
+
+/// Its free freedoms go on as now, the driven ones by their motion.
+Pose held_later(const Model& model, const Bone& bone, const Pose& now,
+                const RigidVelocity& velocity, double t, double h) {
+  const Pose drive = drive_of(bone, t);
+  const RigidVelocity given = velocity_of_motion(model, bone, Pose{}, t);
+  Pose free{now.p - drive.p, now.R * drive.R.transpose()};
+  free.p += h * (velocity.linear - given.linear);
+  free.R = rotation_matrix(h * (velocity.angular - free.R * given.angular)) * free.R;
+  return with_drive(free, drive_of(bone, t + h));
+}
+
+}  // namespace
+
+Pose drive_of(const Bone& bone, double t) { return driven_pose(*bone.motion, Pose{}, t); }
+
 void read_state(const Model& model, const double* y, double t, Configuration& configuration) {
   const Layout& layout = model.layout;
   const auto at = [&](int index) { return Eigen::Map<const Vec3>(y + index); };
@@ -34,11 +66,11 @@ void read_state(const Model& model, const double* y, double t, Configuration& co
           Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
       configuration.velocities[b] = {at(layout.velocities() + 3 * bone.block),
                                      at(layout.velocities() + 3 * bone.block + 3)};
+      if (bone.motion)
+        add_drive(model, bone, t, configuration.poses[b], configuration.velocities[b]);
     } else if (bone.motion) {
       configuration.poses[b] = driven_pose(*bone.motion, bone.rest, t);
-      configuration.velocities[b] = model.scenario.analysis == Scenario::Analysis::Static
-                                        ? RigidVelocity{}
-                                        : driven_velocity(*bone.motion, bone.rest, t);
+      configuration.velocities[b] = velocity_of_motion(model, bone, bone.rest, t);
     } else {
       configuration.poses[b] = bone.rest;
       configuration.velocities[b] = {};
@@ -54,10 +86,14 @@ Configuration predicted(const Model& model, const Configuration& now, double h) 
   later.x += h * now.v;
   for (std::size_t b = 0; b < model.bones.size(); ++b) {
     const Bone& bone = model.bones[b];
-    if (bone.motion) later.poses[b] = driven_pose(*bone.motion, bone.rest, later.t);
-    if (!bone.unknown) continue;
-    later.poses[b].p += h * now.velocities[b].linear;
-    later.poses[b].R = rotation_matrix(h * now.velocities[b].angular) * now.poses[b].R;
+    if (bone.motion) {
+      later.poses[b] = bone.unknown
+                           ? held_later(model, bone, now.poses[b], now.velocities[b], now.t, h)
+                           : driven_pose(*bone.motion, bone.rest, later.t);
+    } else if (bone.unknown) {
+      later.poses[b].p += h * now.velocities[b].linear;
+      later.poses[b].R = rotation_matrix(h * now.velocities[b].angular) * now.poses[b].R;
+    }
   }
   return later;
 }

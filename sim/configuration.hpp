@@ -32,6 +32,13 @@ struct Configuration {
 /// @param y  in the order of Layout; quaternions need not be of unit length
 void read_state(const Model& model, const double* y, double t, Configuration& configuration);
 
+/// What a motion adds to a held bone at a time: a shift, and the turn that the bone makes before
+/// that of its free freedoms, whose axes stand in space.
+Pose drive_of(const Bone& bone, double t);
+inline Pose with_drive(const Pose& free, const Pose& drive) {
+  return {free.p + drive.p, free.R * drive.R};
+}
+
 /// Everything moved on with its velocity of now for a time h [s].
 Configuration predicted(const Model& model, const Configuration& now, double h);
 

@@ -174,7 +174,8 @@ Vec6 Dynamics::reaction(int bone) const {
   if (!held.unknown) return f_.segment<6>(3 * held.block);
   if (model_.scenario.analysis == Scenario::Analysis::Static)
     return all_force_[b] - free_part(held, all_force_[b]);
-  return force_on_hold(held, configuration_.poses[b], configuration_.velocities[b], all_force_[b]);
+  return force_on_hold(held, configuration_.poses[b], configuration_.velocities[b], instant(),
+                       all_force_[b]);
 }
 
 /// Those of bones, and forces.
@@ -249,7 +250,7 @@ void Dynamics::rate(const double* y, double* y_dot) const {
     if (bone.hold) {
       const auto b = static_cast<std::size_t>(r);
       const Vec6 rate = rigid_acceleration(bone, configuration_.poses[b],
-                                           configuration_.velocities[b], all_force_[b]);
+                                           configuration_.velocities[b], instant(), all_force_[b]);
       acceleration(bone.block) = rate.head<3>();
       acceleration(bone.block + 1) = rate.tail<3>();
       continue;

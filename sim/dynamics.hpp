@@ -34,6 +34,9 @@ class Dynamics {
   void evaluate(const double* y, double t);
   /// The same, with driven bones elsewhere: `driven` holds their poses, by bone.
   void evaluate(const double* y, double t, const std::vector<Pose>& driven);
+  /// A step begins at t: accelerations that jump there are those after it, and at the end of a step
+  /// those before it.
+  void set_step_start(double t) { step_start_ = t; }
   const Configuration& configuration() const { return configuration_; }
   const Eigen::VectorXd& forces() const { return f_; }
   /// Force [N] on a bone of the tissue that is tied to it, and its moment [N m] about the bone's
@@ -149,6 +152,7 @@ class Dynamics {
   void add_loads(double t);
   void add_lines();
   double activation_of(std::size_t tissue) const;
+  Instant instant() const { return {configuration_.t, configuration_.t == step_start_}; }
   /// All tissue nodes but those whose mass a rigid bone has taken over.
   bool carries_own_weight(const NodeRef& node) const;
 
@@ -156,6 +160,7 @@ class Dynamics {
   const std::vector<CandidateList>* candidates_ = nullptr;
   Configuration configuration_;
   bool unloaded_ = false;
+  double step_start_ = 0;  // [s]
   Eigen::VectorXd f_;
   std::vector<Vec6> all_force_;                      // of each rigid bone, held freedoms too
   mutable Positions v_, damping_;                    // at the nodes of a tissue

@@ -1,6 +1,7 @@
 #include "sim/held_bone.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 namespace articular::sim {
 namespace {
@@ -16,6 +17,17 @@ Vec6 gyroscopic_force(const Bone& bone, const Pose& pose, const Vec3& omega) {
   force << bone.mass.mass * omega.cross(omega.cross(center_of_mass(bone, pose))),
       omega.cross(mass.bottomRightCorner<3, 3>() * omega);
   return force;
+}
+
+/// Of the rates of a bone's velocities, what its drive gives them: s̈, ω_f × R_f ω_D + R_f ω̇_D.
+Vec6 driven_part(const Bone& bone, const Pose& pose, const RigidVelocity& velocity, Instant at) {
+  if (!bone.motion) return Vec6::Zero();
+  const Mat3 R_f = pose.R * drive_of(bone, at.t).R.transpose();
+  const RigidVelocity rate = driven_acceleration(*bone.motion, at);
+  const Vec3 turning = R_f * driven_velocity(*bone.motion, Pose{}, at.t).angular;
+  Vec6 part;
+  part << rate.linear, (velocity.angular - turning).cross(turning) + R_f * rate.angular;
+  return part;
 }
 
 /// One unit vector a free freedom of translation (k = 0) or rotation (k = 1).
@@ -59,9 +71,10 @@ Mat6 rigid_mass(const Bone& bone, const Pose& pose) {
 }
 
 Vec6 rigid_acceleration(const Bone& bone, const Pose& pose, const RigidVelocity& velocity,
-                        const Vec6& force) {
-  const Vec6 drive = force - gyroscopic_force(bone, pose, velocity.angular);
+                        Instant at, const Vec6& force) {
   const Mat6 mass = rigid_mass(bone, pose);
+  const Vec6 drive = force - gyroscopic_force(bone, pose, velocity.angular) -
+                     mass * driven_part(bone, pose, velocity, at);
   if (!bone.hold) return mass.llt().solve(drive);
   const Eigen::Matrix3Xd shift = free_axes(*bone.hold, 0), turn = free_axes(*bone.hold, 1);
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(6, shift.cols() + turn.cols());
@@ -72,12 +85,22 @@ Vec6 rigid_acceleration(const Bone& bone, const Pose& pose, const RigidVelocity&
   return basis * free_mass.llt().solve(basis.transpose() * drive);
 }
 
-Vec6 force_on_hold(const Bone& bone, const Pose& pose, const RigidVelocity& velocity,
+Vec6 force_on_hold(const Bone& bone, const Pose& pose, const RigidVelocity& velocity, Instant at,
                    const Vec6& force) {
-  const Vec6 inertial = rigid_mass(bone, pose) * rigid_acceleration(bone, pose, velocity, force) +
-                        gyroscopic_force(bone, pose, velocity.angular);
-  const Vec6 rest = force - inertial;
+  const Vec6 acceleration =
+      rigid_acceleration(bone, pose, velocity, at, force) + driven_part(bone, pose, velocity, at);
+  const Vec6 rest = force - rigid_mass(bone, pose) * acceleration -
+                    gyroscopic_force(bone, pose, velocity.angular);
   return rest - free_part(bone, rest);
+}
+
+Vec6 driven_way(const Bone& bone, double t_from, double t_to, const Mat3& R, double t) {
+  const Pose from = drive_of(bone, t_from), to = drive_of(bone, t_to);
+  const Mat3 R_f = R * drive_of(bone, t).R.transpose();
+  const Eigen::AngleAxisd turn(to.R * from.R.transpose());
+  Vec6 way;
+  way << to.p - from.p, R_f * (turn.angle() * turn.axis());
+  return way;
 }
 
 void keep_free_part(const Model& model, fem::BlockMatrix& A) {

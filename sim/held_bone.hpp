@@ -12,6 +12,14 @@
 ///
 ///   ⎡  m I    −m [c]× ⎤ ⎡ v̇ ⎤   ⎡ f − m ω × (ω × c) ⎤
 ///   ⎣ m [c]×   I_p    ⎦ ⎣ ω̇ ⎦ = ⎣ τ − ω × I_p ω     ⎦ + hold,   I_p = I_c − m [c]× [c]×
+///
+/// Held freedoms may be driven. The state has the free ones' part alone, p_f, R_f, v_f and ω_f, as
+/// without a drive; with its shift s(t), its turn D(t) and the turn's angular velocity ω_D
+///
+///   p = p_f + s,   R = R_f D,   v = v_f + ṡ,   ω = ω_f + R_f ω_D,
+///   v̇ = v̇_f + s̈,   ω̇ = ω̇_f + ω_f × R_f ω_D + R_f ω̇_D
+///
+/// holds in every stage, and what can vary is what could without.
 namespace articular::sim {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -26,13 +34,17 @@ void keep_free_part(const Model& model, Eigen::VectorXd& blocks);
 /// Mass matrix of a bone about the point of its pose [kg, kg m, kg m²].
 Mat6 rigid_mass(const Bone& bone, const Pose& pose);
 
-/// Velocities' rates of a bone under block forces about its point.
+/// Rates v̇_f, ω̇_f of a bone's free freedoms [m/s², rad/s²] under block forces about its point.
 Vec6 rigid_acceleration(const Bone& bone, const Pose& pose, const RigidVelocity& velocity,
-                        const Vec6& force);
+                        Instant at, const Vec6& force);
 
 /// Force and moment, about the bone's point, that it puts on what holds it.
-Vec6 force_on_hold(const Bone& bone, const Pose& pose, const RigidVelocity& velocity,
+Vec6 force_on_hold(const Bone& bone, const Pose& pose, const RigidVelocity& velocity, Instant at,
                    const Vec6& force);
+
+/// Way of a bone's driven freedoms from one time to another [m, rad] in the world's axes: its shift
+/// and, as a rotation vector, its turn, with R_f as it is where the bone has the rotation R at t.
+Vec6 driven_way(const Bone& bone, double t_from, double t_to, const Mat3& R, double t);
 
 /// Rows and columns of held freedoms out of a matrix over the unknown blocks, with something
 /// positive in their place on the diagonal.

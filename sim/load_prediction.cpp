@@ -16,14 +16,17 @@ constexpr double kSmallMotion = 1e-4;
 /// it in its place; what is held does not feel it.
 constexpr double kHeld = 1e-8;
 
-/// Bones on their way: driven ones from one pose to another.
+/// Bones on their way: driven ones, wholly or in part, from one pose to another.
 class DrivenWay {
  public:
-  DrivenWay(const Model& model, double t_before, double t) : model_(model) {
-    for (const Bone& bone : model.bones) {
-      from_.push_back(bone.motion ? driven_pose(*bone.motion, bone.rest, t_before) : bone.rest);
-      to_.push_back(bone.motion ? driven_pose(*bone.motion, bone.rest, t) : bone.rest);
-    }
+  /// @param y  at t_before: what the free freedoms of held bones keep on the way
+  DrivenWay(const Model& model, double t_before, double t, const Eigen::VectorXd& y)
+      : model_(model) {
+    Configuration from, to;
+    read_state(model, y.data(), t_before, from);
+    read_state(model, y.data(), t, to);
+    from_ = from.poses;
+    to_ = to.poses;
   }
 
   /// @param part  of the way, in [0, 1]
@@ -59,7 +62,7 @@ class DrivenWay {
     const std::vector<Pose> poses = this->poses(part);
     for (const Tissue& tissue : model_.tissues) {
       const int bone = only_bone(tissue);
-      if (bone < model_.layout.num_rigid) continue;
+      if (bone < 0 || !model_.bones[static_cast<std::size_t>(bone)].motion) continue;
       const Pose &a = from_[static_cast<std::size_t>(bone)],
                  &b = poses[static_cast<std::size_t>(bone)];
       for (const NodeRef& node : tissue.nodes) {
@@ -113,7 +116,7 @@ double holding_damping(const Model& model, Dynamics& dynamics) {
 std::optional<Eigen::VectorXd> predict_load_step(const Model& model, Dynamics& dynamics,
                                                  Equilibrium& equilibrium, double t_before,
                                                  double t, Eigen::VectorXd& y) {
-  const DrivenWay way(model, t_before, t);
+  const DrivenWay way(model, t_before, t, y);
   const double motion = way.motion();
   if (!(motion > 0)) return std::nullopt;
   const double trusted = dynamics.trusted_motion();

@@ -91,6 +91,10 @@ class Builder {
       if (bone.motion)
         throw InputError(load.where, fmt::format("body `{}` is driven twice", load.body));
       bone.motion = load.motion;
+      if (bone.hold) {
+        for (Vec3& shift : bone.motion->translation) shift = bone.hold->axes * shift;
+        for (Vec3& turn : bone.motion->rotation) turn = bone.hold->axes * turn;
+      }
     }
   }
 

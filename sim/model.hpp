@@ -37,7 +37,7 @@ struct Bone {
   RigidVelocity start;  // at t = 0
   MassProperties mass;  // with the tissue that it carries; centre at the start, world
   std::optional<Hold> hold;
-  std::optional<Motion> motion;  // driven
+  std::optional<Motion> motion;  // driven: wholly, or of a held one what is held, see held_bone.hpp
 };
 
 /// What of a body can touch: tetrahedra with their surface. Tissue: its own mesh. Bone: its mesh,

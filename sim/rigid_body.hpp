@@ -42,6 +42,16 @@ MassProperties join(const MassProperties& a, const MassProperties& b);
 Pose driven_pose(const Motion& motion, const Pose& rest, double t);
 RigidVelocity driven_velocity(const Motion& motion, const Pose& rest, double t);
 
+/// A time, and on which side of it accelerations are meant that jump there.
+struct Instant {
+  double t = 0;  // [s]
+  bool after = false;
+};
+
+/// Rates of the velocities [m/s², rad/s²] of a point that a smooth motion shifts and of the turn
+/// about it. They jump at the motion's times.
+RigidVelocity driven_acceleration(const Motion& motion, Instant at);
+
 /// Rotation by a rotation vector [rad].
 Mat3 rotation_matrix(const Vec3& rotation_vector);
 

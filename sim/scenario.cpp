@@ -1,5 +1,7 @@
 #include "sim/scenario.hpp"
 
+#include <algorithm>
+
 #include "sim/scenario_choices.hpp"
 #include "sim/scenario_reader.hpp"
 #include "sim/toml_override.hpp"
@@ -16,6 +18,22 @@ void check_names_of_contact_surfaces(const std::vector<Body>& bodies) {
                                                   "of `{}` in the results; expected another name, "
                                                   "or no output.contact_surfaces",
                                                   other.name, body.name));
+}
+
+/// Inertia would have to give it an impulse at each of its times.
+void check_motions_of_masses(const Scenario& scenario) {
+  for (const Load& load : scenario.loads) {
+    if (load.kind != Load::Kind::Motion || load.motion.smooth) continue;
+    const auto is_driven = [&](const Body& body) {
+      return body.name == load.body && body.kind == Body::Kind::Rigid;
+    };
+    if (std::any_of(scenario.bodies.begin(), scenario.bodies.end(), is_driven))
+      throw InputError(load.where,
+                       fmt::format("body `{}` has a mass, whose velocity can't jump as with "
+                                   "`interpolation` \"linear\"; expected \"smooth\", or a static "
+                                   "analysis",
+                                   load.body));
+  }
 }
 
 }  // namespace
@@ -51,6 +69,7 @@ Scenario read_scenario(const std::filesystem::path& file,
   scenario.muscles = read_muscles(document, context);
   scenario.ligaments = read_ligaments(document, context, scenario.muscles);
   scenario.loads = read_loads(document, context);
+  if (scenario.analysis == Scenario::Analysis::Dynamic) check_motions_of_masses(scenario);
   read_contacts(document, context, scenario);
   scenario.probes = read_probes(document, context, scenario.muscles, scenario.ligaments);
   scenario.settings_json = settings_as_json(scenario);

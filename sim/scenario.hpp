@@ -30,7 +30,8 @@ struct Curve {
   std::vector<double> value;  // as many
 };
 
-/// A path over time of a driven body.
+/// A path over time of a driven body, or of a rigid one's held freedoms: along and about the axes
+/// of its hold.
 struct Motion {
   std::vector<double> time;       // [s], strictly increasing
   std::vector<Vec3> translation;  // [m], from the reference pose; empty = none
@@ -230,8 +231,8 @@ struct Load {
   std::optional<Region> region;  // Force on a tissue: spread over these nodes, equal shares
   Vec3 force = Vec3::Zero();     // Force [N], dead
   Curve profile;                 // Force: factor over time
-  std::string body;              // Motion: a fixed body; Force with region: a tissue
-  Motion motion;                 // Motion
+  std::string body;  // Motion: a fixed body, or a rigid one with hold; Force with region: a tissue
+  Motion motion;     // Motion
   Location where;
 };
 

@@ -12,6 +12,8 @@ namespace articular::sim {
 namespace {
 
 constexpr int kMostCells = 10000;  // along one edge of a built-in geometry
+constexpr std::array<std::string_view, 6> kFreedoms = {
+    "translation.x", "translation.y", "translation.z", "rotation.x", "rotation.y", "rotation.z"};
 
 double read_length_unit(const Node& node) {
   try {
@@ -171,18 +173,16 @@ Eigen::Matrix3d read_inertia(const Node& node) {
 /// Velocities along axes that stand in space: rotations about two of them, with the third held, add
 /// up to one about the third after all. So one rotation alone is never held.
 Hold read_hold(const Node& node) {
-  static constexpr std::array<std::string_view, 6> kNames = {
-      "translation.x", "translation.y", "translation.z", "rotation.x", "rotation.y", "rotation.z"};
   const TableReader table(node, "hold", {"freedoms", "at", "turned"});
   Hold hold;
   const Node& freedoms = table.at("freedoms");
   for (const Node& freedom : read_list(freedoms, "a list such as [\"translation.x\"]")) {
-    const auto i = read_choice<std::size_t>(freedom, {{kNames[0], 0},
-                                                      {kNames[1], 1},
-                                                      {kNames[2], 2},
-                                                      {kNames[3], 3},
-                                                      {kNames[4], 4},
-                                                      {kNames[5], 5}});
+    const auto i = read_choice<std::size_t>(freedom, {{kFreedoms[0], 0},
+                                                      {kFreedoms[1], 1},
+                                                      {kFreedoms[2], 2},
+                                                      {kFreedoms[3], 3},
+                                                      {kFreedoms[4], 4},
+                                                      {kFreedoms[5], 5}});
     hold.held[i] = true;
   }
   if (std::count(hold.held.begin() + 3, hold.held.end(), true) == 1)
@@ -279,6 +279,8 @@ Body read_body(const Node& node, const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+std::string_view freedom_name(std::size_t freedom) { return kFreedoms.at(freedom); }
 
 std::vector<Body> read_bodies(const TableReader& document, const std::filesystem::path& folder) {
   std::vector<Body> bodies;

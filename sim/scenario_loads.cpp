@@ -1,4 +1,5 @@
 // What acts on bodies from outside.
+#include "sim/rigid_body.hpp"
 #include "sim/scenario_reader.hpp"
 
 namespace articular::sim {
@@ -50,6 +51,41 @@ std::vector<Vec3> read_poses(const Node& node, const QuantityKind& kind, std::si
   return poses;
 }
 
+/// A rigid body's motion is along and about the axes of its hold.
+void check_driven(const Body& body, const Node& list, const std::vector<Vec3>& values,
+                  std::size_t first) {
+  for (std::size_t k = 0; k < values.size(); ++k)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (values[k][static_cast<Eigen::Index>(i)] != 0 && !body.hold->held[first + i])
+        fail((*list.list())[k],
+             fmt::format("drives `{}`, which `hold` of body `{}` leaves free; expected 0 there, or "
+                         "the freedom among those that are held",
+                         freedom_name(first + i), body.name));
+}
+
+void check_held_motion(const TableReader& table, const Body& body, const Motion& motion) {
+  table.refuse({"about"}, "a rigid body turns about the point `at` of its `hold`");
+  if (const Node* translation = table.find("translation"))
+    check_driven(body, *translation, motion.translation, 0);
+  if (const Node* rotation = table.find("rotation"))
+    check_driven(body, *rotation, motion.rotation, 3);
+  const Pose start = driven_pose(motion, Pose{}, 0);
+  if (!start.p.isZero(0) || !start.R.isIdentity(0))
+    throw InputError(
+        table.node().where,
+        fmt::format("{}: body `{}` starts where its mesh is, and its motion counts from there: "
+                    "expected 0 at t = 0",
+                    table.what(), body.name));
+}
+
+void check_can_be_driven(const Node& node, const Body& body) {
+  if (body.kind == Body::Kind::Fixed || body.hold) return;
+  fail(node,
+       fmt::format("a motion drives a fixed body, or what `hold` of a rigid one holds; body "
+                   "`{}` is {}",
+                   body.name, body.kind == Body::Kind::Rigid ? "rigid, without `hold`" : "tissue"));
+}
+
 Load read_motion(const Node& node, const Context& context) {
   const TableReader table(
       node, "[[load]] of kind \"motion\"",
@@ -57,9 +93,7 @@ Load read_motion(const Node& node, const Context& context) {
   Load load;
   load.kind = Load::Kind::Motion;
   const Body& body = read_body_reference(table.at("body"), context);
-  if (body.kind != Body::Kind::Fixed)
-    fail(table.at("body"), fmt::format("a motion drives a fixed body, body `{}` is {}", body.name,
-                                       body.kind == Body::Kind::Rigid ? "rigid" : "tissue"));
+  check_can_be_driven(table.at("body"), body);
   load.body = body.name;
   Motion& motion = load.motion;
   motion.time = read_times(table.at("time"));
@@ -75,6 +109,7 @@ Load read_motion(const Node& node, const Context& context) {
   table.may("interpolation", motion.smooth, [](const Node& n) {
     return read_choice<bool>(n, {{"smooth", true}, {"linear", false}});
   });
+  if (body.kind == Body::Kind::Rigid) check_held_motion(table, body, motion);
   return load;
 }
 

@@ -51,6 +51,9 @@ std::vector<Side> read_sides(const TableReader& table);
 /// "_left", "_right" for an entry that is mirrored, or "".
 std::string side_suffix(const TableReader& table, Side side);
 
+/// "translation.x" to "rotation.z", by Hold::held.
+std::string_view freedom_name(std::size_t freedom);
+
 /// The body that a node names. @throws InputError  if there is none, with the nearest name
 const Body& read_body_reference(const Node& node, const Context& context);
 

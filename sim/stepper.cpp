@@ -106,6 +106,7 @@ void Stepper::step(State& state, double t_target) {
   const SearchCounts search_before = search_ ? search_->counts() : SearchCounts{};
   const SolverCounts solver_before = solver_counts();
   const EvaluationCounts evaluations_before = evaluations();
+  dynamics_->set_step_start(state.t);
   remember_start(state);
 
   double tried = h;
@@ -158,6 +159,10 @@ void Stepper::remember_start(const State& state) {
   if (has_bounds_in_time(model_))
     for (const ContactSummary& contact : dynamics_->contacts())
       contact_energy_before_.push_back(contact.energy);
+  reactions_before_.assign(model_.bones.size(), Vec6::Zero());
+  for (std::size_t b = 0; b < model_.bones.size(); ++b)
+    if (model_.bones[b].motion && model_.bones[b].unknown)
+      reactions_before_[b] = dynamics_->reaction(static_cast<int>(b));
   loads_before_.clear();
   for (const ForceModel& force : model_.forces)
     loads_before_.push_back(start_.position(force.point));
@@ -296,6 +301,14 @@ void Stepper::account(State& after) {
   for (std::size_t b = 0; b < model_.bones.size(); ++b) {
     const Bone& bone = model_.bones[b];
     if (!bone.motion) continue;
+    if (bone.unknown) {
+      const Vec6 reaction = dynamics_->reaction(static_cast<int>(b));
+      ledger.motion_work -=
+          0.5 * (reactions_before_[b].dot(
+                     driven_way(bone, t_before_, after.t, start_.poses[b].R, t_before_)) +
+                 reaction.dot(driven_way(bone, t_before_, after.t, now.poses[b].R, after.t)));
+      continue;
+    }
     const Eigen::AngleAxisd turn(now.poses[b].R * start_.poses[b].R.transpose());
     const Eigen::VectorXd& f = dynamics_->forces();
     const Vec3 force =

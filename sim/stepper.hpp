@@ -90,6 +90,7 @@ class Stepper {
   Configuration start_;
   std::vector<LineState> lines_before_;
   std::vector<Vec3> loads_before_;
+  std::vector<Vec6> reactions_before_;  // of held bones that are driven, by bone
   Eigen::VectorXd forces_before_;
   std::vector<double> contact_energy_before_;  // [J] of each contact
   double t_before_ = 0;

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +17,22 @@ namespace articular::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// ", 1 of them driven", if any of a bone's held freedoms is.
+std::string driven_freedoms(const sim::Bone& bone) {
+  if (!bone.motion) return {};
+  std::array<bool, 6> driven{};
+  const auto look_at = [&](const std::vector<sim::Vec3>& values, std::size_t first) {
+    for (const sim::Vec3& value : values) {
+      const sim::Vec3 part = bone.hold->axes.transpose() * value;
+      for (std::size_t i = 0; i < 3; ++i)
+        driven[first + i] |= std::abs(part[static_cast<Eigen::Index>(i)]) > 1e-12 * value.norm();
+    }
+  };
+  look_at(bone.motion->translation, 0);
+  look_at(bone.motion->rotation, 3);
+  return fmt::format(", {} of them driven", std::count(driven.begin(), driven.end(), true));
+}
 
 Json explain_body(const sim::Model& model, const sim::BodyModel& body) {
   Json json = {{"name", body.name}};
@@ -33,10 +51,11 @@ Json explain_body(const sim::Model& model, const sim::BodyModel& body) {
     const sim::Bone& bone = model.bones[static_cast<std::size_t>(body.bone)];
     const auto held =
         bone.hold ? std::count(bone.hold->held.begin(), bone.hold->held.end(), true) : 0;
-    json["modelled_as"] = held > 0       ? fmt::format("rigid bone, {} of 6 freedoms held", held)
-                          : bone.unknown ? "rigid bone"
-                          : bone.motion  ? "driven bone (motion prescribed)"
-                                         : "fixed bone";
+    json["modelled_as"] =
+        held > 0 ? fmt::format("rigid bone, {} of 6 freedoms held{}", held, driven_freedoms(bone))
+        : bone.unknown ? "rigid bone"
+        : bone.motion  ? "driven bone (motion prescribed)"
+                       : "fixed bone";
     json["unknowns"] = bone.unknown ? 6 - held : 0;
     if (bone.unknown) json["mass_kg"] = bone.mass.mass;
   }

@@ -14,14 +14,12 @@
 namespace articular {
 namespace {
 
-/// @param duration   [s], 1000 N each
-/// @param cartilage  the word of that choice
-ScenarioResults coarse_knee(double duration, const std::string& cartilage = "tissue") {
+/// A scenario of scenarios/knee/ with elements of 4 mm.
+ScenarioResults coarse_knee(const std::string& file, const std::vector<std::string>& overrides) {
   const TemporaryFolder folder;
   anatomy::write_anatomy(anatomy::knee_anatomy({4, 2}), folder.path() / "anatomy");
   sim::Scenario scenario = sim::read_scenario(
-      std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee/axial-load.toml",
-      {"duration=" + std::to_string(duration) + " s", "choice.cartilage=" + cartilage});
+      std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee" / file, overrides);
   for (sim::Body& body : scenario.bodies) {
     body.mesh->path = folder.path() / "anatomy" / body.mesh->path.filename();
     for (sim::MeshFile& file : body.contact_meshes)
@@ -33,6 +31,13 @@ ScenarioResults coarse_knee(double duration, const std::string& cartilage = "tis
   return ScenarioResults(options.directory);
 }
 
+/// @param duration   [s], 1000 N each
+/// @param cartilage  the word of that choice
+ScenarioResults loaded_knee(double duration, const std::string& cartilage = "tissue") {
+  return coarse_knee("axial-load.toml", {"duration=" + std::to_string(duration) + " s",
+                                         "choice.cartilage=" + cartilage});
+}
+
 double sum_of(const ScenarioResults& results, const std::vector<std::string>& columns) {
   double sum = 0;
   for (const std::string& column : columns) sum += results.column(column).back();
@@ -41,7 +46,7 @@ double sum_of(const ScenarioResults& results, const std::vector<std::string>& co
 
 TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
   const double load = 200;  // [N]
-  const ScenarioResults results = coarse_knee(0.2);
+  const ScenarioResults results = loaded_knee(0.2);
   EXPECT_EQ(results.summary().at("outcome"), "finished");
   EXPECT_GT(results.count("reported_pairs"), 0);
   // What holds the femur carries the load, along the tibia and nowhere else.
@@ -87,7 +92,7 @@ TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
 // Cartilage as an elastic layer on rigid bones: no unknowns but those of the menisci and the bones.
 TEST(KneeAxialLoad, WithCartilageAsALayerContactAndLigamentsBalanceTheLoadToo) {
   const double load = 100;  // [N]
-  const ScenarioResults results = coarse_knee(0.1, "layer");
+  const ScenarioResults results = loaded_knee(0.1, "layer");
   EXPECT_EQ(results.summary().at("outcome"), "finished");
   EXPECT_NEAR(results.last("femur.force.z [N]"), load, 1e-3 * load);
   const double contact =
@@ -96,6 +101,23 @@ TEST(KneeAxialLoad, WithCartilageAsALayerContactAndLigamentsBalanceTheLoadToo) {
   EXPECT_GT(contact, load);
   EXPECT_GT(results.last("above_meniscus_medial.force.z [N]"), 10);
   EXPECT_GT(results.last("above_meniscus_lateral.force.z [N]"), 10);
+}
+
+// Flexion is what the femur's motion says, however the other five freedoms go; the femur's hold
+// carries the load and, about the axis of flexion, what turns it.
+TEST(KneeFlexion, ADrivenFemurFlexesTheLoadedKneeAndTheOtherFreedomsFollow) {
+  const ScenarioResults results = coarse_knee("flexion.toml", {"duration=0.22 s"});
+  EXPECT_EQ(results.summary().at("outcome"), "finished");
+  EXPECT_NEAR(results.last("knee.flexion [deg]"), 4, 1e-6);
+  const double load = 200;  // [N]
+  EXPECT_NEAR(results.last("femur.force.z [N]"), load, 1e-3 * load);
+  EXPECT_LT(std::abs(results.last("femur.force.x [N]")), 1e-3 * load);
+  EXPECT_LT(std::abs(results.last("femur.moment.y [N m]")), 1e-12);  // free
+  EXPECT_GT(std::abs(results.last("femur.moment.x [N m]")), 0.01);
+  EXPECT_GT(results.last("above_meniscus_medial.force.z [N]"), 10);
+  EXPECT_GT(results.last("above_meniscus_lateral.force.z [N]"), 10);
+  EXPECT_LT(std::abs(results.last("knee.abduction [deg]")), 2);
+  EXPECT_GT(std::abs(results.last("knee.internal_rotation [deg]")), 0.1);
 }
 
 #ifdef ARTICULAR_MESHER

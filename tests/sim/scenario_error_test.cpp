@@ -409,7 +409,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "a `point`"},
         Mistake{"MotionOfRigid",
                 kStart + "[[load]]\nkind = \"motion\"\nbody = @\"mandible\"\ntime = [\"0 s\"]\n",
-                "`body`: a motion drives a fixed body, body `mandible` is rigid"},
+                "`body`: a motion drives a fixed body, or what `hold` of a rigid one holds; body "
+                "`mandible` is rigid, without `hold`"},
         Mistake{"MotionUnequal",
                 motion("time = [\"0 s\", \"1 s\"]\ntranslation = @[\"0 0 0 m\"]\n"),
                 "`translation`: expected as many entries as times (2), found 1"},
