@@ -154,7 +154,14 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   residual_ = mass_rhs_.norm();
   w_.resize(num_velocities);
   if (num_velocities > 0 && !find_correction(gamma, counts)) return false;
-  keep_free_part(model_, w_);  // round-off out of what is held
+  // The rows of held freedoms are δv = b_v. With w = 0 there instead, the round-off of axes that
+  // are turned would be predicted on and on, twice as large in each step.
+  for (const Bone& bone : model_.bones) {
+    if (!bone.hold) continue;
+    const Vec6 given = velocity_rhs_.segment<6>(3 * bone.block);
+    auto own = w_.segment<6>(3 * bone.block);
+    own = (free_part(bone, own) + given - free_part(bone, given)).eval();
+  }
   const double scale = step_fraction(gamma);
 
   Eigen::Map<Eigen::VectorXd>(x, 3 * layout.num_free_nodes) =
