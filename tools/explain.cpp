@@ -198,7 +198,7 @@ void print_costs(const Json& costs) {
       ms(iteration["factor"]), ms(iteration["solve"]), ms(costs["detection_s"]));
   if (costs.contains("longest_explicit_step_s"))
     fmt::print(
-        "The scheme `explicit` would be stable there up to steps of {:.3g} ms, of four evaluations "
+        "The scheme `explicit` would be stable there up to steps of {:.3g} ms, of five evaluations "
         "of all forces each\n",
         ms(costs["longest_explicit_step_s"]));
   const Json& memory = costs["memory_MB"];

@@ -20,20 +20,23 @@ inline Eigen::VectorXd nudged(const Model& model, double speed) {
 }
 
 /// Takes steps of length h [s] and compares the energy [J] of motion and strain after all of them
-/// with that after half: at the limit of stability what is fastest neither fades nor grows.
+/// with that after half: at the limit of stability what is fastest neither fades nor grows. And
+/// with that at the start: what has grown until it is no longer linear may go to and fro there.
 inline bool steps_grow(const Model& model, Dynamics& dynamics, TimeIntegrator& integrator, double h,
                        int steps) {
   const double speed = 1e-4 * dynamics.trusted_motion() / h;
   Eigen::VectorXd y = nudged(model, speed);
+  const auto energy = [&](double t) {
+    dynamics.evaluate(y.data(), t);
+    return dynamics.kinetic_energy() + dynamics.elastic_energy();
+  };
+  const double start = energy(0);
   double half = 0;
   for (int k = 0; k < steps; ++k) {
     if (!integrator.advance(y, k * h, h)) return true;
-    if (k + 1 != steps / 2) continue;
-    dynamics.evaluate(y.data(), (k + 1) * h);
-    half = dynamics.kinetic_energy() + dynamics.elastic_energy();
+    if (k + 1 == steps / 2) half = energy((k + 1) * h);
   }
-  dynamics.evaluate(y.data(), steps * h);
-  return !(dynamics.kinetic_energy() + dynamics.elastic_energy() <= half);
+  return !(energy(steps * h) <= std::min(start, half));
 }
 
 inline bool explicit_steps_grow(const Model& model, double h, int steps) {

@@ -89,9 +89,9 @@ std::vector<Extreme> squeezes() {
           is_static && stretch < -0.5 ? Outcome::Degraded : Outcome::Right, tied);
     for (const double stretch : {0.5, 0.2, 0.1, 0.05})
       add("compression between plates", stretch, is_static,
-          stretch > 0.09 ? Outcome::Right
-          : is_static    ? Outcome::Refused
-                         : Outcome::Degraded,
+          stretch > (is_static ? 0.09 : 0.19) ? Outcome::Right
+          : is_static                         ? Outcome::Refused
+                                              : Outcome::Degraded,
           between_plates);
   }
   return rows;
