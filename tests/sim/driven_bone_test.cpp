@@ -237,6 +237,7 @@ TEST(DrivenBone, TurnsDrivenTogetherAreARotationVectorAndTheirMomentThatOfAngula
   s.bodies[0].hold = Hold{kAll, Mat3::Identity(), {}};
   Load load = drive("body", Vec3::Zero(), turn);
   load.motion.time = {0, 1, 1.5};
+  load.motion.translation.clear();
   load.motion.rotation.push_back({-0.3, 0.4, 1.2});
   s.loads = {load};
   Simulation run(s);
