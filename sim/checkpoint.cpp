@@ -48,7 +48,7 @@ class Reader {
     get(size);
     const auto doubles = take(static_cast<std::size_t>(size) * sizeof(double));
     values.resize(size);
-    std::memcpy(values.data(), doubles.data(), doubles.size());
+    if (size > 0) std::memcpy(values.data(), doubles.data(), doubles.size());
   }
   std::string_view take(std::size_t size) {
     if (rest_.size() < size) throw InputError("");
