@@ -7,8 +7,9 @@
 namespace articular::sim {
 namespace {
 
-constexpr double kPartOfContact = 1e-3;
-constexpr double kPartOfTolerance = 1e-3;
+/// What may remain: of the forces between the bodies, and of what would move a free one by the
+/// tolerance in a step.
+constexpr double kPartOfContact = 1e-3, kPartOfTolerance = 1e-3;
 
 }  // namespace
 

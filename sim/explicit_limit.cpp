@@ -120,7 +120,6 @@ class ScaledRate {
 struct RitzValues {
   Rates rates;
   VectorXd restart;
-  bool exact = false;  // nothing is outside of the space
 };
 
 /// Arnoldi's iteration with two passes of Gram–Schmidt.
