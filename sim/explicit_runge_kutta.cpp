@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/arkode.hpp"
 #include "sim/explicit_limit.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/rate_callback.hpp"
@@ -14,13 +15,6 @@ using sundials::check;
 using sundials::view;
 
 constexpr ARKODE_ERKTableID kTable = ARKODE_BOGACKI_SHAMPINE_4_2_3;
-
-struct FreeArkode {
-  void operator()(void* memory) const { ARKStepFree(&memory); }
-};
-struct FreeTable {
-  void operator()(ARKodeButcherTable table) const { ARKodeButcherTable_Free(table); }
-};
 
 class ExplicitRungeKutta final : public TimeIntegrator {
  public:
@@ -45,7 +39,7 @@ class ExplicitRungeKutta final : public TimeIntegrator {
   std::exception_ptr error_;
   sundials::Context context_;
   sundials::Vector y_;
-  sundials::Owned<void*, FreeArkode> arkode_;
+  sundials::Arkode arkode_;
 };
 
 int ExplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
@@ -126,7 +120,7 @@ std::unique_ptr<TimeIntegrator> make_explicit_runge_kutta(const Model& model, Dy
 }
 
 std::vector<double> explicit_growth() {
-  const std::unique_ptr<ARKodeButcherTableMem, FreeTable> table(ARKodeButcherTable_LoadERK(kTable));
+  const sundials::ButcherTable table(ARKodeButcherTable_LoadERK(kTable));
   if (!table) throw std::runtime_error("ARKodeButcherTable_LoadERK failed");
   const int stages = table->stages;
   Eigen::MatrixXd A(stages, stages);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/angular_momentum.hpp"
+#include "sim/arkode.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/rate_callback.hpp"
 #include "sim/runge_kutta.hpp"
@@ -17,14 +18,8 @@ using sundials::check;
 using sundials::guarded;
 using sundials::view;
 
-struct FreeArkode {
-  void operator()(void* memory) const { ARKStepFree(&memory); }
-};
 struct FreeNonlinear {
   void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
-};
-struct FreeTable {
-  void operator()(ARKodeButcherTable table) const { ARKodeButcherTable_Free(table); }
 };
 
 /// Newton's correction is converged when it is below this part of the tolerances.
@@ -69,7 +64,7 @@ class ImplicitRungeKutta final : public TimeIntegrator {
   sundials::Vector y_;
   sundials::Solver solver_;
   sundials::Owned<SUNNonlinearSolver, FreeNonlinear> nonlinear_;
-  sundials::Owned<void*, FreeArkode> arkode_;
+  sundials::Arkode arkode_;
   double correction_size_ = 0;   // of the last one, by the weights
   double convergence_rate_ = 1;  // how corrections shrink from one to the next
 };
@@ -139,7 +134,7 @@ int ImplicitRungeKutta::predict_stage(realtype t, N_Vector z, void* data) {
 void set_scheme(void* arkode, Integrator::Scheme scheme) {
   if (scheme == Integrator::Scheme::ImplicitEuler) {
     double one = 1;  // implicit Euler: y1 = y0 + h f(t1, y1)
-    const sundials::Owned<ARKodeButcherTable, FreeTable> table(
+    const sundials::ButcherTable table(
         ARKodeButcherTable_Create(1, 1, 0, &one, &one, &one, nullptr));
     check(ARKStepSetTables(arkode, 1, 0, table.get(), nullptr), "ARKStepSetTables");
     return;

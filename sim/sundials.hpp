@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 /// What the files that call SUNDIALS share: owners of its handles, and a way for exceptions around
 /// its C callbacks.
