@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/any_material.hpp"
 #include "fem/parallel_parts.hpp"
 #include "fem/point_law.hpp"
 #include "fem/rest_shape.hpp"
@@ -47,13 +48,13 @@ Elasticity::Elasticity(const Positions& X, const Tetrahedra& tets, Material mate
                        FibreDirections fibres, AssemblyOptions options)
     : num_nodes_(static_cast<int>(X.cols())),
       tets_(tets),
-      material_(std::move(material)),
+      material_(std::make_shared<const Material>(std::move(material))),
       fibres_(std::move(fibres)),
       options_(options),
       volume_(checked_volumes(X, tets)),
       elements_(X, tets_, volume_),
       slots_(elements_, make_matrix(), every_node(num_nodes_)) {
-  check_fibres(material_, fibres_, tets_);
+  check_fibres(*material_, fibres_, tets_);
 }
 
 /// Calls function(law, place, F) for the elements of a chunk in their order.
@@ -63,7 +64,7 @@ void Elasticity::for_each_element(int chunk, const Positions& x, double activati
   const Chunk& places = elements_.chunk(chunk);
   for (int place = places.begin; place < places.end; ++place) {
     const Mat34 x_e = gather(x, elements_.nodes(place));
-    function(PointLaw(material_, fibres_, elements_.element(place), activation), place,
+    function(PointLaw(*material_, fibres_, elements_.element(place), activation), place,
              deformation_gradient(x_e, elements_.inverse_edges(place)));
   }
 }
@@ -90,7 +91,7 @@ ChunkJob Elasticity::job(const BatchLaw& law, const Positions& x, int chunk) con
 
 double Elasticity::energy(const Positions& x, double activation) const {
   assert(x.cols() == num_nodes_);
-  const std::optional<BatchLaw> batched = batch_law(material_);
+  const std::optional<BatchLaw> batched = batch_law(*material_);
   std::array<double, ElementBatches::kInnerParts + 1> W{};  // of each part
   for_each_chunk(elements_, options_.threads, [&](int part, int chunk) {
     double& W_part = W[static_cast<std::size_t>(part)];
@@ -114,7 +115,7 @@ void Elasticity::add_internal_force(const Positions& x, Positions& f, double act
 }
 
 void Elasticity::add_force(int chunk, const Positions& x, double activation, Positions& f) const {
-  if (const std::optional<BatchLaw> law = batch_law(material_)) {
+  if (const std::optional<BatchLaw> law = batch_law(*material_)) {
     ChunkJob work = job(*law, x, chunk);
     work.f = f.data();
     return element_kernels(options_.instruction_set, law->kind).force(work);
@@ -163,7 +164,7 @@ void Elasticity::add(const Positions& x, Tangent tangent, double scale, const St
   assert(x.cols() == num_nodes_);
   assert(A.pattern_id() == slots.pattern_id());
   const bool projected = tangent == Tangent::Projected;
-  if (const std::optional<BatchLaw> law = batch_law(material_)) {
+  if (const std::optional<BatchLaw> law = batch_law(*material_)) {
     const LawKernels& kernels = element_kernels(options_.instruction_set, law->kind);
     const auto stiffness = projected ? kernels.projected_stiffness : kernels.stiffness;
     const auto both =

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "fem/any_material.hpp"
 #include "fem/block_matrix.hpp"
 #include "fem/element_batches.hpp"
 #include "fem/element_kernels.hpp"
@@ -12,6 +12,8 @@
 #include "fem/types.hpp"
 
 namespace articular::fem {
+
+struct Material;  // any_material.hpp
 
 /// How to compute, not what: the same sums but for round-off.
 struct AssemblyOptions {
@@ -77,7 +79,7 @@ class Elasticity {
 
   int num_nodes_ = 0;
   Tetrahedra tets_;
-  Material material_;
+  std::shared_ptr<const Material> material_;
   FibreDirections fibres_;  // one unit vector an element, or none
   AssemblyOptions options_;
   std::vector<double> volume_;  // [m³]

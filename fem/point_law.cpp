@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "fem/any_material.hpp"
 #include "fem/projected_tangent.hpp"
 
 namespace articular::fem {

@@ -1,9 +1,11 @@
 #pragma once
 
-#include "fem/any_material.hpp"
 #include "fem/tangent.hpp"
+#include "fem/types.hpp"
 
 namespace articular::fem {
+
+struct Material;  // any_material.hpp
 
 /// The law of a material at one point, where its fibres have a direction and an activation. Refers
 /// to the material. In a file of its own, so that the laws are compiled once and not for each loop

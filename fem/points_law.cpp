@@ -3,6 +3,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "fem/any_material.hpp"
 #include "fem/point_law.hpp"
 #include "fem/projected_tangent.hpp"
 

@@ -2,11 +2,13 @@
 
 #include <optional>
 
-#include "fem/any_material.hpp"
 #include "fem/point_kernels.hpp"
 #include "fem/tangent.hpp"
+#include "fem/types.hpp"
 
 namespace articular::fem {
+
+struct Material;  // any_material.hpp
 
 /// The law of a material at eight points: by kernels where they know it, point after point (see
 /// point_law.hpp) where not. Refers to the material.

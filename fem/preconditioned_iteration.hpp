@@ -30,7 +30,7 @@ template <class Multiply, class Precondition>
 SolveReport preconditioned_iteration(const Multiply& multiply, const Precondition& precondition,
                                      double tolerance, int max_iterations, const Eigen::VectorXd& b,
                                      Eigen::VectorXd& x, IterationMemory& memory) {
-  auto& [r, z, p, q] = memory;
+  Eigen::VectorXd &r = memory.r, &z = memory.z, &p = memory.p, &q = memory.q;
   SolveReport report;
   const double b_norm = b.norm();
   if (b_norm == 0 || x.size() != b.size()) x.setZero(b.size());

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/any_material.hpp"
 #include "fem/isochoric.hpp"
 #include "fem/material.hpp"
 #include "fem/point_law.hpp"

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/any_material.hpp"
 #include "fem/point_law.hpp"
 #include "fem/projected_tangent.hpp"
 #include "fem/rest_shape.hpp"
@@ -87,18 +88,18 @@ SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tet
                                        InstructionSet instruction_set)
     : num_nodes_(static_cast<int>(X.cols())),
       tets_(tets),
-      materials_(std::move(materials)),
+      materials_(std::make_shared<const std::vector<Material>>(std::move(materials))),
       material_of_element_(std::move(material_of_element)),
       smoothing_(smoothing),
       fibres_(std::move(fibres)),
       instruction_set_(instruction_set) {
-  check(smoothing_, tets_, materials_, material_of_element_);
-  for (const Material& material : materials_) check_fibres(material, fibres_, tets_);
+  check(smoothing_, tets_, *materials_, material_of_element_);
+  for (const Material& material : *materials_) check_fibres(material, fibres_, tets_);
   for (Eigen::Index e = 0; e < tets.cols(); ++e) {
     volume_.push_back(checked_volume(X, tets, e));
     inverse_edges_.push_back(edge_matrix(gather(X, tets, e)).inverse());
   }
-  const int num_materials = static_cast<int>(materials_.size());
+  const int num_materials = static_cast<int>(materials_->size());
   element_begin_.push_back(0);
   for (int m = 0; m < num_materials; ++m) {
     for (int e = 0; e < num_elements(); ++e) {
@@ -107,7 +108,7 @@ SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tet
     element_begin_.push_back(static_cast<int>(elements_.size()));
   }
   std::vector<PressureModuli> moduli;
-  for (const Material& material : materials_) {
+  for (const Material& material : *materials_) {
     moduli.push_back({.kappa = bulk_modulus(material), .mu = shear_modulus(material)});
   }
   domains_ = make_edge_domains(tets_, inverse_edges_, volume_, material_of_element_, num_materials);
@@ -127,9 +128,10 @@ template <class Function>
 void SmoothedElasticity::for_each_domain(const Positions& x, double activation,
                                          Function function) const {
   assert(x.cols() == num_nodes_);
-  for (std::size_t m = 0; m < materials_.size(); ++m) {
+  for (std::size_t m = 0; m < materials_->size(); ++m) {
     for (int k = domains_.material_begin[m]; k < domains_.material_begin[m + 1]; ++k) {
-      function(PointLaw(materials_[m], domain_fibres_, k, activation), k, gradient_of_domain(x, k));
+      function(PointLaw((*materials_)[m], domain_fibres_, k, activation), k,
+               gradient_of_domain(x, k));
     }
   }
 }
@@ -139,10 +141,10 @@ template <class Function>
 void SmoothedElasticity::for_each_element(const Positions& x, double activation,
                                           Function function) const {
   assert(x.cols() == num_nodes_);
-  for (std::size_t m = 0; m < materials_.size(); ++m) {
+  for (std::size_t m = 0; m < materials_->size(); ++m) {
     for (int i = element_begin_[m]; i < element_begin_[m + 1]; ++i) {
       const int e = elements_[i];
-      function(PointLaw(materials_[m], fibres_, e, activation), e,
+      function(PointLaw((*materials_)[m], fibres_, e, activation), e,
                deformation_gradient(gather(x, tets_, e), inverse_edges_[e]));
     }
   }
@@ -165,7 +167,7 @@ void SmoothedElasticity::for_each_domain_octet(const StencilBatches::Chunk& chun
                                                const Positions& x, double activation,
                                                Function function) const {
   const StencilKernels& kernels = stencil_kernels(instruction_set_);
-  const PointsLaw law(instruction_set_, materials_[chunk.material]);
+  const PointsLaw law(instruction_set_, (*materials_)[chunk.material]);
   for (int i = chunk.begin; i < chunk.elements; ++i) {
     const StencilBatch batch = stencils_.batch(i);
     Eight F[9];
@@ -185,7 +187,7 @@ void SmoothedElasticity::for_each_element_octet(const StencilBatches::Chunk& chu
                                                 const Positions& x, double share, Pressure pressure,
                                                 double activation, Function function) const {
   const StencilKernels& kernels = stencil_kernels(instruction_set_);
-  const PointsLaw law(instruction_set_, materials_[chunk.material]);
+  const PointsLaw law(instruction_set_, (*materials_)[chunk.material]);
   for (int i = chunk.elements; i < chunk.end; ++i) {
     const StencilBatch batch = stencils_.batch(i);
     Eight F[9], p;
@@ -356,7 +358,7 @@ void SmoothedElasticity::add_compressible_stiffness(const Positions& x, double s
   const StencilKernels& kernels = stencil_kernels(instruction_set_);
   int chunk = 0;
   for (const StencilBatches::Chunk& batches : stencils_.chunks()) {
-    const Material& material = materials_[static_cast<std::size_t>(batches.material)];
+    const Material& material = (*materials_)[static_cast<std::size_t>(batches.material)];
     const double kappa = std::min(bulk_modulus(material), 13.0 / 6 * shear_modulus(material));
     const PairSums sums = plain_pairs_.zero_sums(chunk, kernels);
     for_each_element_octet(batches, x, 0, unit_pressure, 0, [&](const Octet& octet) {

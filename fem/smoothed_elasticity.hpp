@@ -1,9 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "fem/any_material.hpp"
 #include "fem/block_matrix.hpp"
 #include "fem/edge_domains.hpp"
 #include "fem/nodal_pressure.hpp"
@@ -15,6 +15,8 @@
 #include "fem/types.hpp"
 
 namespace articular::fem {
+
+struct Material;  // any_material.hpp
 
 /// The two numbers of the formulation. Larger ones are stiffer and smoother (plain_share) or softer
 /// (tau); these have the most margin in tests/benchmarks/locking_study.cpp.
@@ -148,7 +150,7 @@ class SmoothedElasticity {
 
   int num_nodes_ = 0;
   Tetrahedra tets_;
-  std::vector<Material> materials_;
+  std::shared_ptr<const std::vector<Material>> materials_;
   std::vector<int> material_of_element_;
   Smoothing smoothing_;
   FibreDirections fibres_, domain_fibres_;  // one a tetrahedron, one a domain; or none

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "fem/any_material.hpp"
 #include "fem/elasticity.hpp"
 #include "fem/fibre_field.hpp"
 #include "fem/point_law.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "fem/any_material.hpp"
 #include "tests/benchmarks/timing.hpp"
 
 namespace articular::benchmarks {

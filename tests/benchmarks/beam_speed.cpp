@@ -26,6 +26,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "tests/benchmarks/beam.hpp"
 #include "tests/benchmarks/timing.hpp"
 

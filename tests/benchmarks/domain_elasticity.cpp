@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "fem/any_material.hpp"
 #include "fem/rest_shape.hpp"
 #include "fem/tetrahedron.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/block_matrix.hpp"
 #include "fem/edge_domains.hpp"
 #include "fem/mooney_rivlin.hpp"

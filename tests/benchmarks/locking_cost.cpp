@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/elasticity.hpp"
 #include "tests/benchmarks/locking_study.hpp"
 

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "fem/any_material.hpp"
 #include "fem/elasticity.hpp"
 #include "tests/benchmarks/locking_study.hpp"
 

@@ -23,6 +23,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "fem/any_material.hpp"
 #include "tests/fem/delaunay_mesh.hpp"
 
 namespace articular::fem {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "tests/benchmarks/domain_elasticity.hpp"
 
 /// The parts of tests/benchmarks/locking_study.cpp.

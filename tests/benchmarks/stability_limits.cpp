@@ -29,7 +29,7 @@ Scenario scenario_of(const Bar& bar) {
   s.bodies = {box_body("bar", Body::Kind::Tissue, {0.01, 0.01, 0.03}, {0, 0, 0.015},
                        {bar.cells, bar.cells, 3 * bar.cells}),
               stand("wall")};
-  s.bodies[0].material = material_of(fem::NeoHookean(bar.young, bar.nu));
+  s.bodies[0].material = neo_hookean(bar.young, bar.nu);
   s.bodies[0].material->element = bar.element;
   s.bodies[0].material->stiffness_damping = bar.stiffness_damping;
   s.attachments = {attach("bar", "wall", {-1, -1, -1e-6}, {1, 1, 1e-6})};

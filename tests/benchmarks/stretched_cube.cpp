@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fem/any_material.hpp"
 #include "tests/benchmarks/timing.hpp"
 
 namespace articular::benchmarks {

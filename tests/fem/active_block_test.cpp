@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/elasticity.hpp"
 #include "tests/fem/box_mesh.hpp"
 #include "tests/fem/dense.hpp"

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/elasticity.hpp"
 #include "tests/fem/box_mesh.hpp"
 #include "tests/fem/fixed_nodes.hpp"

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "fem/any_material.hpp"
 #include "fem/elasticity.hpp"
 #include "fem/mooney_rivlin.hpp"
 #include "tests/fem/box_mesh.hpp"

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/elasticity.hpp"
 #include "tests/fem/box_mesh.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "fem/any_material.hpp"
 #include "fem/elasticity.hpp"
 
 // Stresses of homogeneous states against closed forms. States of J = 1 have an exact one with any

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/any_material.hpp"
 #include "fem/linear_solver.hpp"
 #include "fem/smoothed_elasticity.hpp"
 #include "tests/fem/delaunay_mesh.hpp"

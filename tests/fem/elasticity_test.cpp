@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/point_law.hpp"
 #include "fem/projected_tangent.hpp"
 #include "fem/von_mises.hpp"

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/any_material.hpp"
 #include "fem/blemker_muscle.hpp"
 #include "fem/transversely_isotropic.hpp"
 #include "fem/veronda_westmann.hpp"

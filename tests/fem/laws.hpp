@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/elasticity.hpp"
 #include "fem/isochoric.hpp"
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/linear_solver.hpp"
 #include "fem/smoothed_elasticity.hpp"
 #include "tests/fem/newton.hpp"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/corotated.hpp"
 #include "fem/linear.hpp"
 #include "fem/neo_hookean.hpp"

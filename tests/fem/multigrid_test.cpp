@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/linear_solver.hpp"
 #include "fem/multigrid_preconditioner.hpp"
 #include "tests/fem/clamped_box.hpp"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/elasticity.hpp"
 #include "fem/smoothed_elasticity.hpp"
 #include "fem/von_mises.hpp"

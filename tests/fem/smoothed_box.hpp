@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/elasticity.hpp"
 #include "fem/linear_solver.hpp"
 #include "fem/smoothed_elasticity.hpp"

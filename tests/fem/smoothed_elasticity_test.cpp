@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/linear_solver.hpp"
 #include "fem/von_mises.hpp"
 #include "tests/fem/box_mesh.hpp"

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/smoothed_elasticity.hpp"
 #include "fem/tetrahedron.hpp"
 #include "tests/fem/box_mesh.hpp"

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/any_material.hpp"
 #include "fem/elasticity.hpp"
 #include "tests/fem/basic_laws.hpp"
 #include "tests/fem/box_mesh.hpp"

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "fem/any_material.hpp"
 #include "fem/corotated.hpp"
 #include "fem/mooney_rivlin.hpp"
 #include "fem/viscosity.hpp"

@@ -85,7 +85,7 @@ TEST(DeepContact, AHeavyBallThrownIntoASlabComesOutWhereItCameIn) {
   s.bodies = {stand("floor"),
               box_body("slab", Body::Kind::Tissue, {0.1, 0.1, 0.04}, {0, 0, -0.02}, {8, 8, 4}),
               Body{}};
-  s.bodies[1].material = material_of(fem::NeoHookean(50e3, 0.3));
+  s.bodies[1].material = neo_hookean(50e3, 0.3);
   Body& ball = s.bodies[2];
   ball.name = "ball";
   ball.kind = Body::Kind::Rigid;

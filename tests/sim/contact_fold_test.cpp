@@ -24,7 +24,7 @@ MeshData lying_u() {
 
 Body u_body(const TemporaryFolder& folder, double young) {
   Body u = mesh_body("u", Body::Kind::Tissue, lying_u(), folder);
-  u.material = material_of(fem::NeoHookean(young, 0.3));
+  u.material = neo_hookean(young, 0.3);
   return u;
 }
 
@@ -147,7 +147,7 @@ TEST(SelfContact, AVClosedOnItselfRecoversItsShape) {
   Body v = box_body("v", Body::Kind::Tissue, Vec3::Ones());
   v.box.reset();
   v.v_shape = VShapeGeometry{0.02, 0.004, 0.5, {10, 2}};
-  v.material = material_of(fem::NeoHookean(50e3, 0.3));
+  v.material = neo_hookean(50e3, 0.3);
   s.bodies = {v, stand("left"), stand("right")};
   s.contacts = {{"v", "v", {}, {}}};
   s.attachments = {attach("v", "left", {-1, -1, 0}, {-0.0064, 1, 1}),

@@ -185,7 +185,7 @@ Scenario incline(Body::Kind kind, double angle, double step) {
   s.bodies = {box_body("table", Body::Kind::Fixed, {0.1, 0.04, 0.01}, {0.02, 0, -0.005}, {7, 3, 1}),
               box_body("block", kind, {kWidth, kWidth, kHeight}, {0, 0, 0.5 * kHeight}, {4, 4, 2})};
   if (kind == Body::Kind::Tissue) {
-    s.bodies[1].material = material_of(fem::NeoHookean(100e3, 0.3));
+    s.bodies[1].material = neo_hookean(100e3, 0.3);
     s.bodies[1].material->stiffness_damping = 1e-3;
   }
   s.contacts = {{"block", "table", {}, {}}};

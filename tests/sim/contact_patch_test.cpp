@@ -346,7 +346,9 @@ void expect_derivatives_to_where_the_triangle_comes_out() {
     crossing += patch.area < 0.99 * kRestArea ? 1 : 0;
     const Vec18 g = point_gradient<kPercent>(pair);
     const Mat18 H = kStiffness * (patch_hessian(patch) + patch_curvature(patch, patch.depth));
-    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Mat18>(patch_hessian(patch)).eigenvalues().minCoeff(),
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(patch_hessian(patch))
+                  .eigenvalues()
+                  .minCoeff(),
               -1e-12 * patch_hessian(patch).norm());
     double gradient_best = std::numeric_limits<double>::infinity(), tangent_best = gradient_best;
     for (const double h : {1e-4, 1e-5, 1e-6}) {

@@ -24,7 +24,7 @@ Scenario dropped_block(const Drop& drop) {
               box_body("upper", Body::Kind::Tissue, Vec3::Constant(kUpper),
                        {0, 0, kFall + kUpper / 2}, Eigen::Vector3i::Constant(drop.upper_cells)),
               stand("floor")};
-  for (std::size_t b : {0U, 1U}) s.bodies[b].material = material_of(fem::NeoHookean(1e5, 0.45));
+  for (std::size_t b : {0U, 1U}) s.bodies[b].material = neo_hookean(1e5, 0.45);
   s.attachments = {attach("lower", "floor", {-1, -1, -1}, {1, 1, -kLower + 1e-6})};
   s.loads = {gravity({0, 0, -kGravity})};
   return s;
@@ -87,7 +87,7 @@ TEST(ContactAtRest, AHeavyBlockOnAPadComesToRestWithItsWeight) {
       box_body("pad", Body::Kind::Tissue, {kPad, kPad, kHeight}, {0, 0, kHeight / 2}, {10, 10, 2}),
       box_body("block", Body::Kind::Rigid, {1.5 * kPad, 1.5 * kPad, kPad},
                {0, 0, kHeight + kPad / 2}, {4, 4, 2})};
-  s.bodies[1].material = material_of(fem::NeoHookean(40e6, 0.4));
+  s.bodies[1].material = neo_hookean(40e6, 0.4);
   const double pad_mass = 1000 * kPad * kPad * kHeight;
   s.bodies[2].mass = kRatio * pad_mass;
   s.attachments = {attach("pad", "floor", {-1, -1, -1}, {1, 1, 1e-9})};
@@ -149,7 +149,7 @@ TEST(ContactAtRest, ALightBlockPressesAHeavyOneWithItsWeight) {
                {3, 3, 3}),
       stand("floor")};
   for (std::size_t b : {0U, 1U}) {
-    s.bodies[b].material = material_of(fem::NeoHookean(1e7, 0.3));
+    s.bodies[b].material = neo_hookean(1e7, 0.3);
     s.bodies[b].material->mass_damping = 200;
   }
   s.bodies[0].density = kHeavy;

@@ -28,7 +28,7 @@ Body dish_body(const TemporaryFolder& folder, double radius, double width, int c
 
 /// A sheet of one thickness that lies in the dish.
 Body sheet_body(const TemporaryFolder& folder, double radius, const Vec3& size,
-                const Eigen::Vector3i& cells, const fem::Material& law) {
+                const Eigen::Vector3i& cells, const Material& material) {
   const BoxGeometry box{size, cells, {0, 0, size.z() / 2}};
   Body sheet = mesh_body("sheet", Body::Kind::Tissue,
                          bent(box,
@@ -37,7 +37,7 @@ Body sheet_body(const TemporaryFolder& folder, double radius, const Vec3& size,
                                 return {X.x(), X.y(), X.z() + up};
                               }),
                          folder);
-  sheet.material = material_of(law);
+  sheet.material = material;
   return sheet;
 }
 
@@ -61,7 +61,7 @@ TEST(Squeeze, TissueBetweenTwoBonesIsSqueezedToHalfItsThicknessAndDragged) {
   s.bodies = {box_body("sheet", Body::Kind::Tissue, {width, width, kThickness},
                        {0, 0, kThickness / 2}, {14, 14, 2}),
               tray_body(folder, kInner, kInner / 8, kThickness), Body{}};
-  s.bodies[0].material = material_of(fem::NeoHookean(1e6, 0.4));
+  s.bodies[0].material = neo_hookean(1e6, 0.4);
   Body& ball = s.bodies[2];
   ball.name = "ball";
   ball.kind = Body::Kind::Fixed;
@@ -92,9 +92,9 @@ TEST(Squeeze, ADiscBetweenCondyleAndFossaCarries500N) {
   constexpr double kThickness = 1e-3, kFossa = 12e-3, kCondyle = 10e-3, kForce = 500;
   const TemporaryFolder folder;
   Scenario s = contact_scene(1e-3);
-  s.bodies = {sheet_body(folder, kFossa, {12e-3, 12e-3, kThickness}, {16, 16, 2},
-                         fem::NeoHookean(10e6, 0.4)),
-              dish_body(folder, kFossa, 16e-3, 16), Body{}};
+  s.bodies = {
+      sheet_body(folder, kFossa, {12e-3, 12e-3, kThickness}, {16, 16, 2}, neo_hookean(10e6, 0.4)),
+      dish_body(folder, kFossa, 16e-3, 16), Body{}};
   Body& condyle = s.bodies[2];
   condyle.name = "condyle";
   condyle.kind = Body::Kind::Rigid;
@@ -127,7 +127,7 @@ constexpr double kLayer = 1e-3, kPress = 2e-5, kYoung = 1e6;  // [m], [m], [Pa]
 Body layer_body() {
   Body layer =
       box_body("layer", Body::Kind::Tissue, {8e-3, 8e-3, kLayer}, {0, 0, kLayer / 2}, {8, 8, 1});
-  layer.material = material_of(fem::Linear(kYoung, 0));
+  layer.material = linear(kYoung, 0);
   return layer;
 }
 

@@ -24,7 +24,7 @@ Scenario press() {
       box_body("block", Body::Kind::Tissue, {kSide, kSide, kSide}, Vec3::Zero(), {2, 2, 2}),
       box_body("plate", Body::Kind::Fixed, {2 * kSide, 2 * kSide, kSide}, {0, 0, kSide}, {2, 2, 1}),
       stand("wall")};
-  s.bodies[0].material = material_of(fem::Linear(kYoung, 0));
+  s.bodies[0].material = linear(kYoung, 0);
   s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, -0.49 * kSide})};
   s.contacts = {{"plate", "block", kStiffness, {}}};
   s.loads = {shift("plate", 0.2, {0, 0, -kPress})};
@@ -121,7 +121,7 @@ TEST(Contact, TheCentreOfPressureOfATiltedPlateIsWhereTheMomentVanishes) {
   constexpr double tilt = 0.01;
   Scenario s = press();
   s.bodies[0].box->cells = {8, 8, 1};
-  s.bodies[0].material = material_of(fem::Linear(1e5 * kStiffness * kSide, 0));
+  s.bodies[0].material = linear(1e5 * kStiffness * kSide, 0);
   s.loads[0].motion.rotation = {Vec3::Zero(), tilt * Vec3::UnitY()};
   s.loads[0].motion.about = {0, 0, kSide / 2};
   Simulation run(s);
@@ -236,7 +236,7 @@ TEST(Contact, TheLegsOfAClosingVMeetAndDoNotPassThroughEachOther) {
   v.name = "v";
   v.v_shape = VShapeGeometry{0.02, 0.004, 0.5, {7, 2}};
   v.density = 1000;
-  v.material = material_of(fem::NeoHookean(50e3, 0.3));
+  v.material = neo_hookean(50e3, 0.3);
   s.bodies = {v, stand("left"), stand("right")};
   s.contacts = {{"v", "v", {}, {}}};
   s.attachments = {attach("v", "left", {-1, -1, 0}, {-0.0064, 1, 1}),

@@ -18,13 +18,13 @@ Scenario static_scene(double step) {
 }
 
 /// A bar that hangs from a wall at z = L.
-Scenario hanging_bar(double scale, const Vec3& origin, const fem::Material& law) {
+Scenario hanging_bar(double scale, const Vec3& origin, const Material& material) {
   Scenario s = static_scene(1);
   const Vec3 size = scale * Vec3(0.02, 0.02, 0.08);
   s.bodies = {
       box_body("bar", Body::Kind::Tissue, size, origin + Vec3(0, 0, size.z() / 2), {2, 2, 8}),
       stand("wall")};
-  s.bodies[0].material = material_of(law);
+  s.bodies[0].material = material;
   const Vec3 wide = scale * Vec3(1, 1, 0);
   s.attachments = {attach("bar", "wall", origin - wide + Vec3(0, 0, 0.999 * size.z()),
                           origin + wide + Vec3(0, 0, 1.001 * size.z()))};
@@ -55,7 +55,7 @@ double end_displacement(const Simulation& run, double length) {
 
 // u(L)/L = ρ g L/(2E); with ν = 0 the mean over a section is exact on any mesh.
 TEST(Equilibrium, ABarUnderItsOwnWeightGetsLongerByTheClosedForm) {
-  Simulation run(hanging_bar(1, Vec3::Zero(), fem::Linear(15e3, 0)));
+  Simulation run(hanging_bar(1, Vec3::Zero(), linear(15e3, 0)));
   run.advance(1);
   EXPECT_NEAR(end_displacement(run, 0.08), -1000 * 9.81 * 0.08 / (2 * 15e3), 1e-10);
   EXPECT_NEAR(run.force_on(0).z(), -1000 * 9.81 * 0.02 * 0.02 * 0.08, 1e-6 * 0.314);
@@ -66,7 +66,7 @@ TEST(Equilibrium, ABarUnderItsOwnWeightGetsLongerByTheClosedForm) {
 // there at once, so that the loss is the half that a sudden load wastes.
 TEST(Equilibrium, WorkOfASlowlyDrivenWallIsStored) {
   const auto loss = [](double step) {
-    Scenario s = hanging_bar(1, Vec3::Zero(), fem::NeoHookean(15e3, 0.3));
+    Scenario s = hanging_bar(1, Vec3::Zero(), neo_hookean(15e3, 0.3));
     s.integrator.step = step;
     s.loads = {shift("wall", 1, {0.01, 0, 0.02})};
     s.bodies.push_back(stand("floor"));
@@ -80,7 +80,7 @@ TEST(Equilibrium, WorkOfASlowlyDrivenWallIsStored) {
 }
 
 TEST(Equilibrium, NewtonsIterationConvergesQuadratically) {
-  Simulation run(hanging_bar(1, Vec3::Zero(), fem::NeoHookean(15e3, 0.3)));
+  Simulation run(hanging_bar(1, Vec3::Zero(), neo_hookean(15e3, 0.3)));
   run.advance(1);
   const auto rows = run.stepper.take_convergence();
   ASSERT_GE(rows.size(), 3u);
@@ -93,7 +93,7 @@ TEST(Equilibrium, NewtonsIterationConvergesQuadratically) {
 // The same bar in m, mm and µm, and far from the origin: g grows as the length shrinks.
 TEST(Equilibrium, TheAnswerDoesNotDependOnTheUnit) {
   const auto displacement = [](double scale, const Vec3& origin) {
-    Simulation run(hanging_bar(scale, origin, fem::NeoHookean(15e3, 0.45)));
+    Simulation run(hanging_bar(scale, origin, neo_hookean(15e3, 0.45)));
     run.advance(1);
     return end_displacement(run, scale * 0.08);
   };
@@ -107,7 +107,7 @@ TEST(Equilibrium, TheAnswerDoesNotDependOnTheUnit) {
 
 // A driven wall carries its tissue along: however far it turns in one step, nothing is strained.
 TEST(Equilibrium, TissueOnATurningWallIsNotStrained) {
-  Scenario s = hanging_bar(1, Vec3::Zero(), fem::NeoHookean(15e3, 0.3));
+  Scenario s = hanging_bar(1, Vec3::Zero(), neo_hookean(15e3, 0.3));
   s.loads = {shift("wall", 1, {0.1, 0.2, -0.3})};
   s.loads[0].motion.rotation = {Vec3::Zero(), Vec3(0.5, -1.5, 1)};
   Simulation run(s);
@@ -178,7 +178,7 @@ TEST(Equilibrium, AMissingSupportIsNamed) {
 // The same at rest, dynamic and static.
 TEST(Equilibrium, IsWhereDynamicsComesToRest) {
   const auto tip = [](bool is_static) {
-    Scenario s = hanging_bar(0.1, Vec3::Zero(), fem::NeoHookean(15e3, 0.3));
+    Scenario s = hanging_bar(0.1, Vec3::Zero(), neo_hookean(15e3, 0.3));
     s.loads = {gravity({20, 0, 0})};
     s.analysis = is_static ? Scenario::Analysis::Static : Scenario::Analysis::Dynamic;
     s.integrator.step = is_static ? 1 : 0.02;  // so long that implicit Euler damps it within 1 s
@@ -196,7 +196,7 @@ TEST(Equilibrium, IsWhereDynamicsComesToRest) {
 
 // What a tissue puts on each of its two bones: together its weight.
 TEST(Equilibrium, AttachmentsShareTheWeight) {
-  Scenario s = hanging_bar(1, Vec3::Zero(), fem::NeoHookean(15e3, 0.3));
+  Scenario s = hanging_bar(1, Vec3::Zero(), neo_hookean(15e3, 0.3));
   s.bodies.push_back(stand("floor"));
   s.attachments.push_back(attach("bar", "floor", {-1, -1, -1e-6}, {1, 1, 1e-6}));
   Simulation run(s);

@@ -79,7 +79,7 @@ Scenario bar(Material::Element element, double stiffness_damping = 0) {
   Scenario s = scene(1e-3, Integrator::Scheme::Explicit);
   s.bodies = {box_body("bar", Body::Kind::Tissue, {0.01, 0.01, 0.03}, {0, 0, 0.015}, {2, 2, 4}),
               stand("wall")};
-  s.bodies[0].material = material_of(fem::NeoHookean(20e3, 0.45));
+  s.bodies[0].material = neo_hookean(20e3, 0.45);
   s.bodies[0].material->element = element;
   s.bodies[0].material->stiffness_damping = stiffness_damping;
   s.attachments = {attach("bar", "wall", {-1, -1, -1e-6}, {1, 1, 1e-6})};

@@ -137,7 +137,7 @@ Scenario bar_on_slider(Material::Element element, double force) {
   s.analysis = Scenario::Analysis::Static;
   s.bodies = {box_body("bar", Body::Kind::Tissue, {0.02, 0.02, 0.08}, {0, 0, 0.04}, {2, 2, 6}),
               stand("wall"), mass_body("plate", 0.1, {0.01, 0.02, 0.09}, 1e-4 * Vec3::Ones())};
-  s.bodies[0].material = material_of(fem::NeoHookean(15e3, 0.45));
+  s.bodies[0].material = neo_hookean(15e3, 0.45);
   s.bodies[0].material->element = element;
   s.bodies[2].hold = Hold{{true, true, false, true, true, true}, Mat3::Identity(), {}};
   s.attachments = {attach("bar", "wall", {-1, -1, -1e-6}, {1, 1, 1e-6}),

@@ -41,7 +41,7 @@ Scenario press(Scenario::Analysis analysis, double turn) {
       box_body("block", Body::Kind::Tissue, {kSide, kSide, kSide}, Vec3::Zero(), {4, 4, 2}),
       box_body("plate", Body::Kind::Fixed, {2 * kSide, 2 * kSide, kSide}, {0, 0, kSide}, {6, 6, 1}),
       stand("wall")};
-  s.bodies[0].material = material_of(fem::Linear(20e3, 0));
+  s.bodies[0].material = linear(20e3, 0);
   s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, -0.49 * kSide})};
   s.contacts = {{"plate", "block", kStiffness, {}}};
   Load down = shift("plate", 0.2, {0, 0, -2e-4});
@@ -137,7 +137,7 @@ TEST(ContactProbe, ApartThereIsNoMeanPressureAndNoShare) {
 // unbalanced (1e-6 of the largest force at each node).
 TEST(AttachmentProbe, CountsContactOnTheTiedNodesToo) {
   Scenario s = press(Scenario::Analysis::Static, 0.004);
-  s.bodies[0].material = material_of(fem::NeoHookean(20e3, 0));  // turns without moment
+  s.bodies[0].material = neo_hookean(20e3, 0);  // turns without moment
   s.attachments.push_back(attach("block", "wall", {-1, -1, 0.49 * kSide}, {1e-6, 1, 1}));
   const auto add = [&](const std::string& name, Probe::Kind kind, const std::string& body,
                        const std::string& other) {

@@ -71,7 +71,7 @@ Scenario press(double stretch, bool lifted) {
       box_body("floor", Body::Kind::Fixed, plate, {0, 0, -0.01}),
       box_body("press", Body::Kind::Fixed, plate, {0, 0, 0.01}),
       box_body("block", Body::Kind::Tissue, Vec3::Constant(kSide), Vec3::Zero(), {2, 2, 2})};
-  s.bodies[2].material = material_of(fem::NeoHookean(1e4, 0.49));
+  s.bodies[2].material = neo_hookean(1e4, 0.49);
   s.bodies[2].material->mass_damping = 20;
   const Vec3 way(0, 0, -(1 - stretch) * kSide);
   s.loads = {shift("press", 0.5, way)};

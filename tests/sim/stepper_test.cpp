@@ -298,7 +298,7 @@ TEST(Stepper, AStretchedBarPullsItsDrivenAndItsFixedEndAlikeAndStoresTheWork) {
   Scenario s = scene(0.02);
   s.bodies = {box_body("bar", Body::Kind::Tissue, {0.01, 0.01, 0.03}, Vec3::Zero(), {1, 1, 3}),
               stand("wall"), stand("hand")};
-  s.bodies[0].material = material_of(fem::Linear(20e3, 0));
+  s.bodies[0].material = linear(20e3, 0);
   s.attachments = {attach("bar", "wall", {-1, -1, -1}, {1, 1, -0.0149}),
                    attach("bar", "hand", {-1, -1, 0.0149}, {1, 1, 1})};
   s.loads = {shift("hand", 2, {0, 0, 0.003})};

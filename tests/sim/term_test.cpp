@@ -1,5 +1,6 @@
 // Model only what a scene requires: what it does not name is never evaluated.
 #include "sim/term.hpp"
+#include "fem/any_material.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fem/any_material.hpp"
 #include "fem/point_law.hpp"
 #include "scene.hpp"
 
@@ -157,7 +158,7 @@ TEST(Tissue, MotionDoesNotDependOnTheUnit) {
 // Rayleigh: an oscillation decays by exp(−ζ ω t), ζ = α/(2ω) + β ω/2, and what the dampers take is
 // in the balance.
 TEST(Tissue, DampingTakesTheEnergyThatItsRatioSays) {
-  Material material = material_of(fem::NeoHookean(15e3, 0.3));
+  Material material = neo_hookean(15e3, 0.3);
   const auto remaining = [&](double alpha, double beta, double& omega) {
     material.mass_damping = alpha;
     material.stiffness_damping = beta;

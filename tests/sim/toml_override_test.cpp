@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fem/any_material.hpp"
 #include "fem/point_law.hpp"
 
 #include "tests/sim/scenario_file.hpp"

@@ -12,7 +12,9 @@ function(articular_settings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion
     $<$<BOOL:${ARTICULAR_WERROR}>:-Werror>
     # g++ 12 sees overlapping memory in "text" + std::string (GCC bug 105651).
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+    # g++ does not count it as a conversion that matters.
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()
 
