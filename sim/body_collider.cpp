@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <numeric>
 
 #include "sim/collider.hpp"
 #include "sim/tissue.hpp"
@@ -17,6 +20,9 @@ constexpr double kOpenDepth = 0.25;
 /// far below it; what lies deeper is seen from beyond an edge, and was not entered through that
 /// face.
 constexpr double kTissueReach = 0.5;
+/// A bone's face counts as crossed up to this part of half its thickness, so that the faces of its
+/// other side are not.
+constexpr double kBoneReach = 0.9;
 /// Cortical bone, where a bone meets a bone without a layer between: E [Pa], nu.
 constexpr double kBoneModulus = 15e9, kBonePoisson = 0.3;
 
@@ -44,6 +50,25 @@ Collider tissue_collider(const Model& model, std::size_t b) {
   collider.reach = kTissueReach * collider.size;
   collider.open_depth = kOpenDepth * collider.size;
   return collider;
+}
+
+/// Of a compact body or a plate [m]: of a curved plate, three times that at most.
+double half_thickness(const Collider& collider) {
+  const Positions from_middle = collider.X.colwise() - collider.X.rowwise().mean();
+  const Mat3 spread = from_middle * from_middle.transpose();
+  const Positions along =
+      Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors().transpose() * from_middle;
+  const double extent = (along.rowwise().maxCoeff() - along.rowwise().minCoeff()).minCoeff();
+
+  double six_volumes = 0;
+  for (const auto& tet : collider.tets.colwise()) {
+    const Vec3 a = collider.X.col(tet[0]);
+    six_volumes += (collider.X.col(tet[1]) - a)
+                       .cross(collider.X.col(tet[2]) - a)
+                       .dot(collider.X.col(tet[3]) - a);
+  }
+  const double area = std::accumulate(collider.face_area.begin(), collider.face_area.end(), 0.0);
+  return std::min(extent / 2, six_volumes / (2 * area));
 }
 
 /// Of a surface's triangles [m]: the depth of the collision elements under it where the scenario
@@ -91,7 +116,7 @@ Collider bone_collider(const BodyGeometry& geometry, std::size_t b, Model& model
     collider.tets = geometry.mesh.tets;
   }
   complete_collider(collider, is_outer);
-  if (!shell) depth = 2 * collider.size;
+  if (!shell) depth = std::min(2 * collider.size, kBoneReach * half_thickness(collider));
   collider.reach = depth;
   for (Eigen::Index i = 0; i < collider.X.cols(); ++i)
     collider.nodes.push_back({bone.block, model.bodies[b].bone, collider.X.col(i) - bone.rest.p});

@@ -163,6 +163,7 @@ class Run {
   void observe() {
     convergence_ += convergence_rows(model_, stepper_.take_convergence());
     history_.record(state_, stepper_);
+    if (!is_static()) note_balance(numerical_loss(state_, stepper_.stored_energy()), state_);
     const bool end = state_.t >= model_.scenario.duration;
     if (frames_.due(state_.t) || end) output_frame();
     if (checkpoints_.due(state_.t) && !end) {
@@ -177,7 +178,6 @@ class Run {
 
   void output_frame() {
     const Stopwatch watch(output_seconds_);
-    note_balance(numerical_loss(state_, stepper_.stored_energy()), state_);
     write_frame(model_, stepper_, state_.frames, state_.t, writer_);
     write_history();
     ++state_.frames;

@@ -322,9 +322,9 @@ void Stepper::account(State& after) {
 }
 
 /// What moves has had its energy at the start, from gravity or from what drives it. Where it is
-/// several times that, the contact or the scheme has made it, and what follows means nothing.
+/// twice that, the contact or the scheme has made it, and what follows means nothing.
 void Stepper::stop_where_energy_is_made(const State& state) const {
-  constexpr double kMost = 3;                // the ledger's sums are trapezoids
+  constexpr double kMost = 2;                // the ledger's sums are trapezoids
   constexpr double kFarFromTolerance = 1e4;  // a hundred times its velocity
   const EnergyLedger& ledger = state.energy;
   const double kinetic = dynamics_->kinetic_energy();

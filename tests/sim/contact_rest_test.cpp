@@ -162,5 +162,22 @@ TEST(ContactAtRest, ALightBlockPressesAHeavyOneWithItsWeight) {
   EXPECT_NEAR(run.stepper.dynamics().contacts()[0].force.norm(), weight, 0.01 * weight);
 }
 
+// Flush sides of cubes that stand on each other face each other across a whole side: nothing came
+// in there. The bones have no elements smaller than themselves.
+TEST(ContactAtRest, RigidCubesOfOneCellStandOnEachOther) {
+  constexpr double kSide = 0.005;  // [m]
+  Scenario s = contact_scene(1e-3);
+  s.bodies = {box_body("floor", Body::Kind::Fixed, {0.02, 0.02, 0.005}, {0, 0, -0.0025}, {2, 2, 1}),
+              box_body("below", Body::Kind::Rigid, Vec3::Constant(kSide), {0, 0, kSide / 2}),
+              box_body("above", Body::Kind::Rigid, Vec3::Constant(kSide),
+                       {0.1 * kSide, 0.1 * kSide, 1.5 * kSide})};
+  s.loads = {gravity({0, 0, -kGravity})};
+  Simulation run(s);
+  run.advance(0.1);
+  const double weight = 1000 * kSide * kSide * kSide * kGravity;
+  EXPECT_LT(kinetic_energy(run), 1e-9 * weight * kSide);
+  EXPECT_NEAR(run.force_on(bone_of(run, "floor")).z(), -2 * weight, 1e-3 * weight);
+}
+
 }  // namespace
 }  // namespace articular::sim

@@ -9,7 +9,9 @@
 
 #include "scene.hpp"
 #include "sim/error.hpp"
+#include "sim/run.hpp"
 #include "sim/worst.hpp"
+#include "temporary_folder.hpp"
 
 namespace articular::sim {
 namespace {
@@ -98,6 +100,23 @@ TEST(RunWarnings, EnergyThatWasMadeInBetweenIsTold) {
   run.advance(0.02);
   note_balance(-0.02 * turned_over(run.state), run.state);
   EXPECT_TRUE(has(all_warnings(run), "made out of nothing, 2 % of")) << all_warnings(run);
+}
+
+TEST(RunWarnings, EnergyMadeBetweenFramesIsNoted) {
+  const TemporaryFolder folder;
+  Scenario s = press(0.05, false);
+  s.duration = 0.5;
+  s.output.interval = 1;  // the next frame is that of the end
+  const Model model = build_model(s);
+  double noted = 0;  // [J]
+  RunOptions options;
+  options.directory = folder.path();
+  options.after_step = [&](const State& state, double duration) {
+    if (state.t < duration) noted = state.worst.made;
+    return false;
+  };
+  run(model, options);
+  EXPECT_GT(noted, 0);
 }
 
 // When it is let go again a press has done no work on the whole: what it had done in between is

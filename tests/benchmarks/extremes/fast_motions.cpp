@@ -67,14 +67,14 @@ Finding impact(const Bench& bench, bool rigid, double young, double step,
   const ScenarioResults results(run.results);
   if (results.smallest("ball.position.z [m]") < -kSide / 2)
     return {Outcome::Failed, "it went through"};
-  return judged(run, energy_created(results), {.right = 1e-3, .stable = 0.1},
+  // In between, what was made may come and go; as motion it would have ended the run.
+  return judged(run, energy_created(results), {.right = 1e-3, .stable = 1},
                 "energy made of nothing, by that of the impact");
 }
 
 /// The soft block is pressed inside out: what then comes of it depends on the scheme.
 Outcome expected(double young, bool rigid, const std::string& scheme, double step) {
   if (young > 1e7) return Outcome::Right;
-  if (scheme == "dirk-3" && step > 1e-4) return Outcome::Failed;
   if (!rigid) return Outcome::Refused;
   if (scheme == "dirk-3" || (scheme == "tr-bdf2" && step > 1e-4)) return Outcome::Degraded;
   return Outcome::Right;
