@@ -116,8 +116,8 @@ Collider bone_collider(const BodyGeometry& geometry, std::size_t b, Model& model
     collider.tets = geometry.mesh.tets;
   }
   complete_collider(collider, is_outer);
-  if (!shell) depth = std::min(2 * collider.size, kBoneReach * half_thickness(collider));
-  collider.reach = depth;
+  if (!shell) depth = 2 * collider.size;
+  collider.reach = shell ? depth : std::min(depth, kBoneReach * half_thickness(collider));
   for (Eigen::Index i = 0; i < collider.X.cols(); ++i)
     collider.nodes.push_back({bone.block, model.bodies[b].bone, collider.X.col(i) - bone.rest.p});
   collider.open_depth = kOpenDepth * depth;
