@@ -77,10 +77,11 @@ Vec6 rigid_acceleration(const Bone& bone, const Pose& pose, const RigidVelocity&
                      mass * driven_part(bone, pose, velocity, at);
   if (!bone.hold) return mass.llt().solve(drive);
   const Eigen::Matrix3Xd shift = free_axes(*bone.hold, 0), turn = free_axes(*bone.hold, 1);
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(6, shift.cols() + turn.cols());
+  const Eigen::Index num_free = shift.cols() + turn.cols();
+  if (num_free == 0) return Vec6::Zero();
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(6, num_free);
   basis.topLeftCorner(3, shift.cols()) = shift;
   basis.bottomRightCorner(3, turn.cols()) = turn;
-  if (basis.cols() == 0) return Vec6::Zero();
   const Eigen::MatrixXd free_mass = basis.transpose() * mass * basis;
   return basis * free_mass.llt().solve(basis.transpose() * drive);
 }
