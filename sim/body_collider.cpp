@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <numeric>
 
 #include "sim/collider.hpp"
 #include "sim/tissue.hpp"
@@ -50,25 +47,6 @@ Collider tissue_collider(const Model& model, std::size_t b) {
   collider.reach = kTissueReach * collider.size;
   collider.open_depth = kOpenDepth * collider.size;
   return collider;
-}
-
-/// Of a compact body or a plate [m]: of a curved plate, three times that at most.
-double half_thickness(const Collider& collider) {
-  const Positions from_middle = collider.X.colwise() - collider.X.rowwise().mean();
-  const Mat3 spread = from_middle * from_middle.transpose();
-  const Positions along =
-      Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors().transpose() * from_middle;
-  const double extent = (along.rowwise().maxCoeff() - along.rowwise().minCoeff()).minCoeff();
-
-  double six_volumes = 0;
-  for (const auto& tet : collider.tets.colwise()) {
-    const Vec3 a = collider.X.col(tet[0]);
-    six_volumes += (collider.X.col(tet[1]) - a)
-                       .cross(collider.X.col(tet[2]) - a)
-                       .dot(collider.X.col(tet[3]) - a);
-  }
-  const double area = std::accumulate(collider.face_area.begin(), collider.face_area.end(), 0.0);
-  return std::min(extent / 2, six_volumes / (2 * area));
 }
 
 /// Of a surface's triangles [m]: the depth of the collision elements under it where the scenario

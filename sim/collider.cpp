@@ -1,9 +1,11 @@
 #include "sim/collider.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace articular::sim {
 namespace {
@@ -221,6 +223,19 @@ void complete_collider(Collider& collider, const std::vector<char>& is_outer) {
     collider.nearby.insert(collider.nearby.end(), list.begin(), list.end());
     collider.nearby_begin.push_back(static_cast<int>(collider.nearby.size()));
   }
+}
+
+double half_thickness(const Collider& collider) {
+  const Positions from_middle = collider.X.colwise() - collider.X.rowwise().mean();
+  const Mat3 spread = from_middle * from_middle.transpose();
+  const Positions along =
+      Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors().transpose() * from_middle;
+  const double extent = (along.rowwise().maxCoeff() - along.rowwise().minCoeff()).minCoeff();
+
+  double volumes = 0;  // six times
+  for (const auto& tet : collider.tets.colwise()) volumes += six_volumes(collider.X, tet);
+  const double area = std::accumulate(collider.face_area.begin(), collider.face_area.end(), 0.0);
+  return std::min(extent / 2, volumes / (2 * area));
 }
 
 }  // namespace articular::sim

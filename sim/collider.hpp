@@ -16,4 +16,7 @@ Tetrahedra shell_under(Positions& X, Triangles& triangles, double thickness);
 ///                  every face touches
 void complete_collider(Collider& collider, const std::vector<char>& is_outer);
 
+/// Of a compact body or a plate [m]: of a curved plate, three times that at most.
+double half_thickness(const Collider& collider);
+
 }  // namespace articular::sim

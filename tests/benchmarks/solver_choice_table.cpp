@@ -6,7 +6,6 @@
 #include <memory>
 #include <vector>
 
-#include "fem/any_material.hpp"
 #include "fem/solver_choice.hpp"
 #include "tests/benchmarks/timing.hpp"
 #include "tests/fem/smoothed_box.hpp"

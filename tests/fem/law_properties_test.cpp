@@ -6,7 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include "fem/any_material.hpp"
 #include "fem/von_mises.hpp"
 #include "tests/fem/central_difference.hpp"
 #include "tests/fem/dense.hpp"
