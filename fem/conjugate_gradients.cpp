@@ -11,8 +11,9 @@
 namespace articular::fem {
 namespace {
 
-/// Block Jacobi as preconditioner. Only the lower half of A is kept, which halves what a product
-/// reads from memory. Sums run in a fixed order.
+/// Block Jacobi as preconditioner. Only the lower half of A is kept, and of that what is not zero
+/// (couplings of contacts that might close, or have opened, are): a product takes as long as
+/// reading it from memory. Sums run in a fixed order.
 class ConjugateGradients final : public LinearSolver {
  public:
   ConjugateGradients(double tolerance, int max_iterations)
@@ -28,7 +29,7 @@ class ConjugateGradients final : public LinearSolver {
                                      const PressurePart& part) override {
     pressure_.set(part.terms);
     if (A.num_blocks() != num_blocks() || A.pattern_id() != pattern_id_) take_pattern(A);
-    for (std::size_t k = 0; k < slot_.size(); ++k) lower_[k] = A.block(slot_[k]);
+    take_blocks(A);
     ready_ = false;
     for (int i = 0; i < num_blocks(); ++i) {
       // The lower half is mirrored, as in the off-diagonal blocks.
@@ -62,24 +63,26 @@ class ConjugateGradients final : public LinearSolver {
   void take_pattern(const BlockMatrix& A) {
     pattern_id_ = A.pattern_id();
     const auto n = static_cast<std::size_t>(A.num_blocks());
-    row_begin_.assign(1, 0);
-    column_.clear();
-    slot_.clear();
-    diagonal_slot_.clear();
-    for (int i = 0; i < A.num_blocks(); ++i) {
-      for (int s = A.row_begin()[i]; s < A.row_begin()[i + 1]; ++s) {
-        const int j = A.column()[s];
-        if (j == i) diagonal_slot_.push_back(s);
-        if (j >= i) break;
-        column_.push_back(j);
-        slot_.push_back(s);
-      }
-      row_begin_.push_back(static_cast<int>(column_.size()));
-    }
-    lower_.resize(column_.size());
+    diagonal_slot_.resize(n);
+    for (int i = 0; i < A.num_blocks(); ++i) diagonal_slot_[i] = A.slot(i, i);
     diagonal_.resize(n);
     inverse_diagonal_.resize(n);
     memory_.resize(3 * Eigen::Index{A.num_blocks()});
+  }
+
+  void take_blocks(const BlockMatrix& A) {
+    row_begin_.assign(1, 0);
+    column_.clear();
+    lower_.clear();
+    for (int i = 0; i < num_blocks(); ++i) {
+      for (int s = A.row_begin()[i]; s < diagonal_slot_[i]; ++s) {
+        const Eigen::Map<const Mat3> block = A.block(s);
+        if ((block.array() == 0).all()) continue;
+        column_.push_back(A.column()[s]);
+        lower_.push_back(block);
+      }
+      row_begin_.push_back(static_cast<int>(column_.size()));
+    }
   }
 
   /// y = A x
@@ -108,8 +111,8 @@ class ConjugateGradients final : public LinearSolver {
   int max_iterations_;
   bool ready_ = false;
   std::uint64_t pattern_id_ = 0;
-  std::vector<int> row_begin_{0}, column_;  // of the blocks below the diagonal
-  std::vector<int> slot_, diagonal_slot_;   // where A holds them
+  std::vector<int> diagonal_slot_;          // where A holds the blocks of the diagonal
+  std::vector<int> row_begin_{0}, column_;  // of the blocks below it that are not zero
   std::vector<Mat3> lower_, diagonal_, inverse_diagonal_;
   PressureOperator pressure_;
   IterationMemory memory_;
