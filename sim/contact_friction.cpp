@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/contact_response.hpp"
+#include "sim/contact_direction.hpp"
 
 namespace articular::sim {
 namespace {
@@ -19,10 +19,10 @@ struct Rates {
 
 /// @param velocity_of  a NodeRef's [m/s]
 template <class Velocity>
-Rates rates_of(const DirectionMoment& direction, const Collider& triangles, const Collider& faces,
+Rates rates_of(const ContactDirection& direction, const Collider& triangles, const Collider& faces,
                Velocity&& velocity_of) {
   Rates rates{Eigen::VectorXd::Zero(triangles.X.cols()), Positions::Zero(3, triangles.X.cols())};
-  for (const DirectionMoment::Patch& entry : direction.patches()) {
+  for (const ContactDirection::Patch& entry : direction.patches()) {
     if (!carries(direction, entry.triangle, triangles.surface.faces)) continue;
     const auto nodes = nodes_of(triangles, faces, entry.triangle, entry.face);
     SixVectors v;
@@ -39,9 +39,9 @@ Rates rates_of(const DirectionMoment& direction, const Collider& triangles, cons
 }
 
 /// Sums of w N_a n over the patches.
-Positions normals_of(const DirectionMoment& direction, const Collider& triangles) {
+Positions normals_of(const ContactDirection& direction, const Collider& triangles) {
   Positions normals = Positions::Zero(3, triangles.X.cols());
-  for (const DirectionMoment::Patch& entry : direction.patches()) {
+  for (const ContactDirection::Patch& entry : direction.patches()) {
     const Vec3 areas = nodal_areas(entry.patch);
     for (int i = 0; i < 3; ++i)
       normals.col(triangles.surface.faces(i, entry.triangle)) += areas[i] * entry.patch.normal;
@@ -94,7 +94,7 @@ Mat3 slip_integrals(const ContactPatch& patch, const SixVectors& v) {
 }
 
 void find_drag(const SurfaceLaw& law, const Collider& triangles, const Collider& faces,
-               const Configuration& configuration, DirectionMoment& direction) {
+               const Configuration& configuration, ContactDirection& direction) {
   const Rates rates = rates_of(direction, triangles, faces,
                                [&](const NodeRef& node) { return configuration.velocity(node); });
   const Positions normals = normals_of(direction, triangles);
@@ -108,7 +108,7 @@ void find_drag(const SurfaceLaw& law, const Collider& triangles, const Collider&
   }
 }
 
-void add_drag_product(const DirectionMoment& direction, const Collider& triangles,
+void add_drag_product(const ContactDirection& direction, const Collider& triangles,
                       const Collider& faces, const Configuration& configuration,
                       const Eigen::VectorXd& u, double scale, Eigen::VectorXd& f) {
   const Rates rates = rates_of(direction, triangles, faces, [&](const NodeRef& node) {
@@ -117,7 +117,7 @@ void add_drag_product(const DirectionMoment& direction, const Collider& triangle
       velocity += u.segment<3>(3 * node.block + 3).cross(configuration.lever(node));
     return velocity;
   });
-  for (const DirectionMoment::Patch& entry : direction.patches()) {
+  for (const ContactDirection::Patch& entry : direction.patches()) {
     if (!carries(direction, entry.triangle, triangles.surface.faces)) continue;
     Vec3 p;
     Mat3 t;
@@ -137,7 +137,7 @@ void add_drag_product(const DirectionMoment& direction, const Collider& triangle
   }
 }
 
-double drag_power(const DirectionMoment& direction) {
+double drag_power(const ContactDirection& direction) {
   double power = 0;
   if (direction.drag.empty()) return power;
   for (const int node : direction.nodes) {

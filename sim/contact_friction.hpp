@@ -21,7 +21,7 @@ namespace articular::sim {
 
 struct Collider;
 struct Configuration;
-struct DirectionMoment;
+struct ContactDirection;
 
 /// What a contact does beside pressing; nothing by default.
 struct SurfaceLaw {
@@ -57,15 +57,15 @@ Mat3 slip_integrals(const ContactPatch& patch, const Eigen::Matrix<double, 3, 6>
 
 /// Drag at the nodes of a direction whose depths and pressures are known; adds to the pressures.
 void find_drag(const SurfaceLaw& law, const Collider& triangles, const Collider& faces,
-               const Configuration& configuration, DirectionMoment& direction);
+               const Configuration& configuration, ContactDirection& direction);
 
 /// f += scale D u for velocities u of the blocks, where D is minus the derivative of forces by
 /// velocities that drag has.
-void add_drag_product(const DirectionMoment& direction, const Collider& triangles,
+void add_drag_product(const ContactDirection& direction, const Collider& triangles,
                       const Collider& faces, const Configuration& configuration,
                       const Eigen::VectorXd& u, double scale, Eigen::VectorXd& f);
 
 /// What friction and damping lose [W].
-double drag_power(const DirectionMoment& direction);
+double drag_power(const ContactDirection& direction);
 
 }  // namespace articular::sim

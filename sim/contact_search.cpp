@@ -32,6 +32,11 @@ bool tied(const Collider& a, int triangle, const Collider& b, int face) {
   return false;
 }
 
+/// Whether the triangles of the contact's first body, or (reversed) its second, look for faces.
+bool looks(const ContactModel& contact, bool reversed) {
+  return (reversed ? contact.stiffness_b : contact.stiffness_a).size() > 0;
+}
+
 /// Keeps the candidates whose face itself meets the triangle's body. A triangle that passes the
 /// edge of a body also faces that body's far side, which it can't have come through: that side is
 /// outside.
@@ -71,31 +76,31 @@ DepthRange depth_range(const Collider& triangles, const Collider& faces, bool av
   return {averaged ? triangles.open_depth : 0, std::min(2 * triangles.reach, faces.reach)};
 }
 
-ContactSearch::ContactSearch(const Model& model)
-    : model_(model), moving_of_body_(model.bodies.size(), -1) {
+ContactSearch::ContactSearch(const Model& model) : model_(model) {
   options_.narrow = model.scenario.detection.narrow_test;
   options_.threads = model.scenario.threads;
-  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    const ContactModel& contact = model.contacts[c];
-    for (const int body : {contact.a, contact.b}) {
-      int& index = moving_of_body_[static_cast<std::size_t>(body)];
-      if (index >= 0) continue;
-      index = static_cast<int>(moving_.size());
-      const Collider& collider = *model.bodies[static_cast<std::size_t>(body)].collider;
-      Moving moving;
-      moving.body = body;
-      moving.tree =
-          std::make_unique<collision::BlockTree>(collider.tets, collider.surface, collider.X);
-      moving_.push_back(std::move(moving));
-      seen_.resize(std::max(seen_.size(), collider.face_area.size()));
-    }
-    for (const bool reversed : {false, true}) {
-      if ((reversed ? contact.stiffness_b : contact.stiffness_a).size() == 0) continue;
-      candidates_.push_back({static_cast<int>(c), reversed, {}});
-      const auto side = static_cast<std::size_t>(reversed ? contact.b : contact.a);
-      if (contact.averaged)
-        open_depth_ = std::max(open_depth_, model.bodies[side].collider->open_depth);
-    }
+  std::vector<int> moving_of_body(model.bodies.size(), -1);
+  const auto moving_of = [&](int body) {
+    int& index = moving_of_body[static_cast<std::size_t>(body)];
+    if (index >= 0) return index;
+    index = static_cast<int>(moving_.size());
+    const Collider& collider = *model.bodies[static_cast<std::size_t>(body)].collider;
+    Moving moving;
+    moving.body = body;
+    moving.tree =
+        std::make_unique<collision::BlockTree>(collider.tets, collider.surface, collider.X);
+    moving_.push_back(std::move(moving));
+    seen_.resize(std::max(seen_.size(), collider.face_area.size()));
+    return index;
+  };
+  for (const ContactModel& contact : model.contacts) {
+    pairs_.push_back({moving_of(contact.a), moving_of(contact.b)});
+    if (!contact.averaged) continue;
+    for (const bool reversed : {false, true})
+      if (looks(contact, reversed))
+        open_depth_ = std::max(
+            open_depth_, model.bodies[static_cast<std::size_t>(reversed ? contact.b : contact.a)]
+                             .collider->open_depth);
   }
 }
 
@@ -140,13 +145,14 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
 
   const auto query_start = Clock::now();
   collision::BlockQueryCounts query;
-  for (CandidateList& list : candidates_) list.pairs.clear();
-  for (std::size_t first = 0; first < candidates_.size();) {  // those of a contact lie side by side
-    std::size_t end = first + 1;
-    while (end < candidates_.size() && candidates_[end].contact == candidates_[first].contact)
-      ++end;
-    search({candidates_.data() + first, end - first}, margin, query);
-    first = end;
+  num_lists_ = 0;
+  for (std::size_t c = 0; c < pairs_.size(); ++c) {
+    Moving &a = moving_[static_cast<std::size_t>(pairs_[c].a)],
+           &b = moving_[static_cast<std::size_t>(pairs_[c].b)];
+    if (&a == &b)
+      search_itself(static_cast<int>(c), a, margin, query);
+    else
+      search(static_cast<int>(c), a, b, margin, query);
   }
   counts_.narrow_tests += query.candidates;
   counts_.reported_pairs += query.pairs;
@@ -154,24 +160,31 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
   counts_.traversal_seconds += seconds_since(query_start) - query.narrow_seconds;
 }
 
-/// The lists of one contact.
-void ContactSearch::search(std::span<CandidateList> lists, double margin,
+/// Stays out of the candidates until num_lists_ counts it.
+CandidateList& ContactSearch::next_list(int contact, bool reversed) {
+  if (num_lists_ == lists_.size()) lists_.emplace_back();
+  CandidateList& list = lists_[num_lists_];
+  list.contact = contact;
+  list.reversed = reversed;
+  return list;
+}
+
+void ContactSearch::search_itself(int contact, Moving& a, double margin,
+                                  collision::BlockQueryCounts& query) {
+  fit(a);
+  ++counts_.evaluations[Term::SelfQuery];
+  collision::faces_in_own_body(*a.tree, found_of_a_, query, scratch_, options_);
+  collision::sort_pairs(found_of_a_, *a.tree, *a.tree, sort_scratch_);
+  collect(found_of_a_, found_of_a_, a, a,
+          model_.contacts[static_cast<std::size_t>(contact)].averaged, margin, of_a_);
+  CandidateList& list = next_list(contact, false);
+  list.pairs = of_a_.near;
+  merge(of_a_.deep, list.pairs);
+  num_lists_ += list.pairs.empty() ? 0 : 1;
+}
+
+void ContactSearch::search(int contact, Moving& a, Moving& b, double margin,
                            collision::BlockQueryCounts& query) {
-  const ContactModel& contact = model_.contacts[static_cast<std::size_t>(lists[0].contact)];
-  const auto moving = [this](int body) -> Moving& {
-    return moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(body)])];
-  };
-  Moving &a = moving(contact.a), &b = moving(contact.b);
-  if (contact.a == contact.b) {
-    fit(a);
-    ++counts_.evaluations[Term::SelfQuery];
-    collision::faces_in_own_body(*a.tree, found_of_a_, query, scratch_, options_);
-    collision::sort_pairs(found_of_a_, *a.tree, *a.tree, sort_scratch_);
-    collect(found_of_a_, found_of_a_, a, a, contact.averaged, margin, of_a_);
-    lists[0].pairs = of_a_.near;
-    merge(of_a_.deep, lists[0].pairs);
-    return;
-  }
   ++counts_.evaluations[Term::BoxTest];
   if (!overlap(a.tree->bounds(), b.tree->bounds())) return;
   fit(a);
@@ -182,13 +195,17 @@ void ContactSearch::search(std::span<CandidateList> lists, double margin,
   collision::sort_pairs(found_of_a_, *a.tree, *b.tree, sort_scratch_);
   collision::sort_pairs(found_of_b_, *b.tree, *a.tree, sort_scratch_);
   // In both directions, even if one side alone looks for the other: what lies deep shows in either.
-  collect(found_of_a_, found_of_b_, a, b, contact.averaged, margin, of_a_);
-  collect(found_of_b_, found_of_a_, b, a, contact.averaged, margin, of_b_);
-  for (CandidateList& list : lists) {
-    const Direction &own = list.reversed ? of_b_ : of_a_, &other = list.reversed ? of_a_ : of_b_;
+  const ContactModel& pair = model_.contacts[static_cast<std::size_t>(contact)];
+  collect(found_of_a_, found_of_b_, a, b, pair.averaged, margin, of_a_);
+  collect(found_of_b_, found_of_a_, b, a, pair.averaged, margin, of_b_);
+  for (const bool reversed : {false, true}) {
+    if (!looks(pair, reversed)) continue;
+    const Direction &own = reversed ? of_b_ : of_a_, &other = reversed ? of_a_ : of_b_;
+    CandidateList& list = next_list(contact, reversed);
     list.pairs = own.near;
     merge(own.deep, list.pairs);
     merge(swapped(other.deep), list.pairs);
+    num_lists_ += list.pairs.empty() ? 0 : 1;
   }
 }
 
@@ -282,18 +299,21 @@ bool ContactSearch::passes_unseen(const Configuration& from, const Configuration
   for (const Moving& moving : moving_)
     sweeps.push_back(
         sweep_of(*model_.bodies[static_cast<std::size_t>(moving.body)].collider, from, to));
-  return std::any_of(model_.contacts.begin(), model_.contacts.end(), [&](const ContactModel& pair) {
-    if (pair.a == pair.b) return false;
-    const auto a = static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(pair.a)]);
-    const auto b = static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(pair.b)]);
-    if (!sweeps[a].way.intersects(sweeps[b].way)) return false;
-    const Vec3 most = (sweeps[a].displacement.max() - sweeps[b].displacement.min())
-                          .cwiseMax(sweeps[b].displacement.max() - sweeps[a].displacement.min());
+  for (std::size_t c = 0; c < pairs_.size(); ++c) {
+    if (pairs_[c].a == pairs_[c].b) continue;
+    const Sweep &a = sweeps[static_cast<std::size_t>(pairs_[c].a)],
+                &b = sweeps[static_cast<std::size_t>(pairs_[c].b)];
+    if (!a.way.intersects(b.way)) continue;
+    const Vec3 most = (a.displacement.max() - b.displacement.min())
+                          .cwiseMax(b.displacement.max() - a.displacement.min());
+    const ContactModel& pair = model_.contacts[c];
     const Collider& A = *model_.bodies[static_cast<std::size_t>(pair.a)].collider;
     const Collider& B = *model_.bodies[static_cast<std::size_t>(pair.b)].collider;
-    return most.norm() >
-           std::max(depth_range(A, B, pair.averaged).reach, depth_range(B, A, pair.averaged).reach);
-  });
+    if (most.norm() >
+        std::max(depth_range(A, B, pair.averaged).reach, depth_range(B, A, pair.averaged).reach))
+      return true;
+  }
+  return false;
 }
 
 double ContactSearch::motion_since(const Configuration& configuration) const {

@@ -50,7 +50,8 @@ class ContactSearch {
   ///                than this and the depth in front of a face at which surfaces count
   void find(const Configuration& configuration, double margin);
 
-  const std::vector<CandidateList>& candidates() const { return candidates_; }
+  /// The lists that have pairs, in the order of the contacts; until the next find().
+  std::span<const CandidateList> candidates() const { return {lists_.data(), num_lists_}; }
   const SearchCounts& counts() const { return counts_; }
   SearchCounts& counts() { return counts_; }
 
@@ -80,7 +81,9 @@ class ContactSearch {
   struct Direction {
     std::vector<ContactCandidate> near, deep;
   };
-  void search(std::span<CandidateList> lists, double margin, collision::BlockQueryCounts& query);
+  void search(int contact, Moving& a, Moving& b, double margin, collision::BlockQueryCounts& query);
+  void search_itself(int contact, Moving& a, double margin, collision::BlockQueryCounts& query);
+  CandidateList& next_list(int contact, bool reversed);
   /// @param found    triangles of a in tetrahedra of b
   /// @param reverse  of b in a
   void collect(const std::vector<collision::Penetration>& found,
@@ -91,9 +94,14 @@ class ContactSearch {
                       std::vector<ContactCandidate>& pairs);
 
   const Model& model_;
-  std::vector<Moving> moving_;       // one a collider
-  std::vector<int> moving_of_body_;  // -1: none
-  std::vector<CandidateList> candidates_;
+  std::vector<Moving> moving_;  // one a collider
+  /// Of each contact, indices into moving_: all that most contacts of a large scene are asked for.
+  struct MovingPair {
+    int a = 0, b = 0;
+  };
+  std::vector<MovingPair> pairs_;
+  std::vector<CandidateList> lists_;  // never shrinks: the first ones are candidates
+  std::size_t num_lists_ = 0;
   double margin_ = 0;      // [m]
   double open_depth_ = 0;  // [m] largest of all sides that are averaged over
   std::vector<collision::Penetration> found_of_a_, found_of_b_;

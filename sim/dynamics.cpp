@@ -33,8 +33,8 @@ double Dynamics::activation_of(std::size_t tissue) const {
   return sim::activation_of(model_.tissues[tissue], configuration_);
 }
 
-void Dynamics::set_candidates(const std::vector<CandidateList>& candidates) {
-  candidates_ = &candidates;
+void Dynamics::set_candidates(std::span<const CandidateList> candidates) {
+  candidates_ = candidates;
   matrix_.couple(candidates);
 }
 
@@ -157,9 +157,9 @@ void Dynamics::find_forces(const double* y) {
     add_loads(configuration_.t);
     add_lines();
   }
-  if (candidates_ != nullptr) {
+  {
     const Stopwatch watch(times_.contact_force);
-    contact_.evaluate(configuration_, *candidates_);
+    contact_.evaluate(configuration_, candidates_);
     contact_.add_force(configuration_, f_);
     enters(contact_.largest_force());
   }
@@ -279,9 +279,8 @@ std::pair<Vec3, Vec3> Dynamics::attachment_force(int tissue, int bone) const {
   const Tissue& given = model_.tissues[static_cast<std::size_t>(tissue)];
   const auto& nodes = given.nodes;
   // A collider of tissue has the nodes of its mesh, in their order.
-  Positions contact;
-  if (candidates_ != nullptr)
-    contact = contact_.nodal_forces()[static_cast<std::size_t>(given.body)];
+  const Positions contact =
+      std::move(nodal_contact_forces(model_, contact_)[static_cast<std::size_t>(given.body)]);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].bone != bone) continue;
     const auto column = static_cast<Eigen::Index>(i);
@@ -320,9 +319,7 @@ void Dynamics::multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const
 
 const fem::BlockMatrix& Dynamics::matrix(const SystemScale& scale, fem::Tangent tangent) {
   const Stopwatch watch(times_.assembly);
-  return matrix_.assemble(
-      {configuration_, lines_, tissues_, candidates_ != nullptr ? &contact_ : nullptr}, scale,
-      tangent);
+  return matrix_.assemble({configuration_, lines_, tissues_, contact_}, scale, tangent);
 }
 
 double Dynamics::kinetic_energy() const {
@@ -403,7 +400,7 @@ void Dynamics::add_damping_product(const Eigen::VectorXd& u, double scale,
       add_force(configuration_, tissue.nodes[static_cast<std::size_t>(i)], scale * damping_.col(i),
                 f);
   }
-  if (candidates_ != nullptr) contact_.add_damping_product(configuration_, u, scale, f);
+  contact_.add_damping_product(configuration_, u, scale, f);
 }
 
 void Dynamics::add_lag_force(const double* b, double gamma, Eigen::VectorXd& f) const {

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "sim/contact_summary.hpp"
 #include "sim/held_bone.hpp"
 #include "sim/newton_matrix.hpp"
 
@@ -19,7 +20,7 @@ class Dynamics {
   explicit Dynamics(const Model& model);
 
   /// The candidates for the coming step; their couplings enter the pattern.
-  void set_candidates(const std::vector<CandidateList>& candidates);
+  void set_candidates(std::span<const CandidateList> candidates);
   /// Drops what depends on the past (couplings of earlier candidates), and what a solution that was
   /// left in the middle had set.
   void forget() {
@@ -46,8 +47,8 @@ class Dynamics {
   /// on what holds it.
   Vec6 reaction(int bone) const;
   const std::vector<LineState>& lines() const { return lines_; }
-  /// Whether any contact candidates are there.
-  bool touches() const { return candidates_ != nullptr && contact_.has_patches(); }
+  /// Whether anything lies opposite anything.
+  bool touches() const { return contact_.has_patches(); }
   /// From the next evaluate() on, see ContactResponse::set_soft().
   void set_soft_contact(bool soft) { contact_.set_soft(soft); }
   /// From the next evaluate() on, see ContactResponse::set_allowances().
@@ -57,21 +58,22 @@ class Dynamics {
   /// From the next evaluate() on, see ContactResponse::set_stiffening(), augment() and
   /// drop_multipliers().
   void set_stiffening(const Eigen::VectorXd& factors) { contact_.set_stiffening(factors); }
-  bool augment_contact() { return candidates_ != nullptr && contact_.augment(); }
+  bool augment_contact() { return contact_.augment(); }
   void drop_multipliers() { contact_.drop_multipliers(); }
   /// From the next evaluate() on, without gravity, loads and lines.
   void set_unloaded(bool unloaded) { unloaded_ = unloaded; }
   const ContactResponse& contact() const { return contact_; }
-  /// One a contact of the model.
+  /// See contact_summaries().
   std::vector<ContactSummary> contacts() const {
-    return candidates_ != nullptr ? contact_.summaries(configuration_)
-                                  : std::vector<ContactSummary>(model_.contacts.size());
+    return contact_summaries(model_, contact_, configuration_);
   }
-  /// See ContactResponse::summary_through().
+  /// See summary_through().
   ContactSummary contact_through(int contact, int body, const std::vector<char>& selected) const {
-    return candidates_ != nullptr
-               ? contact_.summary_through(configuration_, contact, body, selected)
-               : ContactSummary();
+    return summary_through(model_, contact_, configuration_, contact, body, selected);
+  }
+  /// Of one contact of the model.
+  ContactSummary contact_summary(int contact) const {
+    return contact_through(contact, model_.contacts[static_cast<std::size_t>(contact)].a, {});
   }
 
   /// ẏ from the forces of the last evaluate().
@@ -133,7 +135,7 @@ class Dynamics {
   /// What the tissues' dampers lose there [W].
   double damping_power() const;
   /// What friction and damping in contact lose there [W].
-  double contact_power() const { return candidates_ != nullptr ? contact_.damping_power() : 0; }
+  double contact_power() const { return contact_.damping_power(); }
   /// ∂W/∂a of a tissue's elastic energy there by its activation [J].
   double energy_per_activation(std::size_t tissue) const;
   double gravity_energy() const;  // [J], of all masses but fixed and driven bones' own
@@ -157,7 +159,7 @@ class Dynamics {
   bool carries_own_weight(const NodeRef& node) const;
 
   const Model& model_;
-  const std::vector<CandidateList>* candidates_ = nullptr;
+  std::span<const CandidateList> candidates_;
   Configuration configuration_;
   bool unloaded_ = false;
   double step_start_ = 0;  // [s]

@@ -144,7 +144,8 @@ void write_frame(const Model& model, const Stepper& stepper, int index, double t
                  FrameWriter& writer) {
   const Configuration& now = stepper.dynamics().configuration();
   const ContactResponse& contact = stepper.dynamics().contact();
-  const Contacts contacts{contact.nodal_forces(), contact.surface_contacts(now)};
+  const Contacts contacts{nodal_contact_forces(model, contact),
+                          surface_contacts(model, contact, now)};
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyModel& body = model.bodies[b];
     const int body_index = static_cast<int>(b);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sim/configuration.hpp"
-#include "sim/contact_response.hpp"
+#include "sim/contact_summary.hpp"
 
 namespace articular::sim {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fem/smoothed_elasticity.hpp"
+#include "sim/contact_stencils.hpp"
 #include "sim/held_bone.hpp"
 #include "sim/linear_solver.hpp"
 
@@ -63,7 +64,8 @@ double activation_of(const Tissue& tissue, const Configuration& now) {
 NewtonMatrix::NewtonMatrix(const Model& model)
     : model_(model),
       for_multigrid_(choose_linear_solver(model).kind == fem::SolverKind::Multigrid),
-      tissues_(model.tissues.size()) {
+      tissues_(model.tissues.size()),
+      contact_(model) {
   for (std::size_t t = 0; t < tissues_.size(); ++t) {
     const Tissue& tissue = model.tissues[t];
     if (!adds_directly(tissue)) tissues_[t].own.K = tissue.elements.make_matrix();
@@ -118,7 +120,7 @@ Stencils NewtonMatrix::base_stencils(bool smoothing) const {
   return base;
 }
 
-void NewtonMatrix::couple(const std::vector<CandidateList>& candidates) {
+void NewtonMatrix::couple(std::span<const CandidateList> candidates) {
   const std::size_t known = contacts_.blocks.size();
   append_missing_stencils(model_, candidates, smoothed_ ? plain_ : A_, contacts_);
   if (contacts_.blocks.size() > known) build_pattern();
@@ -299,7 +301,11 @@ const fem::BlockMatrix& NewtonMatrix::assemble(const Moment& now, const SystemSc
   add_masses(now.configuration, scale, common);
   for (std::size_t l = 0; l < model_.lines.size(); ++l)
     add_line_stiffness(model_, model_.lines[l], now.configuration, now.lines[l], scale, common);
-  if (now.contact != nullptr) now.contact->add_stiffness(now.configuration, tangent, scale, common);
+  for (const ContactDirection* direction : now.contact.directions()) {
+    if (direction->num_patches == 0) continue;
+    ++evaluations_[Term::ContactStiffness];
+    contact_.add(*direction, now.configuration, tangent, scale, common);
+  }
   pressure_terms_.clear();
   if (!smoothed_) {
     keep_free_part(model_, A_);

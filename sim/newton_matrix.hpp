@@ -6,6 +6,7 @@
 
 #include "fem/linear_solver.hpp"
 #include "sim/contact_response.hpp"
+#include "sim/contact_stiffness.hpp"
 #include "sim/line_force.hpp"
 #include "sim/system_matrix.hpp"
 
@@ -28,7 +29,7 @@ class NewtonMatrix {
   explicit NewtonMatrix(const Model& model);
 
   /// Candidates of the coming step: their couplings enter the pattern, and stay in it.
-  void couple(const std::vector<CandidateList>& candidates);
+  void couple(std::span<const CandidateList> candidates);
   /// Drops the couplings of all candidates so far.
   void forget();
   std::uint64_t pattern_id() const { return A_.pattern_id(); }
@@ -38,11 +39,11 @@ class NewtonMatrix {
     const Configuration& configuration;
     const std::vector<LineState>& lines;
     const std::vector<TissueMoment>& tissues;
-    ContactResponse* contact;  // null: nothing touches
+    const ContactResponse& contact;
   };
   const fem::BlockMatrix& assemble(const Moment& now, const SystemScale& scale,
                                    fem::Tangent tangent);
-  /// Of stiffness and inertia; what acts between surfaces counts its own.
+  /// Of stiffness and inertia.
   const EvaluationCounts& evaluations() const { return evaluations_; }
   /// What smoothed tissues add to that matrix: pressures that couple all of their nodes. Refers to
   /// this object.
@@ -86,6 +87,7 @@ class NewtonMatrix {
   bool smoothed_ = false;       // some tissue is
   bool for_multigrid_ = false;  // what the plain matrix is for
   std::vector<TissueWork> tissues_;
+  ContactStiffness contact_;
   Stencils base_, plain_base_, contacts_;
   fem::BlockMatrix A_;
   fem::BlockMatrix plain_;          // with smoothed tissues: couplings of the elements alone

@@ -111,9 +111,9 @@ class Settler {
   std::vector<double> depths(const Eigen::VectorXd& y) {
     dynamics_.set_allowances({});
     look(y, 0);
-    std::vector<double> depths;
+    std::vector<double> depths(model_.contacts.size(), 0);
     for (const ContactSummary& contact : dynamics_.contacts())
-      depths.push_back(contact.max_point_depth);
+      depths[static_cast<std::size_t>(contact.contact)] = contact.max_point_depth;
     return depths;
   }
 
@@ -159,9 +159,11 @@ class Settler {
 
   bool is_settled() const {
     const std::vector<ContactSummary> contacts = dynamics_.contacts();
-    bool apart = true;
-    for (std::size_t c = 0; c < contacts.size(); ++c)
-      apart = apart && contacts[c].max_point_depth <= model_.contacts[c].max_penetration;
+    const bool apart =
+        std::all_of(contacts.begin(), contacts.end(), [this](const ContactSummary& contact) {
+          const auto c = static_cast<std::size_t>(contact.contact);
+          return contact.max_point_depth <= model_.contacts[c].max_penetration;
+        });
     return apart || equilibrium_.residual() <= kHeld * dynamics_.largest_force();
   }
 

@@ -155,10 +155,11 @@ void Stepper::remember_start(const State& state) {
   for (std::size_t t = 0; t < model_.tissues.size(); ++t)
     if (model_.tissues[t].muscle >= 0)
       fibre_energy_before_[t] = dynamics_->energy_per_activation(t);
-  contact_energy_before_.clear();
-  if (has_bounds_in_time(model_))
+  if (has_bounds_in_time(model_)) {
+    contact_energy_before_.assign(model_.contacts.size(), 0);
     for (const ContactSummary& contact : dynamics_->contacts())
-      contact_energy_before_.push_back(contact.energy);
+      contact_energy_before_[static_cast<std::size_t>(contact.contact)] = contact.energy;
+  }
   reactions_before_.assign(model_.bones.size(), Vec6::Zero());
   for (std::size_t b = 0; b < model_.bones.size(); ++b)
     if (model_.bones[b].motion && model_.bones[b].unknown)
@@ -231,12 +232,12 @@ bool Stepper::stiffen(State& state) const {
   if (!has_bounds_in_time(model_)) return false;
   constexpr double kMostStiffening =
       128;  // beyond, Newton's tolerance would be all of the pressure
-  const std::vector<ContactSummary> contacts = dynamics_->contacts();
   bool any = false;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
+  for (const ContactSummary& contact : dynamics_->contacts()) {
+    const auto c = static_cast<std::size_t>(contact.contact);
     double& factor = state.stiffening[static_cast<Eigen::Index>(c)];
     if (!model_.contacts[c].is_bounded || factor >= kMostStiffening) continue;
-    if (contacts[c].max_depth <= model_.contacts[c].max_penetration) continue;
+    if (contact.max_depth <= model_.contacts[c].max_penetration) continue;
     factor *= 2;
     state.energy.contact_loss -= contact_energy_before_[c];
     any = true;
@@ -365,7 +366,7 @@ StoredEnergy Stepper::stored_energy() const {
 
 std::vector<Positions> Stepper::contact_forces() const {
   if (!search_) return std::vector<Positions>(model_.bodies.size());
-  return dynamics_->contact().nodal_forces();
+  return nodal_contact_forces(model_, dynamics_->contact());
 }
 
 PhaseTimes Stepper::times() {

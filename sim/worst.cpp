@@ -40,14 +40,14 @@ void note_worst(const Model& model, const Dynamics& dynamics, State& state) {
     worst.element = element;
     worst.squeezed_at = state.t;
   }
-  const std::vector<ContactSummary> contacts = dynamics.contacts();
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (!(contacts[c].max_depth > 0)) continue;
-    state.max_penetration = std::max(state.max_penetration, contacts[c].max_depth);
-    const double overlap = contacts[c].max_depth / followed_depth(model, model.contacts[c]);
+  for (const ContactSummary& contact : dynamics.contacts()) {
+    if (!(contact.max_depth > 0)) continue;
+    state.max_penetration = std::max(state.max_penetration, contact.max_depth);
+    const ContactModel& pair = model.contacts[static_cast<std::size_t>(contact.contact)];
+    const double overlap = contact.max_depth / followed_depth(model, pair);
     if (!(overlap > worst.overlap)) continue;
     worst.overlap = overlap;
-    worst.contact = static_cast<int>(c);
+    worst.contact = contact.contact;
     worst.overlap_at = state.t;
   }
   worst.kinetic = std::max(worst.kinetic, dynamics.kinetic_energy());

@@ -58,7 +58,7 @@ Scenario plunged(double depth, Scenario::Analysis analysis) {
 /// On the small block [N].
 Vec3 contact_force(const Scenario& scenario) {
   const Simulation run(scenario);
-  return -run.stepper.dynamics().contacts()[0].force;
+  return -run.stepper.dynamics().contact_summary(0).force;
 }
 
 // Half an element deep or three, it is pushed out the way it came, by stiffness times depth times

@@ -83,7 +83,7 @@ TEST(FlatElements, BearTheSameForce) {
     Simulation run(pressed(block, folder));
     run.advance(0.1);
     EXPECT_GT(least_volume_ratio(run), 0);
-    return run.stepper.dynamics().contacts()[0].force.norm();
+    return run.stepper.dynamics().contact_summary(0).force.norm();
   };
   const double even = force(uneven_block(0, false));
   EXPECT_NEAR(force(uneven_block(0.002 * kElement, true)), even, 0.015 * even);

@@ -125,7 +125,7 @@ struct Forces {
 TEST(ContactDrag, ForcesAreEqualAndOppositeWithoutNetMoment) {
   const Model model = build_model(stack(0.5, 1e3));
   Forces now(model);
-  const std::vector<Positions> forces = now.dynamics.contact().nodal_forces();
+  const std::vector<Positions> forces = nodal_contact_forces(model, now.dynamics.contact());
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   double sum = 0, sideways = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -215,7 +215,7 @@ TEST_P(Incline, BelowTheAngleOfFrictionTheBlockCreepsAndNoMore) {
   const double ratio = std::tan(angle) / kFriction;
   const double creep = kSlip * ratio / std::sqrt(1 - ratio * ratio);
   EXPECT_NEAR(speed(run), creep, 0.02 * creep);
-  const Vec3 force = run.stepper.dynamics().contacts()[0].force;  // on the block
+  const Vec3 force = run.stepper.dynamics().contact_summary(0).force;  // on the block
   const double weight = mass() * kGravity;
   EXPECT_NEAR(-force.x(), weight * std::sin(angle), 2e-3 * weight);
   EXPECT_NEAR(force.z(), weight * std::cos(angle), 2e-3 * weight);
@@ -230,7 +230,7 @@ TEST_P(Incline, AboveItTheBlockSlidesWithTheAccelerationThatFrictionLeaves) {
   run.advance(0.15);
   const double expected = kGravity * (std::sin(angle) - kFriction * std::cos(angle));
   EXPECT_NEAR((speed(run) - before) / 0.1, expected, 0.01 * expected);
-  const Vec3 force = run.stepper.dynamics().contacts()[0].force;
+  const Vec3 force = run.stepper.dynamics().contact_summary(0).force;
   EXPECT_NEAR(-force.x() / force.z(), kFriction, 1e-3 * kFriction);
   EXPECT_LE(run.state.counts.rejected_newton, 2);
 }
@@ -323,7 +323,7 @@ Bounce bounce(double damping) {
   Bounce result{0, std::numeric_limits<double>::infinity(), 0, 0};
   run.advance(8e-3, [&] {
     result.least_force =
-        std::min(result.least_force, run.stepper.dynamics().contacts()[0].force.z());
+        std::min(result.least_force, run.stepper.dynamics().contact_summary(0).force.z());
   });
   const double energy = 0.5 * mass() * v * v;
   result.restitution = run.now().velocities[0].linear.z() / v;

@@ -1,6 +1,9 @@
 // The response of averaged depths from its energy to its tangent, between two tissues whose meshes
 // don't match.
 #include "sim/contact_response.hpp"
+#include "sim/contact_stencils.hpp"
+#include "sim/contact_stiffness.hpp"
+#include "sim/contact_summary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +47,7 @@ struct SunkBlock {
   }
   double energy(const Eigen::VectorXd& state) {
     response.evaluate(at(state), search.candidates());
-    return response.summaries(configuration)[0].energy;
+    return contact_summaries(model, response, configuration)[0].energy;
   }
   Eigen::VectorXd forces(const Eigen::VectorXd& state) {
     response.evaluate(at(state), search.candidates());
@@ -73,7 +76,7 @@ TEST(AveragedContact, CarriesAtTheNodesOfOneSideOnly) {
   block.forces(block.y);
   ASSERT_EQ(block.search.candidates().size(), 1U);
   EXPECT_TRUE(block.search.candidates()[0].reversed);  // the second body's
-  const ContactSummary sum = block.response.summaries(block.configuration)[0];
+  const ContactSummary sum = contact_summaries(block.model, block.response, block.configuration)[0];
   EXPECT_NEAR(sum.area, kSide * kSide, 1e-12);
   EXPECT_GT(sum.max_depth, 0.03 * kSide);
 }
@@ -102,7 +105,9 @@ TEST(AveragedContact, TheTangentIsTheDerivativeOfTheForces) {
   block.response.evaluate(block.at(block.y), block.search.candidates());
   SystemScale scale;
   scale.stiffness = 1;
-  block.response.add_stiffness(block.configuration, fem::Tangent::Consistent, scale, K);
+  ContactStiffness stiffness(block.model);
+  for (const ContactDirection* direction : block.response.directions())
+    stiffness.add(*direction, block.configuration, fem::Tangent::Consistent, scale, K);
   for (int n = 0; n < 5; ++n) {
     const Eigen::VectorXd w = random.vector(3 * block.model.num_blocks);
     const Eigen::VectorXd numeric =
@@ -123,7 +128,8 @@ double left_out_at_a_rim(double depth) {
   const double numeric =
       (block.energy(block.moved(w, kMove)) - block.energy(block.moved(w, -kMove))) / (2 * kMove);
   const double along = -block.forces(block.y).dot(w);
-  const Vec3 normal_force = block.response.summaries(block.configuration)[0].force;
+  const Vec3 normal_force =
+      contact_summaries(block.model, block.response, block.configuration)[0].force;
   return std::abs(numeric - along) / normal_force.norm();
 }
 

@@ -60,7 +60,7 @@ TEST_P(DroppedBlock, ComesToRestLevelWhereItFell) {
   EXPECT_LT(std::hypot(center.x(), center.y()), 1e-6);
 
   const double weight = upper.lumped_mass.sum() * kGravity;
-  EXPECT_NEAR(run.stepper.dynamics().contacts()[0].force.norm(), weight, 1e-3 * weight);
+  EXPECT_NEAR(run.stepper.dynamics().contact_summary(0).force.norm(), weight, 1e-3 * weight);
   double deepest = 0;  // now, not at the impact
   for (const ContactSummary& contact : run.stepper.dynamics().contacts())
     deepest = std::max(deepest, contact.max_depth);
@@ -159,7 +159,7 @@ TEST(ContactAtRest, ALightBlockPressesAHeavyOneWithItsWeight) {
   Simulation run(s);
   run.advance(0.2);
   const double weight = kLight * 0.64 * kSide * kSide * kSide * kGravity;
-  EXPECT_NEAR(run.stepper.dynamics().contacts()[0].force.norm(), weight, 0.01 * weight);
+  EXPECT_NEAR(run.stepper.dynamics().contact_summary(0).force.norm(), weight, 0.01 * weight);
 }
 
 // Flush sides of cubes that stand on each other face each other across a whole side: nothing came

@@ -106,7 +106,7 @@ TEST(Dynamics, InternalContactAndLineForcesHaveNoNetForceOrMoment) {
   Forces scene(everything(0.05 * kSide), 0.3 * kSide);
   for (int n = 0; n < 20; ++n) {
     const Eigen::VectorXd f = scene.at(random_state(scene.model, 0.05, 0.1, random));
-    EXPECT_GT(scene.dynamics.contacts()[0].force.norm(), 1e-3);
+    EXPECT_GT(scene.dynamics.contact_summary(0).force.norm(), 1e-3);
     EXPECT_GT(scene.dynamics.lines()[0].tension, 0);
     EXPECT_GT(scene.dynamics.lines()[1].tension, 0);
     const Configuration& now = scene.dynamics.configuration();
@@ -251,7 +251,7 @@ TEST(Dynamics, InContactTheNewtonMatrixErrsInProportionToTheDepth) {
     Forces scene(scenario, 0.1 * kSide);
     const Eigen::VectorXd y = initial_state(scene.model);
     scene.at(y);
-    EXPECT_GT(scene.dynamics.contacts()[0].area, 0.9 * 0.49 * kSide * kSide);
+    EXPECT_GT(scene.dynamics.contact_summary(0).area, 0.9 * 0.49 * kSide * kSide);
     return matrix_error(scene, y, 1e-2 * depth / kSide, false);
   };
   const double whole = error(1e-3 * kSide), half = error(0.5e-3 * kSide);

@@ -1,0 +1,64 @@
+#include "sim/contact_direction.hpp"
+
+namespace articular::sim {
+
+ContactSides sides_of(const Model& model, int contact, bool reversed) {
+  const ContactModel& pair = model.contacts[static_cast<std::size_t>(contact)];
+  const Collider& a = *model.bodies[static_cast<std::size_t>(pair.a)].collider;
+  const Collider& b = *model.bodies[static_cast<std::size_t>(pair.b)].collider;
+  return reversed ? ContactSides{b, a, pair.b, pair.a} : ContactSides{a, b, pair.a, pair.b};
+}
+
+ContactSides sides_of(const Model& model, const ContactDirection& direction) {
+  return sides_of(model, direction.contact, direction.reversed);
+}
+
+std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider& faces,
+                                       int triangle, int face) {
+  std::array<const NodeRef*, 6> nodes{};
+  for (int i = 0; i < 3; ++i) {
+    nodes[static_cast<std::size_t>(i)] =
+        &triangles.nodes[static_cast<std::size_t>(triangles.surface.faces(i, triangle))];
+    nodes[static_cast<std::size_t>(3 + i)] =
+        &faces.nodes[static_cast<std::size_t>(faces.surface.faces(i, face))];
+  }
+  return nodes;
+}
+
+bool carries(const ContactDirection& direction, int triangle, const Eigen::Matrix3Xi& faces) {
+  return direction.pressure[faces(0, triangle)] > 0 || direction.pressure[faces(1, triangle)] > 0 ||
+         direction.pressure[faces(2, triangle)] > 0;
+}
+
+Mat3 corners_of(const Configuration& configuration, const Collider& collider, int face) {
+  Mat3 x;
+  for (int i = 0; i < 3; ++i)
+    x.col(i) = configuration.position(
+        collider.nodes[static_cast<std::size_t>(collider.surface.faces(i, face))]);
+  return x;
+}
+
+Vec3 nodal_pressures(const ContactDirection& direction, const ContactDirection::Patch& entry,
+                     const Eigen::Matrix3Xi& faces) {
+  Vec3 p;
+  for (int i = 0; i < 3; ++i) {
+    const int node = faces(i, entry.triangle);
+    p[i] = direction.pressure[node];
+    if (!(direction.point_stiffness > 0)) continue;
+    p[i] = direction.point_stiffness * entry.patch.depth[i];
+    if (!direction.drag.empty()) p[i] += direction.drag[static_cast<std::size_t>(node)].pressure;
+  }
+  return p;
+}
+
+Vec18 forces_on_nodes(const ContactDirection& direction, const ContactDirection::Patch& entry,
+                      const Eigen::Matrix3Xi& faces) {
+  Vec18 forces = -patch_gradient(entry.patch, nodal_pressures(direction, entry, faces));
+  if (direction.drag.empty()) return forces;
+  Mat3 t;
+  for (int i = 0; i < 3; ++i)
+    t.col(i) = direction.drag[static_cast<std::size_t>(faces(i, entry.triangle))].traction;
+  return forces + slip_gradient(entry.patch, t);
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/contact_direction.hpp"
+#include "sim/system_matrix.hpp"
+
+namespace articular::sim {
+
+/// The stiffness and the damping of contact.
+class ContactStiffness {
+ public:
+  explicit ContactStiffness(const Model& model);
+
+  /// A += contact stiffness of one direction: all of it, or (projected) the positive semidefinite
+  /// part Σ k_a W_a ∇g_a ∇g_aᵀ; and the damping. How friction grows with the pressure is left out:
+  /// it is not symmetric.
+  void add(const ContactDirection& direction, const Configuration& configuration,
+           fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A);
+
+ private:
+  void find_patches_of_nodes(const ContactDirection& direction);
+  template <class Gradient>
+  void add_rank_one(const ContactDirection& direction, int node, const Configuration& configuration,
+                    double factor, Gradient&& gradient, fem::BlockMatrix& A);
+  void add_node_stiffness(const ContactDirection& direction, const Configuration& configuration,
+                          fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A);
+
+  const Model& model_;
+  // Scratch: the patches around each node of the direction, and a gradient by blocks.
+  std::vector<int> patch_begin_, patch_of_node_;
+  Positions gradient_;
+  std::vector<int> blocks_;
+  std::vector<char> has_gradient_;
+};
+
+}  // namespace articular::sim
