@@ -52,17 +52,19 @@ void add_contact(int a, int b, const ContactPair& pair, Model& model) {
   ContactModel contact;
   contact.a = a;
   contact.b = b;
-  contact.averaged = model.scenario.analysis == Scenario::Analysis::Static;
-  const bool one_side = contact.averaged || model.scenario.detection.sides == Detection::Sides::One;
+  const bool is_static = model.scenario.analysis == Scenario::Analysis::Static;
+  const Scenario::Response response = model.scenario.contact_response;
+  contact.averaged = is_static || response == Scenario::Response::Averaged;
+  const bool one_side = contact.averaged || response == Scenario::Response::OneSided;
   contact.share = a == b || !one_side ? 0.5 : 1;
-  const double factor = contact.averaged ? kStaticFactor : kDynamicFactor;
+  const double factor = is_static ? kStaticFactor : kDynamicFactor;
   const double layers = A->layer_compliance + B->layer_compliance;
   contact.mean_stiffness =
       pair.stiffness.value_or(1 / ((A->mean_compliance + B->mean_compliance) / factor + layers));
   contact.max_penetration =
       pair.max_penetration.value_or(kMaxPenetration * std::min(A->size, B->size));
   // The depth of a layer is its own compression.
-  contact.is_bounded = layers == 0 && (contact.averaged || pair.max_penetration);
+  contact.is_bounded = layers == 0 && (is_static || pair.max_penetration);
   const auto at_nodes = [&](const Collider& side, const Collider& other, double c) {
     if (pair.stiffness || !contact.averaged)
       return Eigen::VectorXd::Constant(side.X.cols(), contact.share * contact.mean_stiffness)

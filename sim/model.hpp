@@ -117,7 +117,7 @@ struct ForceModel {
 
 struct ContactModel {
   int a = 0, b = 0;      // bodies; a == b: with itself
-  bool averaged = true;  // depths are averaged at the nodes of one side; else pointwise on both
+  bool averaged = true;  // depths are averaged at the nodes of one side; else pointwise
   // At the nodes of a side whose triangles look for faces, times `share` [Pa/m]; else empty.
   Eigen::VectorXd stiffness_a, stiffness_b;
   // What an iteration that comes from afar starts with, of the same sizes: softer.

@@ -8,7 +8,6 @@ Preset preset(Scenario::Accuracy accuracy) {
   switch (accuracy) {
     case Scenario::Accuracy::Fast:
       integrator.step = 2e-3;
-      preset.sides = Detection::Sides::One;
       preset.promise =
           "within 0.4 mm of a converged run where a jaw opens by 34 mm, at 0.7 of the time of "
           "balanced";

@@ -10,7 +10,6 @@ namespace articular::sim {
 /// the step and the tolerance.
 struct Preset {
   Integrator integrator;
-  Detection::Sides sides = Detection::Sides::Both;
   /// What came out in mandible/opening-study.toml: largest error of the incisors' path.
   std::string promise;
 };

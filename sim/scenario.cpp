@@ -46,10 +46,11 @@ Scenario read_scenario(const std::filesystem::path& file,
   const ChosenWords choices = apply_choices(root);
   for (const std::string& text : overrides)
     if (!sets_a_choice(text)) apply_override(root, text);
-  const TableReader document(root, "scenario",
-                             {"choice", "title", "duration", "analysis", "accuracy", "settling",
-                              "contact", "integrator", "detection", "output", "body", "attach",
-                              "muscle", "muscle_table", "ligament", "load", "probe"});
+  const TableReader document(
+      root, "scenario",
+      {"choice", "title", "duration", "analysis", "accuracy", "settling", "contact_response",
+       "contact", "integrator", "detection", "output", "body", "attach", "muscle", "muscle_table",
+       "ligament", "load", "probe"});
   Scenario scenario;
   scenario.choices = choices;
   scenario.file = file;

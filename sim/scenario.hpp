@@ -287,8 +287,6 @@ struct Integrator {
 };
 
 struct Detection {
-  /// Of a pair in a dynamic analysis, whose triangles look for the other's faces.
-  enum class Sides { Both, One } sides = Sides::Both;
   bool lagged = false;           // a dynamic analysis looks anew only when things have moved
   std::optional<double> margin;  // [m], least distance at which pairs are kept as candidates
   collision::NarrowTest narrow_test = collision::NarrowTest::SeparatingAxes;
@@ -318,7 +316,10 @@ struct Scenario {
   std::vector<Muscle> muscles;
   std::vector<Ligament> ligaments;
   std::vector<Load> loads;
-  bool contact = true;   // `contact = false`: nothing touches
+  bool contact = true;  // `contact = false`: nothing touches
+  /// Of a dynamic analysis: depths count point by point, of one side's triangles or of both sides',
+  /// or as averages at nodes, which is what a static one does.
+  enum class Response { OneSided, TwoSided, Averaged } contact_response = Response::OneSided;
   bool settling = true;  // bodies that overlap at the start are pushed apart first
   std::vector<ContactPair> contacts;
   std::vector<Probe> probes;

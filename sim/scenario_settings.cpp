@@ -48,15 +48,9 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
 }
 
 void read_detection(const Node& node, Scenario::Analysis analysis, Detection& detection) {
-  const TableReader table(node, "[detection]", {"sides", "lagged", "margin", "narrow_test"});
-  if (analysis == Scenario::Analysis::Static) {
-    table.refuse({"sides"}, "a static analysis looks from one side");
+  const TableReader table(node, "[detection]", {"lagged", "margin", "narrow_test"});
+  if (analysis == Scenario::Analysis::Static)
     table.refuse({"lagged"}, "a static analysis looks wherever its iteration has come to");
-  }
-  table.may("sides", detection.sides, [](const Node& n) {
-    return read_choice<Detection::Sides>(
-        n, {{"both", Detection::Sides::Both}, {"one", Detection::Sides::One}});
-  });
   table.may("lagged", detection.lagged, read_boolean);
   table.may("margin", detection.margin, as_quantity(kLength, kPositive));
   table.may("narrow_test", detection.narrow_test, [](const Node& n) {
@@ -96,6 +90,15 @@ nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
   return pairs;
 }
 
+/// What other programs leave to trial and we choose: how many of it the scenario sets all the same.
+int contact_parameters_set(const Scenario& scenario) {
+  int count = scenario.detection.margin ? 1 : 0;
+  for (const ContactPair& pair : scenario.contacts)
+    count +=
+        (pair.stiffness ? 1 : 0) + (pair.max_penetration ? 1 : 0) + (pair.slip_velocity ? 1 : 0);
+  return count;
+}
+
 }  // namespace
 
 void read_settings(const TableReader& document, Scenario& scenario) {
@@ -112,9 +115,15 @@ void read_settings(const TableReader& document, Scenario& scenario) {
         n, {{"dynamic", Scenario::Analysis::Dynamic}, {"static", Scenario::Analysis::Static}});
   });
   document.may("settling", scenario.settling, read_boolean);
+  if (scenario.analysis == Scenario::Analysis::Static)
+    document.refuse({"contact_response"}, "a static analysis averages depths");
+  document.may("contact_response", scenario.contact_response, [](const Node& n) {
+    return read_choice<Scenario::Response>(n, {{"one-sided", Scenario::Response::OneSided},
+                                               {"two-sided", Scenario::Response::TwoSided},
+                                               {"averaged", Scenario::Response::Averaged}});
+  });
   const Preset chosen = preset(scenario.accuracy);
   scenario.integrator = chosen.integrator;
-  scenario.detection.sides = chosen.sides;
   if (const Node* node = document.find("integrator"))
     read_integrator(*node, scenario.analysis, scenario.integrator);
   if (const Node* node = document.find("detection"))
@@ -126,6 +135,7 @@ std::string settings_as_json(const Scenario& scenario) {
   const Integrator& integrator = scenario.integrator;
   const Output& output = scenario.output;
   constexpr const char* kAccuracies[] = {"fast", "balanced", "accurate"};
+  constexpr const char* kResponses[] = {"one-sided", "two-sided", "averaged"};
   nlohmann::ordered_json json;
   json["title"] = scenario.title;
   for (const auto& [name, word] : scenario.choices) json["choice"][name] = word;
@@ -134,6 +144,10 @@ std::string settings_as_json(const Scenario& scenario) {
   json["analysis"] = scenario.analysis == Scenario::Analysis::Static ? "static" : "dynamic";
   json["settling"] = scenario.settling;
   json["contact"] = contact_as_json(scenario);
+  json["contact_response"] = scenario.analysis == Scenario::Analysis::Static
+                                 ? "averaged"
+                                 : kResponses[static_cast<int>(scenario.contact_response)];
+  json["contact_parameters_set"] = contact_parameters_set(scenario);
   json["integrator"] = {{"scheme", kSchemes[static_cast<int>(integrator.scheme)].first},
                         {"step_s", integrator.step},
                         {"solver", kSolvers[static_cast<int>(integrator.solver)]},
@@ -144,7 +158,6 @@ std::string settings_as_json(const Scenario& scenario) {
   else
     json["integrator"]["position_tolerance_of_element"] = integrator.element_tolerance;
   json["detection"] = {
-      {"sides", scenario.detection.sides == Detection::Sides::One ? "one" : "both"},
       {"lagged", scenario.detection.lagged},
       {"margin_m", nullptr},  // chosen by the elements
       {"narrow_test",

@@ -151,7 +151,7 @@ std::string promise(const sim::Scenario& scenario) {
   if (scenario.analysis == sim::Scenario::Analysis::Static)
     return "in a static analysis `accuracy` sets the load step and the tolerance alone";
   return sim::preset(scenario.accuracy).promise +
-         " (scenarios/mandible/README.md), as far as [integrator] and [detection] leave it";
+         " (scenarios/mandible/README.md), as far as [integrator] and contact_response leave it";
 }
 
 Json explain(const sim::Model& model) {
@@ -232,6 +232,10 @@ void print(const Json& json) {
   if (const Json& solver = json["linear_solver"]; !solver.is_null())
     fmt::print("Linear solver: {} ({})\n", solver["name"].get<std::string>(),
                solver["reason"].get<std::string>());
+  fmt::print(
+      "Contact parameters set by the scenario (stiffness, max_penetration, slip_velocity, margin): "
+      "{}\n",
+      json["settings"]["contact_parameters_set"].get<int>());
   fmt::print("Accuracy: {}\n", json["promise"].get<std::string>());
   fmt::print("Settings: {}\n", json["settings"].dump());
   for (const Json& warning : json["warnings"])

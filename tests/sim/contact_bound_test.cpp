@@ -34,7 +34,7 @@ struct Press {
 Press press(const Scenario& scenario) {
   Simulation run(scenario);
   run.advance(0.1);
-  const ContactSummary contact = run.stepper.dynamics().contacts()[0];
+  const ContactSummary contact = run.stepper.dynamics().contact_summary(0);
   return {contact.force.norm(), contact.max_depth};
 }
 
@@ -60,9 +60,9 @@ TEST(MaxPenetration, IsAHundredthOfAnElementInStatics) {
 }
 
 /// A block dropped on a table from half its height.
-Scenario dropped(std::optional<double> max_penetration, Detection::Sides sides) {
+Scenario dropped(std::optional<double> max_penetration, Scenario::Response response) {
   Scenario s = contact_scene(2e-3);
-  s.detection.sides = sides;
+  s.contact_response = response;
   s.bodies = {box_body("table", Body::Kind::Fixed, {0.3, 0.3, 0.1}, {0, 0, -0.05}, {3, 3, 1}),
               box_body("block", Body::Kind::Tissue, Vec3::Constant(kSide), {0, 0, kSide / 2 + 0.01},
                        {4, 4, 4})};
@@ -80,29 +80,33 @@ Scenario dropped(std::optional<double> max_penetration, Detection::Sides sides) 
 TEST(MaxPenetration, APenaltyInTimeGetsStifferUntilItHolds) {
   constexpr double kBound = 20e-6;
   double deepest = 0;
-  Simulation free(dropped({}, Detection::Sides::Both));
-  free.advance(
-      0.3, [&] { deepest = std::max(deepest, free.stepper.dynamics().contacts()[0].max_depth); });
+  Simulation free(dropped({}, Scenario::Response::TwoSided));
+  free.advance(0.3, [&] {
+    deepest = std::max(deepest, free.stepper.dynamics().contact_summary(0).max_depth);
+  });
   EXPECT_GT(deepest, 2 * kBound);
   EXPECT_EQ(free.state.counts.stiffened, 0);
   deepest = 0;
-  Simulation run(dropped(kBound, Detection::Sides::Both));
-  run.advance(0.3,
-              [&] { deepest = std::max(deepest, run.stepper.dynamics().contacts()[0].max_depth); });
+  Simulation run(dropped(kBound, Scenario::Response::TwoSided));
+  run.advance(0.3, [&] {
+    deepest = std::max(deepest, run.stepper.dynamics().contact_summary(0).max_depth);
+  });
   EXPECT_LE(deepest, kBound);
   EXPECT_GT(run.state.counts.stiffened, 1);
   EXPECT_GT(run.state.stiffening[0], 2);
   EXPECT_GT(run.loss(), 0);  // of implicit Euler: nothing is made out of nothing
 }
 
-// At rest: the weight, whichever side looks.
-TEST(ContactFromOneSide, CarriesTheWeight) {
+// At rest: the weight, whichever side looks, and however.
+TEST(ContactResponses, CarryTheWeight) {
   const double weight = 1000 * kSide * kSide * kSide * 9.81;
-  for (const auto sides : {Detection::Sides::One, Detection::Sides::Both}) {
-    Simulation run(dropped({}, sides));
-    EXPECT_EQ(run.model.contacts[0].stiffness_a.size() > 0, sides == Detection::Sides::Both);
+  for (const auto response :
+       {Scenario::Response::OneSided, Scenario::Response::TwoSided, Scenario::Response::Averaged}) {
+    Simulation run(dropped({}, response));
+    EXPECT_EQ(run.model.contacts[0].stiffness_a.size() > 0,
+              response == Scenario::Response::TwoSided);
     run.advance(1.5);
-    const ContactSummary contact = run.stepper.dynamics().contacts()[0];
+    const ContactSummary contact = run.stepper.dynamics().contact_summary(0);
     EXPECT_NEAR(contact.force.norm(), weight, 1e-3 * weight);
     EXPECT_NEAR(contact.area, kSide * kSide, 0.02 * kSide * kSide);
     EXPECT_LT(contact.moment.norm(), 1e-3 * weight * kSide);

@@ -74,12 +74,13 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"UnknownKeyInAnEntry", tissue("@densitty = \"1 g/cm^3\"\n"),
                 "body `extra`: unknown key `densitty`; did you mean `density`?"},
         Mistake{"UnknownKeyFarFromAny", "duration = \"1 s\"\n[detection]\n@colour = 1\n" + kBodies,
-                "[detection]: unknown key `colour`; expected one of `sides`, "
+                "[detection]: unknown key `colour`; expected one of "
                 "`lagged`, `margin`, `narrow_test`"},
         Mistake{
-            "SidesOfStatics",
-            "analysis = \"static\"\nduration = \"1 s\"\n[detection]\n@sides = \"one\"\n" + kBodies,
-            "[detection]: `sides` does not belong here: a static analysis looks from one side"},
+            "ResponseOfStatics",
+            "analysis = \"static\"\nduration = \"1 s\"\n@contact_response = \"two-sided\"\n" +
+                kBodies,
+            "scenario: `contact_response` does not belong here: a static analysis averages depths"},
         Mistake{
             "LaggedStatics",
             "analysis = \"static\"\nduration = \"1 s\"\n[detection]\n@lagged = true\n" + kBodies,

@@ -21,6 +21,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 const std::string kComplete = R"(title = "Jaw opening"
 duration = "0.6 s"
 accuracy = "balanced"
+contact_response = "two-sided"
 
 [integrator]
 scheme = "tr-bdf2"
@@ -31,7 +32,6 @@ max_iterations = 9
 min_step = "0.2 us"
 
 [detection]
-sides = "one"
 margin = "0.3 mm"
 narrow_test = "gjk"
 
@@ -235,7 +235,7 @@ TEST_F(CompleteScenario, HasItsSettings) {
   EXPECT_EQ(scenario_.integrator.position_tolerance, 3e-7);
   EXPECT_EQ(scenario_.integrator.max_iterations, 9);
   EXPECT_EQ(scenario_.integrator.min_step, 2e-7);
-  EXPECT_EQ(scenario_.detection.sides, Detection::Sides::One);
+  EXPECT_EQ(scenario_.contact_response, Scenario::Response::TwoSided);
   EXPECT_EQ(scenario_.detection.margin, 0.3e-3);
   EXPECT_EQ(scenario_.detection.narrow_test, collision::NarrowTest::Gjk);
   EXPECT_EQ(scenario_.output.interval, 20e-3);
@@ -472,7 +472,8 @@ TEST_F(CompleteScenario, RecordsItsSettingsAsJson) {
   EXPECT_EQ(json["integrator"]["position_tolerance_m"], 3e-7);
   EXPECT_EQ(json["settling"], true);
   EXPECT_EQ(json["contact"][0]["max_penetration_m"], 2e-6);
-  EXPECT_EQ(json["detection"]["sides"], "one");
+  EXPECT_EQ(json["contact_response"], "two-sided");
+  EXPECT_EQ(json["contact_parameters_set"], 4);
   EXPECT_EQ(json["detection"]["narrow_test"], "gjk");
   EXPECT_EQ(json["output"]["contact_surfaces"], true);
   EXPECT_EQ(json["output"]["checkpoint_interval_s"], 0.1);
@@ -537,16 +538,28 @@ TEST_F(Documentation, ItsExampleIsAScenario) {
   EXPECT_EQ(read(example).bodies.size(), 4U);  // with the one that is driven
 }
 
+// Nothing about contact is left to trial: no scenario that we ship sets what we choose.
+TEST(ShippedScenarios, LeaveContactAsItIs) {
+  setenv("ARTICULAR_DATA", "/nowhere", /*overwrite=*/0);  // where a subject's surfaces would be
+  int count = 0;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(ARTICULAR_SOURCE_DIR "/scenarios")) {
+    const std::string name = entry.path().filename().string();
+    if (!name.ends_with(".toml") || name.ends_with("-study.toml")) continue;
+    const auto settings = nlohmann::json::parse(read_scenario(entry.path()).settings_json);
+    EXPECT_EQ(settings["contact_parameters_set"], 0) << entry.path();
+    ++count;
+  }
+  EXPECT_GT(count, 12);
+}
+
 using Presets = ScenarioTest;
 
-TEST_F(Presets, SetSchemeStepToleranceAndSides) {
-  const Scenario fast = read("accuracy = \"fast\"\n" + kStart);
-  EXPECT_EQ(fast.integrator.step, 2e-3);
-  EXPECT_EQ(fast.detection.sides, Detection::Sides::One);
+TEST_F(Presets, SetSchemeStepAndTolerance) {
+  EXPECT_EQ(read("accuracy = \"fast\"\n" + kStart).integrator.step, 2e-3);
   const Scenario balanced = read("accuracy = \"balanced\"\n" + kStart);
   EXPECT_EQ(balanced.integrator.step, 1e-3);
   EXPECT_EQ(balanced.integrator.scheme, Integrator::Scheme::ImplicitEuler);
-  EXPECT_EQ(balanced.detection.sides, Detection::Sides::Both);
   const Integrator accurate = read("accuracy = \"accurate\"\n" + kStart).integrator;
   EXPECT_EQ(accurate.step, 1e-3);
   EXPECT_EQ(accurate.scheme, Integrator::Scheme::TrBdf2);
