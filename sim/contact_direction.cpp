@@ -51,9 +51,16 @@ Vec3 nodal_pressures(const ContactDirection& direction, const ContactDirection::
   return p;
 }
 
+double potential(const ContactDirection& direction, const ContactDirection::Patch& entry,
+                 const Eigen::Matrix3Xi& faces) {
+  if (direction.point_stiffness > 0) return patch_energy(entry.patch, direction.point_stiffness);
+  return nodal_pressures(direction, entry, faces).dot(depth_integrals(entry.patch));
+}
+
 Vec18 forces_on_nodes(const ContactDirection& direction, const ContactDirection::Patch& entry,
                       const Eigen::Matrix3Xi& faces) {
-  Vec18 forces = -patch_gradient(entry.patch, nodal_pressures(direction, entry, faces));
+  Vec18 forces = -patch_gradient(entry.patch, nodal_pressures(direction, entry, faces),
+                                 potential(direction, entry, faces));
   if (direction.drag.empty()) return forces;
   Mat3 t;
   for (int i = 0; i < 3; ++i)

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "sim/configuration.hpp"
 #include "sim/contact_friction.hpp"
 #include "sim/contact_patch.hpp"
-#include "sim/configuration.hpp"
 
 /// One direction of a contact pair: the patches of a side's triangles opposite the other side's
 /// faces, and what they sum to at the nodes of those triangles.
@@ -61,6 +61,11 @@ Mat3 corners_of(const Configuration& configuration, const Collider& collider, in
 /// @param faces  of the triangles' side
 Vec3 nodal_pressures(const ContactDirection& direction, const ContactDirection::Patch& entry,
                      const Eigen::Matrix3Xi& faces);
+
+/// What the patch's part of the energy changes by as it turns towards its face or away, δw/w of it
+/// [J]: pointwise all of it, averaged Σ p_a G_a.
+double potential(const ContactDirection& direction, const ContactDirection::Patch& entry,
+                 const Eigen::Matrix3Xi& faces);
 
 /// Forces on a patch's six nodes [N].
 Vec18 forces_on_nodes(const ContactDirection& direction, const ContactDirection::Patch& entry,

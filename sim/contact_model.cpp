@@ -15,8 +15,17 @@ namespace {
 /// Contact stiffness of a side is this times constrained modulus / element height. Statics ends at
 /// a thousand, where forces no longer depend on it, and begins softer: from afar a stiff iteration
 /// is thrown back and forth. In time, where Newton's iteration ends by how far things still move, a
-/// stiffer contact would turn that into noise of its forces.
-constexpr double kStaticFactor = 1000, kSoftFactor = 10, kDynamicFactor = 10;
+/// stiffer contact would turn that into noise of its forces; averaged depths, with the tolerance of
+/// the accurate preset, can be stiffer.
+constexpr double kStaticFactor = 1000, kSoftFactor = 10, kDynamicFactor = 10, kAccurateFactor = 100;
+
+double stiffness_factor(const Scenario& scenario) {
+  if (scenario.analysis == Scenario::Analysis::Static) return kStaticFactor;
+  const bool stiff = scenario.contact_response == Scenario::Response::Averaged &&
+                     scenario.accuracy == Scenario::Accuracy::Accurate;
+  return stiff ? kAccurateFactor : kDynamicFactor;
+}
+
 /// Of the elements at the surface: what friction at 0.7 of its limit creeps in the whole scene.
 constexpr double kCreep = 0.05;
 
@@ -57,7 +66,7 @@ void add_contact(int a, int b, const ContactPair& pair, Model& model) {
   contact.averaged = is_static || response == Scenario::Response::Averaged;
   const bool one_side = contact.averaged || response == Scenario::Response::OneSided;
   contact.share = a == b || !one_side ? 0.5 : 1;
-  const double factor = is_static ? kStaticFactor : kDynamicFactor;
+  const double factor = stiffness_factor(model.scenario);
   const double layers = A->layer_compliance + B->layer_compliance;
   contact.mean_stiffness =
       pair.stiffness.value_or(1 / ((A->mean_compliance + B->mean_compliance) / factor + layers));

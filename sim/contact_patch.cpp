@@ -94,15 +94,16 @@ Mat3 edge_integral(const PatchEdge& edge, const Vec3& p) {
 }
 
 struct Facing {
-  double weight, slope;
+  double weight, slope, bend;
 };
 
 /// Smoothstep from kFacingNone to kFacingFull.
 Facing facing_weight(double opposing) {
-  const double t = (opposing - kFacingNone) / (kFacingFull - kFacingNone);
-  if (t <= 0) return {0, 0};
-  if (t >= 1) return {1, 0};
-  return {t * t * (3 - 2 * t), 6 * t * (1 - t) / (kFacingFull - kFacingNone)};
+  constexpr double kRange = kFacingFull - kFacingNone;
+  const double t = (opposing - kFacingNone) / kRange;
+  if (t <= 0) return {0, 0, 0};
+  if (t >= 1) return {1, 0, 0};
+  return {t * t * (3 - 2 * t), 6 * t * (1 - t) / kRange, 6 * (1 - 2 * t) / (kRange * kRange)};
 }
 
 }  // namespace
@@ -168,6 +169,7 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
   patch.normal = n;
   patch.cosine = cosine;
   patch.turning = -facing.slope / facing.weight;
+  patch.bending = facing.bend / facing.weight;
   // In-plane gradients of the barycentric coordinates.
   const Vec3 s1 = s.x.col(1) - s.x.col(0), s2 = s.x.col(2) - s.x.col(0);
   const Vec3 g1 = s2.cross(n) / s.twice_area, g2 = n.cross(s1) / s.twice_area;
@@ -187,10 +189,14 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
 // δ(n_F·n) = −Σ (n_F·∇N_i) n·δx_i − Σ (n·∇β_m) n_F·δf_m.
 
 Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p) {
+  return patch_gradient(patch, p, p.dot(depth_integrals(patch)));
+}
+
+Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p, double potential) {
   const Vec3 q = patch.Q * p;
   const double tilting = q.dot(patch.height);
   const Vec3 reaction = patch.beta * q;
-  const double turning = patch.turning * q.dot(patch.depth) * patch.cosine;
+  const double turning = patch.turning * potential * patch.cosine;
   Vec18 g;
   for (int i = 0; i < 3; ++i) {
     g.segment<3>(3 * i) = q[i] * patch.c + (tilting - turning) * patch.e[i] * patch.normal;
@@ -249,8 +255,9 @@ PatchStiffness patch_stiffness(const ContactPatch& patch, double k) {
   return stiffness;
 }
 
-void add_curvature(const ContactPatch& patch, const Vec3& p, PatchStiffness& stiffness) {
-  Mat18x9 &left = stiffness.left, &right = stiffness.right;
+void add_curvature(const ContactPatch& patch, const Vec3& p, double potential,
+                   PatchStiffness& stiffness) {
+  Mat18x10 &left = stiffness.left, &right = stiffness.right;
   const Vec3 q = patch.Q * p;
   const double tilting = q.dot(patch.height);
   // Beside δd = c·u: the turning of the normal, −c·δn, and the sweep of the edges.
@@ -274,6 +281,16 @@ void add_curvature(const ContactPatch& patch, const Vec3& p, PatchStiffness& sti
           (0.5 * patch.g.col(i).dot(patch.g.col(j)) * patch.normal - patch.e[i] * patch.g.col(j));
     right.block<3, 1>(3 * j, 6 + j) = patch.normal;
   }
+  if (patch.turning == 0) return;
+  // δw/w (w ∫ p δd dA) + ½ Φ w''/w δ(n_F·n)², beside δ(n_F·n)
+  Vec18 cosine;
+  for (int i = 0; i < 3; ++i) {
+    cosine.segment<3>(3 * i) = -(patch.cosine * patch.e[i]) * patch.normal;
+    cosine.segment<3>(9 + 3 * i) = -(patch.cosine * patch.face_e[i]) * patch.c;
+  }
+  left.col(9) =
+      patch.turning * patch_gradient(patch, p, 0) + 0.5 * patch.bending * potential * cosine;
+  right.col(9) = cosine;
 }
 
 }  // namespace articular::sim

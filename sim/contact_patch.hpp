@@ -27,7 +27,7 @@
 namespace articular::sim {
 
 using Vec18 = Eigen::Matrix<double, 18, 1>;
-using Mat18x9 = Eigen::Matrix<double, 18, 9>;
+using Mat18x10 = Eigen::Matrix<double, 18, 10>;
 
 /// An edge of the polygon on β_m = 0: ∫ f dl / |∇β_m| along it is `length` times the mean of f.
 struct PatchEdge {
@@ -48,6 +48,7 @@ struct ContactPatch {
   Vec3 normal = Vec3::Zero();  // n, unit
   double cosine = 0;           // n_F·n
   double turning = 0;          // w'/w, by the cosine
+  double bending = 0;          // w''/w
   Vec3 face_e = Vec3::Zero();  // n·∇β_m on the face [1/m]
   Mat3 g = Mat3::Zero();       // ∇N_i, one a column [1/m]
   Mat3 face_g = Mat3::Zero();  // ∇β_m for motion that keeps the depth, one a column [1/m]
@@ -85,10 +86,17 @@ inline Vec3 depth_integrals(const ContactPatch& patch) { return patch.Q * patch.
 
 /// ∂/∂(x0 x1 x2 f0 f1 f2) of Σ p_a G_a for numbers p that stay as they are.
 Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p);
+/// w ∫ p δd dA + Φ δw/w: with p = k d and Φ = E it is the gradient of E = ½ k w ∫ d² dA.
+/// @param p  at the nodes of the triangle, linear between them
+Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p, double potential);
+/// ½ k w ∫ d² dA
+inline double patch_energy(const ContactPatch& patch, double k) {
+  return 0.5 * k * patch.depth.dot(depth_integrals(patch));
+}
 
 /// A stiffness of the six nodes by its factors: left·rightᵀ + right·leftᵀ.
 struct PatchStiffness {
-  Mat18x9 left = Mat18x9::Zero(), right = Mat18x9::Zero();
+  Mat18x10 left = Mat18x10::Zero(), right = Mat18x10::Zero();
 };
 
 /// k w ∫ ∇d ∇dᵀ dA, ∇d by the six nodes: positive semidefinite.
@@ -96,9 +104,11 @@ PatchStiffness patch_stiffness(const ContactPatch& patch, double k);
 
 /// Adds the second derivative of Σ p_a G_a for numbers p that stay as they are: of the depth, and
 /// of what the face's edges sweep as they move over the triangle, made symmetric: summed over the
-/// two faces at an edge that is exact. Indefinite. Left out: the turning of w, and the gradient's
-/// missing part at a rim.
+/// two faces at an edge that is exact; and of w as the triangle turns. Indefinite. Left out: the
+/// curvature of n_F·n, and the gradient's missing part at a rim.
+/// @param potential   what turns with w, see patch_gradient()
 /// @param stiffness  made by patch_stiffness()
-void add_curvature(const ContactPatch& patch, const Vec3& p, PatchStiffness& stiffness);
+void add_curvature(const ContactPatch& patch, const Vec3& p, double potential,
+                   PatchStiffness& stiffness);
 
 }  // namespace articular::sim

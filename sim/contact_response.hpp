@@ -10,7 +10,8 @@
 /// The penalty response on contact candidates: patches of a side's triangles opposite the other
 /// side's faces (contact_patch.hpp) make an energy of their depths.
 ///
-/// In statics depths are averaged at the nodes a of one side,
+/// Averaged (in statics, or where the scenario asks for it) depths count at the nodes a of one
+/// side,
 ///
 ///   g_a = G_a / A_a,   E = ½ Σ k_a A_a <g_a>²,   p_a = k_a <g_a>,
 ///
@@ -22,8 +23,9 @@
 /// Where a g_a exceeds the contact's max_penetration all the same, multipliers λ_a take over what
 /// the penalty carried, p_a = <λ_a + k_a g_a> (augment(): Uzawa's method).
 ///
-/// In time depths count pointwise, E = ½ k ∫ <d>² dA, from either side with half of k; where a
-/// mean depth at a node exceeds a bound that the scenario sets, k is raised (set_stiffening()).
+/// Else they count point by point, E = ½ k ∫ <d>² dA, on one side's triangles or on both sides'
+/// with half of k. In time, where a mean depth at a node exceeds a bound that the scenario sets, k
+/// is raised (set_stiffening()).
 ///
 /// [Puso 2004] Puso, Laursen. A mortar segment-to-segment contact method for large deformation
 /// solid mechanics. Comput Methods Appl Mech Eng 193:601.
@@ -32,6 +34,8 @@ namespace articular::sim {
 class ContactResponse {
  public:
   explicit ContactResponse(const Model& model);
+  ContactResponse(const ContactResponse&) = delete;
+  ContactResponse& operator=(const ContactResponse&) = delete;
   /// From the next evaluate() on, with the soft stiffness of the ContactModel.
   void set_soft(bool soft) { soft_ = soft; }
   /// From the next evaluate() on, k of each contact is that of the model times these; empty: 1.

@@ -21,7 +21,7 @@ void ContactStiffness::add(const ContactDirection& direction, const Configuratio
     PatchStiffness stiffness = patch_stiffness(entry.patch, k);
     if (tangent == fem::Tangent::Consistent)
       add_curvature(entry.patch, scale.stiffness * nodal_pressures(direction, entry, triangles),
-                    stiffness);
+                    scale.stiffness * potential(direction, entry, triangles), stiffness);
     add_product(model_, configuration,
                 nodes_of(side.triangles, side.faces, entry.triangle, entry.face), stiffness.left,
                 stiffness.right, A);

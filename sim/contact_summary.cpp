@@ -63,8 +63,7 @@ void add_to_summary(const Model& model, const ContactDirection& direction,
       }
     }
     sum.max_point_depth = std::max(sum.max_point_depth, entry.patch.depth_max);
-    sum.energy +=
-        0.5 * direction.point_stiffness * entry.patch.depth.dot(depth_integrals(entry.patch));
+    sum.energy += patch_energy(entry.patch, direction.point_stiffness);
     const Vec3 q = entry.patch.Q * nodal_pressures(direction, entry, triangles);
     sum.normal_force += q.sum();
     sum.center += x * q;

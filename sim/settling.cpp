@@ -97,7 +97,8 @@ class Settler {
       if (relax(1 - target, moving)) {
         done = target;
       } else if (++halvings > kMostHalvings) {
-        fail(1 - done);
+        fail(fmt::format("could not push them apart by more than {:.3g} mm",
+                         1e3 * done * deepest().before));
       } else {
         step *= 0.5;
       }
@@ -180,6 +181,7 @@ class Settler {
       overlap.after = depth[static_cast<std::size_t>(overlap.contact)];
     Configuration before;
     read_state(model_, start.data(), 0, before);
+    refuse_turned_elements(before);
     for (const BodyModel& body : model_.bodies)
       if (body.collider)
         for (const NodeRef& node : body.collider->nodes)
@@ -188,15 +190,33 @@ class Settler {
                        (dynamics_.configuration().position(node) - before.position(node)).norm());
   }
 
-  [[noreturn]] void fail(double left) const {
-    const auto worst = std::max_element(
+  /// A surface that has been turned inside out touches nothing: it only looks as if it were apart.
+  void refuse_turned_elements(const Configuration& before) const {
+    for (const Tissue& tissue : model_.tissues) {
+      Eigen::Index element = 0;
+      const auto least = [&](const Configuration& configuration) {
+        Positions x;
+        positions_of(configuration, tissue.nodes, x);
+        return tissue.elements.volume_ratio(x).minCoeff(&element);
+      };
+      if (least(before) > 0 && !(least(dynamics_.configuration()) > 0))
+        fail(fmt::format("would turn tetrahedron {} of `{}` inside out", element,
+                         model_.bodies[static_cast<std::size_t>(tissue.body)].name));
+    }
+  }
+
+  const SettledOverlap& deepest() const {
+    return *std::max_element(
         settling_.overlaps.begin(), settling_.overlaps.end(),
         [](const SettledOverlap& p, const SettledOverlap& q) { return p.before < q.before; });
+  }
+
+  [[noreturn]] void fail(const std::string& how) const {
     throw SimulationError(fmt::format(
-        "{} overlap at the start by {:.3g} mm, and settling could not push them apart by more than "
-        "{:.3g} mm: move one of them, or start as they are with settling = false",
-        names(model_, model_.contacts[static_cast<std::size_t>(worst->contact)]),
-        1e3 * worst->before, 1e3 * (1 - left) * worst->before));
+        "{} overlap at the start by {:.3g} mm, and settling {}: move one of them, or start as they "
+        "are with settling = false",
+        names(model_, model_.contacts[static_cast<std::size_t>(deepest().contact)]),
+        1e3 * deepest().before, how));
   }
 
   const Model& model_;

@@ -323,7 +323,7 @@ void Stepper::account(State& after) {
 }
 
 /// What moves has had its energy at the start, from gravity or from what drives it. Where it is
-/// twice that, the contact or the scheme has made it, and what follows means nothing.
+/// twice that, or as much was made by then, be it gone again, what follows means nothing.
 void Stepper::stop_where_energy_is_made(const State& state) const {
   constexpr double kMost = 2;                // the ledger's sums are trapezoids
   constexpr double kFarFromTolerance = 1e4;  // a hundred times its velocity
@@ -332,12 +332,22 @@ void Stepper::stop_where_energy_is_made(const State& state) const {
   const double given = ledger.start - dynamics_->gravity_energy() + std::abs(ledger.muscle_work) +
                        std::abs(ledger.load_work) + std::abs(ledger.motion_work);
   const double floor = kFarFromTolerance * energy_of_tolerance(model_);
-  if (kinetic <= kMost * std::max(given, 0.0) + floor) return;
+  const double source = std::max(given, 0.0);
+  std::string what;
+  if (kinetic > kMost * source + floor)
+    what = fmt::format(
+        "bodies move with {:.2g} J and were given {:.2g} J, the rest was made out of "
+        "nothing",
+        kinetic, given);
+  else if (state.worst.made > source + floor)
+    what = fmt::format("{:.2g} J were made out of nothing, bodies were given {:.2g} J",
+                       state.worst.made, given);
+  else
+    return;
   throw SimulationError(
-      fmt::format("the simulation cannot go on at t = {:.6g} s: bodies move with {:.2g} J and were "
-                  "given {:.2g} J, the rest was made out of nothing{}{}; results are valid until "
+      fmt::format("the simulation cannot go on at t = {:.6g} s: {}{}{}; results are valid until "
                   "shortly before",
-                  state.t, kinetic, given, deepest_contact(model_, dynamics_->contacts()),
+                  state.t, what, deepest_contact(model_, dynamics_->contacts()),
                   likely_cause(model_, start_, dynamics_->configuration())));
 }
 

@@ -60,7 +60,7 @@ struct Gathered {
   }
 };
 
-using GatheredFactor = Eigen::Matrix<double, 3 * Gathered::kMost, 9>;
+using GatheredFactor = Eigen::Matrix<double, 3 * Gathered::kMost, 10>;
 
 /// A bone's node moves by δp − [r]× δθ, and so its force turns the bone by [r]× f.
 GatheredFactor gathered_factor(const Configuration& configuration,

@@ -29,7 +29,7 @@ struct Stencils {
 void add_stiffness(const Model& model, const Configuration& configuration, const NodeRef& i,
                    const NodeRef& j, const Mat3& stiffness, fem::BlockMatrix& A);
 
-using SixNodeFactor = Eigen::Matrix<double, 18, 9>;
+using SixNodeFactor = Eigen::Matrix<double, 18, 10>;
 
 /// A += left·rightᵀ + right·leftᵀ, a stiffness of six nodes, carried over to bones.
 void add_product(const Model& model, const Configuration& configuration,

@@ -113,5 +113,32 @@ TEST(ContactResponses, CarryTheWeight) {
   }
 }
 
+/// Force of a ball that is pressed into the block and stays there.
+double force_of_a_ball(Scenario::Analysis analysis, Scenario::Accuracy accuracy) {
+  Scenario s = pressed({}, {});
+  s.analysis = analysis;
+  s.accuracy = accuracy;
+  s.contact_response = Scenario::Response::Averaged;
+  if (analysis == Scenario::Analysis::Dynamic) s.integrator.step = 10e-3;
+  s.bodies[1].material->mass_damping = 20;
+  s.bodies[2].box.reset();
+  s.bodies[2].sphere = SphereGeometry{0.1, 0.02, {0, 0, kSide + 0.1}};
+  Simulation run(s);
+  run.advance(0.1);
+  if (analysis == Scenario::Analysis::Dynamic) run.advance(1.5);
+  return run.stepper.dynamics().contact_summary(0).force.norm();
+}
+
+// In time it comes to rest where statics puts it, but for the softness of its penalty, which goes
+// by 1/c: here, with less than an element over the contact's radius, an eighth at c = 10.
+TEST(ContactResponses, AveragedInTimeRestWhereStaticsDoes) {
+  using Accuracy = Scenario::Accuracy;
+  const double still = force_of_a_ball(Scenario::Analysis::Static, Accuracy::Balanced);
+  const double soft = force_of_a_ball(Scenario::Analysis::Dynamic, Accuracy::Balanced);
+  const double stiff = force_of_a_ball(Scenario::Analysis::Dynamic, Accuracy::Accurate);
+  EXPECT_NEAR(soft, still, 0.15 * still);
+  EXPECT_NEAR((soft - still) / (stiff - still), 10, 1);
+}
+
 }  // namespace
 }  // namespace articular::sim

@@ -79,10 +79,13 @@ Mat18 product(const PatchStiffness& stiffness) {
   return half + half.transpose();
 }
 Mat18 patch_hessian(const ContactPatch& patch) { return product(patch_stiffness(patch, 1)); }
-Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p) {
+Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p, double potential) {
   PatchStiffness stiffness = patch_stiffness(patch, 0);
-  add_curvature(patch, p, stiffness);
+  add_curvature(patch, p, potential, stiffness);
   return product(stiffness);
+}
+Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p) {
+  return patch_curvature(patch, p, p.dot(depth_integrals(patch)));
 }
 
 /// ∇G_a, one a column.
@@ -319,7 +322,7 @@ double point_energy(const Pair& pair) {
   if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kBehind<kPercent>,
                      patch))
     return 0;
-  return 0.5 * kStiffness * patch.depth.dot(depth_integrals(patch));
+  return patch_energy(patch, kStiffness);
 }
 
 template <int kPercent>
@@ -328,7 +331,7 @@ Vec18 point_gradient(const Pair& pair) {
   if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kBehind<kPercent>,
                      patch))
     return Vec18::Zero();
-  return patch_gradient(patch, kStiffness * patch.depth);
+  return patch_gradient(patch, kStiffness * patch.depth, patch_energy(patch, kStiffness));
 }
 
 template <int kPercent>
@@ -374,6 +377,59 @@ TEST(ContactPatch, PointwiseGradientAndTangentAreDerivativesToWhereTheTriangleCo
 
 TEST(ContactPatch, WithAnAllowanceTheyAreDerivativesToWhereItsDepthIsReached) {
   expect_derivatives_to_where_the_triangle_comes_out<30>();
+}
+
+double cosine_of(const Pair& pair) {
+  return flat_triangle(pair.s).normal.dot(flat_triangle(pair.f).normal);
+}
+
+Mat18 cosine_curvature(const Pair& pair, double h) {
+  Mat18 curvature;
+  for (int i = 0; i < 18; ++i)
+    for (int j = 0; j < 18; ++j) {
+      Pair plus = pair, minus = pair;
+      entry(plus, j) += h;
+      entry(minus, j) -= h;
+      curvature(i, j) =
+          (difference(cosine_of, plus, i, h) - difference(cosine_of, minus, i, h)) / (2 * h);
+    }
+  return curvature;
+}
+
+// Between 60 and 37 degrees the weight of a patch changes as it turns. The gradient has all of
+// that; of the tangent the curvature of the cosine is left out.
+TEST(ContactPatch, PointwiseGradientAndTangentHaveTheTurningOfTheWeight) {
+  Random random(6);
+  int turning = 0;
+  for (int n = 0; n < 200; ++n) {
+    Pair pair = covered_pair(random);
+    pair.s = rotation_matrix({0.8, 0.1, 0}) * pair.s;
+    pair.s.row(2).array() -= 1;
+    ContactPatch patch;
+    if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kBehind<0>, patch))
+      continue;
+    if (patch.turning == 0 || patch.area < 0.1 || (patch.depth.array() < 0.01).any()) continue;
+    ++turning;
+    const double energy = patch_energy(patch, kStiffness);
+    const Vec18 g = point_gradient<0>(pair);
+    const Mat18 H = kStiffness * patch_hessian(patch) +
+                    patch_curvature(patch, kStiffness * patch.depth, energy) +
+                    patch.turning * energy * cosine_curvature(pair, 1e-4);
+    double gradient_best = std::numeric_limits<double>::infinity(), tangent_best = gradient_best;
+    for (const double h : {1e-4, 1e-5, 1e-6}) {
+      Vec18 numeric;
+      Mat18 numeric_tangent;
+      for (int i = 0; i < 18; ++i) {
+        numeric[i] = difference(point_energy<0>, pair, i, h);
+        numeric_tangent.col(i) = difference(point_gradient<0>, pair, i, h);
+      }
+      gradient_best = std::min(gradient_best, (numeric - g).norm() / g.norm());
+      tangent_best = std::min(tangent_best, (numeric_tangent - H).norm() / H.norm());
+    }
+    EXPECT_LT(gradient_best, 1e-7);
+    EXPECT_LT(tangent_best, 1e-6);
+  }
+  EXPECT_GT(turning, 50);
 }
 
 TEST(ContactPatch, AParallelTriangleHasTheWholeAreaAndTheUniformDepth) {

@@ -102,6 +102,13 @@ TEST(RunWarnings, EnergyThatWasMadeInBetweenIsTold) {
   EXPECT_TRUE(has(all_warnings(run), "made out of nothing, 2 % of")) << all_warnings(run);
 }
 
+TEST(RunWarnings, MoreEnergyMadeThanGivenEndsTheRun) {
+  Simulation run(column(1e-4, Integrator::Scheme::Dirk3));
+  run.advance(0.01);
+  note_balance(-1e3 * turned_over(run.state), run.state);
+  EXPECT_THROW(run.advance(0.02), SimulationError);
+}
+
 TEST(RunWarnings, EnergyMadeBetweenFramesIsNoted) {
   const TemporaryFolder folder;
   Scenario s = press(0.05, false);
