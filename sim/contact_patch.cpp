@@ -281,7 +281,7 @@ void add_curvature(const ContactPatch& patch, const Vec3& p, double potential,
           (0.5 * patch.g.col(i).dot(patch.g.col(j)) * patch.normal - patch.e[i] * patch.g.col(j));
     right.block<3, 1>(3 * j, 6 + j) = patch.normal;
   }
-  if (patch.turning == 0) return;
+  if (patch.turning == 0 || potential == 0) return;
   // δw/w (w ∫ p δd dA) + ½ Φ w''/w δ(n_F·n)², beside δ(n_F·n)
   Vec18 cosine;
   for (int i = 0; i < 3; ++i) {

@@ -106,7 +106,7 @@ PatchStiffness patch_stiffness(const ContactPatch& patch, double k);
 /// of what the face's edges sweep as they move over the triangle, made symmetric: summed over the
 /// two faces at an edge that is exact; and of w as the triangle turns. Indefinite. Left out: the
 /// curvature of n_F·n, and the gradient's missing part at a rim.
-/// @param potential   what turns with w, see patch_gradient()
+/// @param potential   what turns with w, see patch_gradient(); 0: without the turning of w
 /// @param stiffness  made by patch_stiffness()
 void add_curvature(const ContactPatch& patch, const Vec3& p, double potential,
                    PatchStiffness& stiffness);
