@@ -57,7 +57,10 @@ std::vector<Extreme> heaps() {
     for (const int n : {2, 5, 10})
       rows.push_back({.name = "bodies in one heap",
                       .range = fmt::format("{} {}", n * n * n, rigid ? "rigid" : "of tissue"),
-                      .expected = n == 2 ? Outcome::Right : Outcome::Degraded,
+                      // Of sharp edges that slip off each other: tests/benchmarks/README.md.
+                      .expected = n == 2             ? Outcome::Right
+                                  : rigid && n == 10 ? Outcome::Refused
+                                                     : Outcome::Degraded,
                       .quick = n == 2,
                       .study = [=](const Bench& bench) {
                         return study(bench, n, rigid, n == 10 ? 1200 : 300);
