@@ -89,8 +89,10 @@ std::vector<Extreme> squeezes() {
           is_static && stretch < -0.5 ? Outcome::Degraded : Outcome::Right, tied);
     for (const double stretch : {0.5, 0.2, 0.1, 0.05})
       add("compression between plates", stretch, is_static,
-          // Beyond the point where free sides buckle.
-          stretch == (is_static ? 0.05 : 0.1) ? Outcome::Degraded : Outcome::Right, between_plates);
+          is_static ? (stretch < 0.09 ? Outcome::Refused : Outcome::Right)
+                    // Its free sides have buckled.
+                    : (stretch == 0.1 ? Outcome::Degraded : Outcome::Right),
+          between_plates);
   }
   return rows;
 }
