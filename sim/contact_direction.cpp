@@ -51,16 +51,12 @@ Vec3 nodal_pressures(const ContactDirection& direction, const ContactDirection::
   return p;
 }
 
-double potential(const ContactDirection& direction, const ContactDirection::Patch& entry,
-                 const Eigen::Matrix3Xi& faces) {
-  if (direction.point_stiffness > 0) return patch_energy(entry.patch, direction.point_stiffness);
-  return nodal_pressures(direction, entry, faces).dot(depth_integrals(entry.patch));
-}
-
 Vec18 forces_on_nodes(const ContactDirection& direction, const ContactDirection::Patch& entry,
                       const Eigen::Matrix3Xi& faces) {
-  Vec18 forces = -patch_gradient(entry.patch, nodal_pressures(direction, entry, faces),
-                                 potential(direction, entry, faces));
+  const Vec3 p = nodal_pressures(direction, entry, faces);
+  const double k = direction.point_stiffness;
+  const Vec18 forces = k > 0 ? -patch_gradient(entry.patch, p, patch_energy(entry.patch, k))
+                             : -patch_gradient(entry.patch, p);
   if (direction.drag.empty()) return forces;
   Mat3 t;
   for (int i = 0; i < 3; ++i)

@@ -62,11 +62,6 @@ Mat3 corners_of(const Configuration& configuration, const Collider& collider, in
 Vec3 nodal_pressures(const ContactDirection& direction, const ContactDirection::Patch& entry,
                      const Eigen::Matrix3Xi& faces);
 
-/// What the patch's part of the energy changes by as it turns towards its face or away, δw/w of it
-/// [J]: pointwise all of it, averaged Σ p_a G_a.
-double potential(const ContactDirection& direction, const ContactDirection::Patch& entry,
-                 const Eigen::Matrix3Xi& faces);
-
 /// Forces on a patch's six nodes [N].
 Vec18 forces_on_nodes(const ContactDirection& direction, const ContactDirection::Patch& entry,
                       const Eigen::Matrix3Xi& faces);
