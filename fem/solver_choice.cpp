@@ -19,18 +19,19 @@ constexpr int kStartFrom = 5;  // solutions
 
 // With contact the pattern changes again and again, and multigrid is set up anew each time. A
 // factorization then costs less up to so many blocks; beyond, so do conjugate gradients, whose
-// iterations grow with the way of waves in a step. Where no mass softens the system, contact may
-// take multigrid a hundred iterations (the knee at 1000 N), and a factorization never does.
-constexpr int kMostFactoredInContact = 2'500, kMostFactoredInStaticContact = 6'000;
+// iterations grow with the way of waves in a step. Where steps are so long that mass says little,
+// or there is none, contact may take multigrid a hundred iterations (the knee at 1000 N), and a
+// factorization never does.
+constexpr int kMostFactoredInContact = 2'500, kMostFactoredAtRest = 6'000;
 constexpr double kShortWay = 40;
 
 SolverChoice choose_with_contact(const SolverProblem& problem) {
-  const int most = problem.in_time ? kMostFactoredInContact : kMostFactoredInStaticContact;
-  if (problem.num_blocks <= most) {
+  const bool short_steps = problem.in_time && problem.elements_a_step < kShortWay;
+  if (problem.num_blocks <= (short_steps ? kMostFactoredInContact : kMostFactoredAtRest)) {
     return {problem.has_pressure ? SolverKind::SaddlePoint : SolverKind::Cholesky, 0,
             "contact changes the matrix, and so few unknowns are soon factored"};
   }
-  if (problem.in_time && problem.elements_a_step < kShortWay) {
+  if (short_steps) {
     return {SolverKind::ConjugateGradients, 0,
             "contact changes the matrix, and steps are short: nothing needs to be set up"};
   }

@@ -91,9 +91,9 @@ int ImplicitRungeKutta::weights(N_Vector, N_Vector w, void* data) {
   return 0;
 }
 
-/// ARKODE's own test, but for corrections that were shortened: they are small however far the
-/// solution is, and steps accepted after one don't keep the momentum. And what touches must be in
-/// balance: its residual falls as the corrections do.
+/// ARKODE's own test, but for corrections that were shortened or accelerated: they may be small
+/// however far the solution is, and steps accepted after one don't keep the momentum. And what
+/// touches must be in balance: its residual falls as the corrections do.
 int ImplicitRungeKutta::is_converged(SUNNonlinearSolver solver, N_Vector, N_Vector correction,
                                      realtype tolerance, N_Vector weights, void* data) {
   constexpr double kLeastRateFall = 0.3;
@@ -105,7 +105,7 @@ int ImplicitRungeKutta::is_converged(SUNNonlinearSolver solver, N_Vector, N_Vect
   self.convergence_rate_ =
       iteration == 0 ? 1 : std::max(kLeastRateFall * self.convergence_rate_, size / last);
   const double rate = std::min(1.0, self.convergence_rate_);
-  if (!self.newton_.shortened() && rate * size <= tolerance && rate * self.newton_.imbalance() <= 1)
+  if (!self.newton_.changed() && rate * size <= tolerance && rate * self.newton_.imbalance() <= 1)
     return SUN_NLS_SUCCESS;
   return iteration > 0 && size > kDivergenceRatio * last ? SUN_NLS_CONV_RECVR : SUN_NLS_CONTINUE;
 }
@@ -114,7 +114,8 @@ int ImplicitRungeKutta::is_converged(SUNNonlinearSolver solver, N_Vector, N_Vect
 /// velocity of this one's start and the acceleration of that one: bodies in contact then start
 /// pressed together about as they will be, and few contacts open or close in the iteration.
 int ImplicitRungeKutta::predict_stage(realtype t, N_Vector z, void* data) {
-  const auto& self = *static_cast<const ImplicitRungeKutta*>(data);
+  auto& self = *static_cast<ImplicitRungeKutta*>(data);
+  self.newton_.begin_iteration();
   const Layout& layout = self.model_.layout;
   double* y = N_VGetArrayPointer(z);
   const double h = t - self.t_start_;

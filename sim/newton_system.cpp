@@ -51,7 +51,13 @@ void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
   iteration_ = 0;
   first_ = tangent;
   used_consistent_ = false;
+  may_accelerate_ = false;
   if (!keep_matrix) gamma_ = 0;
+}
+
+void NewtonSystem::begin_iteration() {
+  may_accelerate_ = true;
+  anderson_.restart();
 }
 
 bool NewtonSystem::needs_matrix(double gamma) const {
@@ -78,8 +84,9 @@ bool NewtonSystem::solve_linear(SolverCounts& counts) {
   const fem::SolveReport report = solver_->solve(mass_rhs_, w_);
   ++counts.linear_solves;
   counts.linear_iterations += report.iterations;
-  used_consistent_ |= tangent_ == fem::Tangent::Consistent;
-  return report.converged && w_.allFinite();
+  const bool solved = report.converged && w_.allFinite();
+  used_consistent_ |= solved && tangent_ == fem::Tangent::Consistent;
+  return solved;
 }
 
 bool NewtonSystem::find_correction(double gamma, SolverCounts& counts) {
@@ -88,11 +95,13 @@ bool NewtonSystem::find_correction(double gamma, SolverCounts& counts) {
   if (ready && solve_linear(counts)) return true;
   // Not positive definite: Cholesky says so at once, conjugate gradients when they meet it.
   if (tangent_ == fem::Tangent::Projected) return false;
+  // Where the iteration is slow besides, the other one is not asked again in this step.
+  if (may_accelerate_ && anderson_.is_slow()) first_ = fem::Tangent::Projected;
   ready = prepare(gamma, fem::Tangent::Projected, counts);
   return ready && solve_linear(counts);
 }
 
-double NewtonSystem::step_fraction(double gamma) const {
+double NewtonSystem::largest_motion(double gamma) const {
   double largest = 0;  // displacement of a node or bone [m]
   for (int block = 0; block < model_.layout.num_free_nodes; ++block)
     largest = std::max(largest, w_.segment<3>(3 * block).squaredNorm());
@@ -102,8 +111,23 @@ double NewtonSystem::step_fraction(double gamma) const {
     largest = std::max({largest, w_.segment<3>(3 * bone.block).squaredNorm(),
                         radius * radius * w_.segment<3>(3 * bone.block + 3).squaredNorm()});
   }
-  const double motion = gamma * std::sqrt(largest);
+  return gamma * std::sqrt(largest);
+}
+
+double NewtonSystem::step_fraction(double gamma) const {
+  const double motion = largest_motion(gamma);
   return motion > dynamics_.trusted_motion() ? dynamics_.trusted_motion() / motion : 1;
+}
+
+bool NewtonSystem::accelerate(double gamma) {
+  constexpr double kEnd =
+      0.1;  // of the tolerance: the iteration ends, with Newton's own correction
+  dynamics_.multiply_mass(w_, mass_rhs_);
+  anderson_.see(w_, mass_rhs_);
+  if (!anderson_.is_slow()) return false;
+  if (imbalance_ <= 1 && largest_motion(gamma) <= kEnd * model_.position_tolerance) return false;
+  anderson_.improve(w_);
+  return true;
 }
 
 bool NewtonSystem::solve(const double* y, double gamma, const double* b, double* x,
@@ -162,7 +186,9 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     auto own = w_.segment<6>(3 * bone.block);
     own = (free_part(bone, own) + given - free_part(bone, given)).eval();
   }
+  const bool accelerated = may_accelerate_ && accelerate(gamma);
   const double scale = step_fraction(gamma);
+  if (may_accelerate_) anderson_.took(scale, w_);
 
   Eigen::Map<Eigen::VectorXd>(x, 3 * layout.num_free_nodes) =
       gamma * w_.head(3 * layout.num_free_nodes);
@@ -184,8 +210,8 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     x_q[3] = dq.z() + growth * q.z();
   }
   dynamics_.correct_lags(b, gamma, w_, x);
-  shortened_ = scale < 1;
-  if (shortened_) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;
+  changed_ = accelerated || scale < 1;
+  if (scale < 1) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;
   return true;
 }
 

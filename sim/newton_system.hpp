@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/anderson.hpp"
 #include "sim/dynamics.hpp"
 #include "sim/linear_solver.hpp"
 #include "sim/state.hpp"
@@ -24,6 +25,9 @@ class NewtonSystem {
   /// A new step begins; with `keep_matrix` the last one's matrix may serve its first iteration.
   /// @param tangent  Projected: does without the consistent one
   void begin_step(bool keep_matrix, fem::Tangent tangent);
+  /// An iteration begins, of a step or one of its stages, that may be accelerated (anderson.hpp)
+  /// where it is slow.
+  void begin_iteration();
 
   /// Solves (I − γ ∂rate/∂y) x = b, reduced to block velocities.
   /// @return false when the matrix can't be made positive definite or the solver fails
@@ -32,8 +36,8 @@ class NewtonSystem {
 
   /// This step did without a consistent matrix: with the projected one it would go the same way.
   bool used_projected_only() const { return !used_consistent_; }
-  /// The last correction is only a part of Newton's: however small, it says nothing of convergence.
-  bool shortened() const { return shortened_; }
+  /// The last correction is not Newton's own: however small, it says nothing of convergence.
+  bool changed() const { return changed_; }
   /// contact_imbalance() of the state that the last solve() corrected.
   double imbalance() const { return imbalance_; }
   double solve_seconds() const { return solve_seconds_; }
@@ -42,6 +46,10 @@ class NewtonSystem {
   bool needs_matrix(double gamma) const;
   /// Part of the correction w that stays within Dynamics::trusted_motion().
   double step_fraction(double gamma) const;
+  /// Makes w better where the iteration is slow. @return whether it did
+  bool accelerate(double gamma);
+  /// How far w moves a node or bone at most [m].
+  double largest_motion(double gamma) const;
   [[nodiscard]] bool prepare(double gamma, fem::Tangent tangent, SolverCounts& counts);
   [[nodiscard]] bool solve_linear(SolverCounts& counts);
   /// w, with the consistent matrix if it is positive definite, else with the projected one.
@@ -57,9 +65,11 @@ class NewtonSystem {
   fem::Tangent first_ = fem::Tangent::Consistent;    // to try in this step
   bool used_consistent_ = false;                     // in this step
   int iteration_ = 0;                                // in this step
-  bool shortened_ = false;                           // the last correction
-  double imbalance_ = 0;                             // see imbalance()
-  double residual_ = 0, last_residual_ = 0;          // of this iteration and the one before
+  bool changed_ = false;                             // the last correction, see changed()
+  bool may_accelerate_ = false;                      // in this step
+  Anderson anderson_;
+  double imbalance_ = 0;                     // see imbalance()
+  double residual_ = 0, last_residual_ = 0;  // of this iteration and the one before
   double solve_seconds_ = 0;
 };
 

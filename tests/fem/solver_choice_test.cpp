@@ -39,7 +39,12 @@ TEST(SolverChoice, ContactAsksForLittleSetUp) {
   problem.elements_a_step = 10;
   problem.in_time = false;
   EXPECT_EQ(choose_solver(problem).kind, SolverKind::Multigrid);
-  problem.num_blocks = problem.num_nodes = 5'000;  // without mass contact may be hard to iterate on
+  // Contact may be hard to iterate on where mass does not help.
+  problem.num_blocks = problem.num_nodes = 5'000;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::SaddlePoint);
+  problem.in_time = true;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::ConjugateGradients);
+  problem.elements_a_step = 100;
   EXPECT_EQ(choose_solver(problem).kind, SolverKind::SaddlePoint);
 }
 

@@ -63,7 +63,7 @@ std::vector<Extreme> heaps() {
                                                      : Outcome::Degraded,
                       .quick = n == 2,
                       .study = [=](const Bench& bench) {
-                        return study(bench, n, rigid, n == 10 ? 1200 : 300);
+                        return study(bench, n, rigid, n == 10 ? 3600 : 300);
                       }});
   return rows;
 }
