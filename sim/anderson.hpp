@@ -15,7 +15,10 @@ namespace articular::sim {
 class Anderson {
  public:
   /// Another iteration begins.
-  void restart() { num_seen_ = 0; }
+  void restart() {
+    num_seen_ = 0;
+    is_slow_ = false;
+  }
   /// @param w  Newton's correction of the present iterate
   /// @param weighted  M w; sizes are wᵀ M w, M positive definite
   void see(const Eigen::VectorXd& w, const Eigen::VectorXd& weighted);

@@ -96,7 +96,7 @@ bool NewtonSystem::find_correction(double gamma, SolverCounts& counts) {
   // Not positive definite: Cholesky says so at once, conjugate gradients when they meet it.
   if (tangent_ == fem::Tangent::Projected) return false;
   // Where the iteration is slow besides, the other one is not asked again in this step.
-  if (may_accelerate_ && anderson_.is_slow()) first_ = fem::Tangent::Projected;
+  if (anderson_.is_slow()) first_ = fem::Tangent::Projected;
   ready = prepare(gamma, fem::Tangent::Projected, counts);
   return ready && solve_linear(counts);
 }
@@ -120,8 +120,13 @@ double NewtonSystem::step_fraction(double gamma) const {
 }
 
 bool NewtonSystem::accelerate(double gamma) {
-  constexpr double kEnd =
-      0.1;  // of the tolerance: the iteration ends, with Newton's own correction
+  constexpr double kEnd = 0.1;  // of the tolerance: Newton's own correction ends the iteration
+  // Tissue alone is left to Newton's method: a block that was inside out was accelerated into an
+  // equilibrium that is none to stay in.
+  if (!dynamics_.touches()) {
+    anderson_.restart();
+    return false;
+  }
   dynamics_.multiply_mass(w_, mass_rhs_);
   anderson_.see(w_, mass_rhs_);
   if (!anderson_.is_slow()) return false;
