@@ -75,6 +75,7 @@ class Run {
                       summary_json(model_, state_, stepper_, stepper_.times(), wall, how));
     };
     stepper_.set_watch(options_.after_iteration);
+    stepper_.set_stop(options_.is_to_stop);
     try {
       begin();
       while (state_.t < duration) {

@@ -68,6 +68,10 @@ void Stepper::set_watch(IterationWatch watch) {
   if (equilibrium_) equilibrium_->set_watch(std::move(watch));
 }
 
+void Stepper::set_stop(std::function<bool()> is_to_stop) {
+  if (integrator_) integrator_->set_stop(std::move(is_to_stop));
+}
+
 void Stepper::restart(const State& state) {
   dynamics_->forget();
   dynamics_->set_stiffening(state.stiffening);

@@ -44,6 +44,8 @@ class Stepper {
   /// Of a static analysis: told of each iteration, see Equilibrium. step() then throws Interruption
   /// where it asks to stop: the state is as before, but for counts; go on with restart().
   void set_watch(IterationWatch watch);
+  /// Of an analysis in time: asked at each evaluation of the rate; likewise.
+  void set_stop(std::function<bool()> is_to_stop);
 
   /// A restart point: drops everything that a run resumed from `state` would not have.
   void restart(const State& state);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include "sim/dynamics.hpp"
+#include "sim/error.hpp"
 #include "sim/state.hpp"
 
 namespace articular::sim {
@@ -25,9 +27,21 @@ class TimeIntegrator {
   /// The step that it would take next [s]; nothing if steps are fixed.
   virtual std::optional<double> next_step() const { return std::nullopt; }
 
+  /// Asked at each evaluation of the rate: where the answer is true, advance() throws Interruption.
+  void set_stop(std::function<bool()> is_to_stop) { is_to_stop_ = std::move(is_to_stop); }
+
   virtual const SolverCounts& counts() const = 0;
   /// Wall time of factorizations and solutions.
   virtual double solve_seconds() const = 0;
+
+ protected:
+  /// @throws Interruption
+  void stop_if_asked() const {
+    if (is_to_stop_ && is_to_stop_()) throw Interruption();
+  }
+
+ private:
+  std::function<bool()> is_to_stop_;
 };
 
 /// The scheme that the scenario asks for: implicit Runge–Kutta at fixed step and explicit ones by

@@ -53,6 +53,7 @@ int run_scenario(const RunArguments& arguments) {
         scenario.output.directory.value_or(std::filesystem::path("out") / scenario.name);
   options.resume = arguments.resume;
   Progress progress(arguments.quiet);
+  options.is_to_stop = [] { return interrupted.load(); };
   options.after_step = [&](const sim::State& state, double duration) {
     progress.update(state, duration);
     return interrupted.load();

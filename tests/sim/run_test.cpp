@@ -338,6 +338,33 @@ TEST_F(RunTest, ALoadStepIsInterruptedAfterAnyOfItsIterations) {
   }
 }
 
+// In the middle of a step of time, which may take long too: likewise.
+TEST_F(RunTest, AStepIsInterruptedAtAnyOfItsEvaluations) {
+  for (const std::string scheme : {"implicit-euler", "tr-bdf2", "bdf", "explicit"}) {
+    const std::vector<std::string> overrides = {"duration='0.2 s'",
+                                                "integrator.scheme='" + scheme + "'"};
+    run_all("whole " + scheme, false, overrides);
+    const std::string whole = content(out("whole " + scheme) / "history.csv");
+    for (const int evaluation : {1, 20, 71}) {
+      const std::string name = scheme + std::to_string(evaluation);
+      RunOptions options;
+      options.directory = out(name);
+      int asked = 0;
+      options.is_to_stop = [&] { return ++asked == evaluation; };
+      EXPECT_EQ(run(model(overrides), options), RunOutcome::Interrupted);
+      EXPECT_EQ(asked, evaluation);
+      const std::string history = content(out(name) / "history.csv");
+      EXPECT_EQ(whole.substr(0, history.size()), history);
+      const auto summary = nlohmann::json::parse(content(out(name) / "summary.json"));
+      EXPECT_EQ(summary["outcome"], "interrupted");
+      EXPECT_NEAR(std::stod(split(split(history, '\n').back(), ',')[0]),
+                  summary["simulated_time_s"].get<double>(), 1e-9);
+      run_all(name, true, overrides);
+      EXPECT_EQ(content(out(name) / "history.csv"), whole);
+    }
+  }
+}
+
 // Settling takes long too; what an earlier run has left in the folder doesn't outlive it.
 TEST_F(RunTest, SettlingIsInterruptedAndResumingStartsAfresh) {
   const std::vector<std::string> overlap = {"body.table.geometry.box.center=0 0 -1.1 mm",
