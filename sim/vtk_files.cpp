@@ -77,7 +77,6 @@ std::string to_xml(vtkPointSet& set) {
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToZLib();
-  writer->SetCompressionLevel(1);  // a tenth larger than the default's files, in 4/5 of the time
   writer->SetWriteToOutputString(true);
   writer->Write();
   return writer->GetOutputString();
