@@ -17,7 +17,7 @@ constexpr double kDependent = 1e-10;
 
 void Anderson::see(const Eigen::VectorXd& w, const Eigen::VectorXd& weighted) {
   const double size = w.dot(weighted);
-  const auto turn = [this](int iteration) { return static_cast<std::size_t>(iteration % kBack); };
+  const auto turn = [](int iteration) { return static_cast<std::size_t>(iteration % kBack); };
   if (num_seen_ > 0 && size > kLost * sizes_[turn(num_seen_ - 1)]) num_seen_ = 0;
   is_slow_ = num_seen_ >= kBack && size > kSlow * sizes_[turn(num_seen_)];
   sizes_[turn(num_seen_)] = size;
