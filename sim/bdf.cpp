@@ -58,10 +58,7 @@ class Bdf final : public TimeIntegrator {
 
 int Bdf::rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
   auto& self = *static_cast<Bdf*>(data);
-  return guarded(self.error_, [&] {
-    self.stop_if_asked();
-    return sundials::evaluate_rate(self.dynamics_, self.counts_, t, y, y_dot);
-  });
+  return sundials::evaluate_rate(self, self.dynamics_, self.counts_, self.error_, t, y, y_dot);
 }
 
 int Bdf::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {

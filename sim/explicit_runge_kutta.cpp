@@ -44,10 +44,7 @@ class ExplicitRungeKutta final : public TimeIntegrator {
 
 int ExplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
   auto& self = *static_cast<ExplicitRungeKutta*>(data);
-  return sundials::guarded(self.error_, [&] {
-    self.stop_if_asked();
-    return sundials::evaluate_rate(self.dynamics_, self.counts_, t, y, y_dot);
-  });
+  return sundials::evaluate_rate(self, self.dynamics_, self.counts_, self.error_, t, y, y_dot);
 }
 
 /// Velocities against what moves the tolerance in the longest step: what steps are shorter for is

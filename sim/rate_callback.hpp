@@ -2,17 +2,22 @@
 
 #include "sim/newton_system.hpp"
 #include "sim/sundials.hpp"
+#include "sim/time_integrator.hpp"
 
 /// What the schemes' C callbacks have in common.
 namespace articular::sim::sundials {
 
-/// y_dot = rate(t, y). @return 0, or 1 where a force is not finite
-inline int evaluate_rate(Dynamics& dynamics, SolverCounts& counts, double t, N_Vector y,
-                         N_Vector y_dot) {
-  ++counts.force_evaluations;
-  dynamics.evaluate(N_VGetArrayPointer(y), t);
-  dynamics.rate(N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
-  return dynamics.forces().allFinite() ? 0 : 1;
+/// y_dot = rate(t, y), unless the integrator is asked to stop. @return 0, or 1 where a force is not
+/// finite
+inline int evaluate_rate(const TimeIntegrator& integrator, Dynamics& dynamics, SolverCounts& counts,
+                         std::exception_ptr& error, double t, N_Vector y, N_Vector y_dot) {
+  return guarded(error, [&] {
+    integrator.stop_if_asked();
+    ++counts.force_evaluations;
+    dynamics.evaluate(N_VGetArrayPointer(y), t);
+    dynamics.rate(N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
+    return dynamics.forces().allFinite() ? 0 : 1;
+  });
 }
 
 /// x: Newton's correction at the state y, where the rate was evaluated last (the residual comes

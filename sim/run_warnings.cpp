@@ -61,8 +61,7 @@ void warn_of_push(const Model& model, const State& state, std::vector<std::strin
     warnings.push_back(fmt::format(
         "contact from two sides may push `{}` and `{}` along each other by some 10^-4 of the force "
         "between them: what nothing else holds drifts; contact_response = \"one-sided\" or "
-        "friction "
-        "keeps it",
+        "friction keeps it",
         name_of(model, contact.a), name_of(model, contact.b)));
     return;
   }

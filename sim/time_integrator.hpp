@@ -29,16 +29,14 @@ class TimeIntegrator {
 
   /// Asked at each evaluation of the rate: where the answer is true, advance() throws Interruption.
   void set_stop(std::function<bool()> is_to_stop) { is_to_stop_ = std::move(is_to_stop); }
-
-  virtual const SolverCounts& counts() const = 0;
-  /// Wall time of factorizations and solutions.
-  virtual double solve_seconds() const = 0;
-
- protected:
   /// @throws Interruption
   void stop_if_asked() const {
     if (is_to_stop_ && is_to_stop_()) throw Interruption();
   }
+
+  virtual const SolverCounts& counts() const = 0;
+  /// Wall time of factorizations and solutions.
+  virtual double solve_seconds() const = 0;
 
  private:
   std::function<bool()> is_to_stop_;
