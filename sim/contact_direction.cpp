@@ -51,12 +51,41 @@ Vec3 nodal_pressures(const ContactDirection& direction, const ContactDirection::
   return p;
 }
 
+Vec3 turning_depths(const ContactDirection& direction, const ContactDirection::Patch& entry,
+                    const Eigen::Matrix3Xi& faces) {
+  if (entry.patch.turning == 0) return Vec3::Zero();
+  Vec3 depths = depth_integrals(entry.patch);
+  const Vec3 measures = entry.measure_slope.cwiseProduct(nodal_areas(entry.patch));
+  for (int i = 0; i < 3; ++i) depths[i] -= direction.depth[faces(i, entry.triangle)] * measures[i];
+  return depths;
+}
+
+double turning_energy(const ContactDirection& direction, const ContactDirection::Patch& entry,
+                      const Eigen::Matrix3Xi& faces) {
+  if (entry.patch.turning == 0) return 0;
+  if (direction.point_stiffness > 0) return patch_energy(entry.patch, direction.point_stiffness);
+  const Vec3 depths = turning_depths(direction, entry, faces);
+  const Vec3 measures = entry.measure_slope.cwiseProduct(nodal_areas(entry.patch));
+  double energy = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int node = faces(i, entry.triangle);
+    const double p = direction.penalty(node);
+    energy += p * depths[i] + p * p / (2 * direction.stiffness(node)) * measures[i];
+  }
+  return energy;
+}
+
 Vec18 forces_on_nodes(const ContactDirection& direction, const ContactDirection::Patch& entry,
                       const Eigen::Matrix3Xi& faces) {
-  const Vec3 p = nodal_pressures(direction, entry, faces);
-  const double k = direction.point_stiffness;
-  const Vec18 forces = k > 0 ? -patch_gradient(entry.patch, p, patch_energy(entry.patch, k))
-                             : -patch_gradient(entry.patch, p);
+  double turning = turning_energy(direction, entry, faces);
+  if (!direction.drag.empty()) {
+    const Vec3 depths = turning_depths(direction, entry, faces);
+    for (int i = 0; i < 3; ++i)
+      turning +=
+          direction.drag[static_cast<std::size_t>(faces(i, entry.triangle))].pressure * depths[i];
+  }
+  const Vec18 forces =
+      -patch_gradient(entry.patch, nodal_pressures(direction, entry, faces), turning);
   if (direction.drag.empty()) return forces;
   Mat3 t;
   for (int i = 0; i < 3; ++i)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -16,6 +17,7 @@ struct ContactDirection {
   struct Patch {
     ContactPatch patch;
     int triangle = 0, face = 0;
+    Vec3 measure_slope = Vec3::Zero();  // ∂A_a/∂W_a of the triangle's nodes; pointwise: 0
   };
   int contact = 0;            // index into Model::contacts
   bool reversed = false;      // the triangles are the contact's second body's
@@ -32,6 +34,11 @@ struct ContactDirection {
   const Eigen::VectorXd* model_stiffness = nullptr;  // at these nodes [Pa/m]
   double stiffening = 1;
   double stiffness(int node) const { return (*model_stiffness)[node] * stiffening; }  // k [Pa/m]
+  /// <λ + k g> [Pa]: the pressure without that of damping.
+  double penalty(int node) const {
+    const double lambda = multiplier.size() > 0 ? multiplier[node] : 0;
+    return std::max(0.0, lambda + stiffness(node) * depth[node]);
+  }
   /// Where depths are not averaged, k of each point [Pa/m]; then g and p above are but means.
   double point_stiffness = 0;
   std::vector<NodalDrag> drag;  // empty: neither friction nor damping
@@ -61,6 +68,14 @@ Mat3 corners_of(const Configuration& configuration, const Collider& collider, in
 /// @param faces  of the triangles' side
 Vec3 nodal_pressures(const ContactDirection& direction, const ContactDirection::Patch& entry,
                      const Eigen::Matrix3Xi& faces);
+
+/// What turns with a patch's weight (Φ of patch_gradient()): of A_a g_a at the triangle's nodes,
+/// A_a δg_a = δG_a − g_a δA_a [m³],
+Vec3 turning_depths(const ContactDirection& direction, const ContactDirection::Patch& entry,
+                    const Eigen::Matrix3Xi& faces);
+/// and of the energy [J]; that of an average is E_a = A_a p_a²/2k_a with p_a = λ_a + k_a g_a.
+double turning_energy(const ContactDirection& direction, const ContactDirection::Patch& entry,
+                      const Eigen::Matrix3Xi& faces);
 
 /// Forces on a patch's six nodes [N].
 Vec18 forces_on_nodes(const ContactDirection& direction, const ContactDirection::Patch& entry,

@@ -13,7 +13,7 @@ using SixVectors = Eigen::Matrix<double, 3, 6>;
 
 /// Rates at the nodes of a direction: in `closing` and `slip`, sums over patches.
 struct Rates {
-  Eigen::VectorXd closing;  // Ġ [m³/s]
+  Eigen::VectorXd closing;  // A ġ [m³/s]
   Positions slip;           // W V [m³/s]
 };
 
@@ -29,9 +29,11 @@ Rates rates_of(const ContactDirection& direction, const Collider& triangles, con
     for (Eigen::Index k = 0; k < 6; ++k)
       v.col(k) = velocity_of(*nodes[static_cast<std::size_t>(k)]);
     const Mat3 slip = slip_integrals(entry.patch, v);
+    const Vec3 turning = turning_depths(direction, entry, triangles.surface.faces);
     for (int i = 0; i < 3; ++i) {
       const int node = triangles.surface.faces(i, entry.triangle);
-      rates.closing[node] += patch_gradient(entry.patch, Vec3::Unit(i)).dot(v.reshaped());
+      rates.closing[node] +=
+          patch_gradient(entry.patch, Vec3::Unit(i), turning[i]).dot(v.reshaped());
       rates.slip.col(node) += slip.col(i);
     }
   }
@@ -129,7 +131,8 @@ void add_drag_product(const ContactDirection& direction, const Collider& triangl
       t.col(i) = drag.drag_along * drag.along.dot(slip) * drag.along +
                  drag.drag_across * drag.across.dot(slip) * drag.across;
     }
-    const Vec18 product = patch_gradient(entry.patch, p) + slip_gradient(entry.patch, t);
+    const double turning = p.dot(turning_depths(direction, entry, triangles.surface.faces));
+    const Vec18 product = patch_gradient(entry.patch, p, turning) + slip_gradient(entry.patch, t);
     const auto nodes = nodes_of(triangles, faces, entry.triangle, entry.face);
     for (Eigen::Index k = 0; k < 6; ++k)
       add_force(configuration, *nodes[static_cast<std::size_t>(k)],

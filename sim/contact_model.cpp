@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "sim/contact_samples.hpp"
 #include "sim/tissue.hpp"
 
 namespace articular::sim {
@@ -37,10 +38,10 @@ double mean_face_area(const Collider& collider) {
          static_cast<double>(std::max<std::size_t>(1, collider.face_area.size()));
 }
 
-/// Whose triangles look for the other's faces where only one side's do, and at whose nodes depths
-/// are averaged: of tissue where it meets bone, of the softer or, much
-/// alike, the finer of two tissues, of the finer of two bones. Both sides at once would hold the
-/// bodies apart at more nodes than the coarser one has to give way with.
+/// Whose triangles look for the other's faces, and at whose nodes depths are averaged: of tissue
+/// where it meets bone, of the softer or, much alike, the finer of two tissues, of the finer of two
+/// bones. Both sides at once would hold the bodies apart at more nodes than the coarser one has to
+/// give way with, and cost twice as much.
 bool looks_first(const Model& model, int a, int b, const Collider& A, const Collider& B) {
   constexpr double kMuchSofter = 3;
   const auto modulus = [&](int body) {
@@ -64,8 +65,8 @@ void add_contact(int a, int b, const ContactPair& pair, Model& model) {
   const bool is_static = model.scenario.analysis == Scenario::Analysis::Static;
   const Scenario::Response response = model.scenario.contact_response;
   contact.averaged = is_static || response == Scenario::Response::Averaged;
-  const bool one_side = contact.averaged || response == Scenario::Response::OneSided;
-  contact.share = a == b || !one_side ? 0.5 : 1;
+  if (!is_static && response == Scenario::Response::Sampled) contact.samples = triangle_samples();
+  contact.share = a == b ? 0.5 : 1;
   const double factor = stiffness_factor(model.scenario);
   const double layers = A->layer_compliance + B->layer_compliance;
   contact.mean_stiffness =
@@ -82,12 +83,10 @@ void add_contact(int a, int b, const ContactPair& pair, Model& model) {
         .matrix()
         .eval();
   };
-  const bool first = a == b || (one_side && looks_first(model, a, b, *A, *B));
-  if (first || !one_side) {
+  if (a == b || looks_first(model, a, b, *A, *B)) {
     contact.stiffness_a = at_nodes(*A, *B, factor);
     contact.soft_a = at_nodes(*A, *B, kSoftFactor);
-  }
-  if (!first) {
+  } else {
     contact.stiffness_b = at_nodes(*B, *A, factor);
     contact.soft_b = at_nodes(*B, *A, kSoftFactor);
   }

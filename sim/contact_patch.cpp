@@ -50,7 +50,7 @@ const Polygon& clipped(const Vec3& at_nodes, int side, const Polygon& polygon, P
 }
 
 /// ∫ N Nᵀ over the polygon in units of the triangle's area: a fan of triangles, each
-/// a/12 (Σ v vᵀ + (Σv)(Σv)ᵀ).
+/// a/12 (Σ v vᵀ + (Σv)(Σv)ᵀ). @return its area
 double integrate(const Polygon& polygon, Mat3& Q) {
   double total = 0;
   Q.setZero();
@@ -69,7 +69,6 @@ double integrate(const Polygon& polygon, Mat3& Q) {
 
 /// The polygon's edges on β_m = 0, in units of the triangle's area.
 void find_edges(const Polygon& polygon, ContactPatch& patch) {
-  patch.num_edges = 0;
   for (int k = 0; k < polygon.count && patch.num_edges < 3; ++k) {
     const int m = polygon.side[static_cast<std::size_t>(k)];
     if (m == kOwnSide || m == kDepthSide) continue;
@@ -91,6 +90,43 @@ Mat3 edge_integral(const PatchEdge& edge, const Vec3& p) {
   return edge.length / 6 *
          (p.dot(a) * a * a.transpose() + p.dot(b) * b * b.transpose() +
           4 * p.dot(middle) * middle * middle.transpose());
+}
+
+/// Q, depth_max and the edges of what lies opposite the face and less than `open` in front of it,
+/// in units of the triangle's area, of which it is the part that is returned.
+double cover_exactly(double open, ContactPatch& patch) {
+  std::array<Polygon, 5> rooms;
+  rooms[0].count = 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    rooms[0].corner[i] = Vec3::Unit(static_cast<Eigen::Index>(i));
+    rooms[0].side[i] = kOwnSide;
+  }
+  const Polygon* shared = rooms.data();
+  for (int m = 0; m < 3; ++m) {
+    shared = &clipped(patch.beta.row(m), m, *shared, rooms[static_cast<std::size_t>(m + 1)]);
+    if (shared->count < 3) return 0;
+  }
+  const Polygon& polygon = clipped(patch.depth.array() + open, kDepthSide, *shared, rooms[4]);
+  if (polygon.count < 3) return 0;
+  for (int i = 0; i < polygon.count; ++i)
+    patch.depth_max =
+        std::max(patch.depth_max, patch.depth.dot(polygon.corner[static_cast<std::size_t>(i)]));
+  find_edges(polygon, patch);
+  return integrate(polygon, patch.Q);
+}
+
+/// The same by the sample points there; without edges: points stay where they are.
+double cover_by_samples(double open, std::span<const SamplePoint> samples, ContactPatch& patch) {
+  patch.Q.setZero();
+  double total = 0;
+  for (const SamplePoint& sample : samples) {
+    const double depth = patch.depth.dot(sample.N);
+    if (!(depth > -open && (patch.beta * sample.N).minCoeff() >= 0)) continue;
+    patch.depth_max = std::max(patch.depth_max, depth);
+    patch.Q += sample.part * sample.N * sample.N.transpose();
+    total += sample.part;
+  }
+  return total;
 }
 
 struct Facing {
@@ -120,7 +156,8 @@ FlatTriangle flat_triangle(const Mat3& x) {
 }
 
 bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_area,
-                   const DepthRange& range, ContactPatch& patch) {
+                   const DepthRange& range, ContactPatch& patch,
+                   std::span<const SamplePoint> samples) {
   const Vec3 &n = s.normal, &n_F = f.normal;
   const double cosine = n_F.dot(n);
   const Facing facing = facing_weight(-cosine);
@@ -141,29 +178,15 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
     if (!(patch.beta.row(m).maxCoeff() > 0)) return false;
   }
 
-  std::array<Polygon, 5> rooms;
-  rooms[0].count = 3;
-  for (std::size_t i = 0; i < 3; ++i) {
-    rooms[0].corner[i] = Vec3::Unit(static_cast<Eigen::Index>(i));
-    rooms[0].side[i] = kOwnSide;
-  }
-  const Polygon* shared = rooms.data();
-  for (int m = 0; m < 3; ++m) {
-    shared = &clipped(patch.beta.row(m), m, *shared, rooms[static_cast<std::size_t>(m + 1)]);
-    if (shared->count < 3) return false;
-  }
-  const Polygon& polygon = clipped(patch.depth.array() + range.open, kDepthSide, *shared, rooms[4]);
-  if (polygon.count < 3) return false;
-  const double fraction = integrate(polygon, patch.Q);
-  if (!(fraction > 0)) return false;
+  patch.num_edges = 0;
   patch.depth_max = -range.open;
-  for (int i = 0; i < polygon.count; ++i)
-    patch.depth_max =
-        std::max(patch.depth_max, patch.depth.dot(polygon.corner[static_cast<std::size_t>(i)]));
+  const double fraction = samples.empty() ? cover_exactly(range.open, patch)
+                                          : cover_by_samples(range.open, samples, patch);
+  if (!(fraction > 0)) return false;
   if (patch.depth_max + range.allowance > range.reach) return false;
 
-  find_edges(polygon, patch);
-  for (PatchEdge& edge : patch.edge) edge.length *= facing.weight * rest_area;
+  for (int k = 0; k < patch.num_edges; ++k)
+    patch.edge[static_cast<std::size_t>(k)].length *= facing.weight * rest_area;
   patch.Q *= facing.weight * rest_area;
   patch.area = facing.weight * fraction * rest_area;
   patch.normal = n;
@@ -187,10 +210,6 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
 // triangle's normal turning by δn = −Σ ∇N_i (n·δx_i); d is the height, which an allowance does not
 // change. With it w changes by
 // δ(n_F·n) = −Σ (n_F·∇N_i) n·δx_i − Σ (n·∇β_m) n_F·δf_m.
-
-Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p) {
-  return patch_gradient(patch, p, p.dot(depth_integrals(patch)));
-}
 
 Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p, double potential) {
   const Vec3 q = patch.Q * p;
@@ -259,7 +278,7 @@ void add_curvature(const ContactPatch& patch, const Vec3& p, double potential,
                    PatchStiffness& stiffness) {
   Mat18x10 &left = stiffness.left, &right = stiffness.right;
   const Vec3 q = patch.Q * p;
-  const double tilting = q.dot(patch.height);
+  const double turning = patch.turning * potential;
   // Beside δd = c·u: the turning of the normal, −c·δn, and the sweep of the edges.
   for (int j = 0; j < 3; ++j)
     left.block<3, 3>(3 * j, 0) += (patch.e[j] * patch.normal) * q.transpose();
@@ -273,7 +292,8 @@ void add_curvature(const ContactPatch& patch, const Vec3& p, double potential,
     left.col(3 + m) = opposite(patch, patch.face_g.col(m), q);
     right.block<3, 1>(9 + 3 * m, 3 + m) = -patch.c;
   }
-  // −½ d c·δ²n, beside n·δx_j
+  // −½ d c·δ²n and ½ Φ w'/w n_F·δ²n, beside n·δx_j
+  const double tilting = q.dot(patch.height) - turning * patch.cosine;
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i)
       left.block<3, 1>(3 * i, 6 + j) =
@@ -281,7 +301,18 @@ void add_curvature(const ContactPatch& patch, const Vec3& p, double potential,
           (0.5 * patch.g.col(i).dot(patch.g.col(j)) * patch.normal - patch.e[i] * patch.g.col(j));
     right.block<3, 1>(3 * j, 6 + j) = patch.normal;
   }
-  if (patch.turning == 0 || potential == 0) return;
+  if (turning == 0) return;
+  // Φ w'/w (½ n·δ²n_F, beside −c·δf_m, and δn_F·δn, beside n·δx_j)
+  const Vec3 n_F = patch.cosine * patch.c;
+  const Mat3 face_g = patch.face_g + patch.c * patch.face_e.transpose();  // in the face's plane
+  for (int m = 0; m < 3; ++m)
+    for (int l = 0; l < 3; ++l) {
+      left.block<3, 1>(9 + 3 * l, 3 + m) +=
+          turning * patch.cosine *
+          (0.5 * patch.cosine * face_g.col(l).dot(face_g.col(m)) * n_F -
+           patch.face_e[l] * face_g.col(m));
+      left.block<3, 1>(9 + 3 * l, 6 + m) += turning * face_g.col(l).dot(patch.g.col(m)) * n_F;
+    }
   // δw/w (w ∫ p δd dA) + ½ Φ w''/w δ(n_F·n)², beside δ(n_F·n)
   Vec18 cosine;
   for (int i = 0; i < 3; ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "fem/types.hpp"
 
@@ -22,8 +23,9 @@
 /// forces jump.
 ///
 /// Nodes of the face move G_a with the weights β_m(N) of the point opposite, so that forces derived
-/// from G_a are equal and opposite and make no net moment. Everything is integrated exactly. Where
-/// the polygon ends at the rim of a sheet, the motion of that edge is left out of the gradients.
+/// from G_a are equal and opposite and make no net moment. Everything is integrated exactly, or
+/// summed over sample points of the triangle, those that lie opposite the face. Where the polygon
+/// ends at the rim of a sheet, the motion of that edge is left out of the gradients.
 namespace articular::sim {
 
 using Vec18 = Eigen::Matrix<double, 18, 1>;
@@ -39,7 +41,7 @@ struct PatchEdge {
 struct ContactPatch {
   double area = 0;             // [m²] rest area of the polygon, times w
   double depth_max = 0;        // [m]
-  Mat3 Q = Mat3::Zero();       // w ∫ N Nᵀ dA [m²]
+  Mat3 Q = Mat3::Zero();       // w ∫ N Nᵀ dA [m²], or the sum that stands for it
   Mat3 beta = Mat3::Zero();    // beta(m, i): weight of face node m opposite node i of s
   Vec3 depth = Vec3::Zero();   // at the nodes of s, without the allowance [m]
   Vec3 height = Vec3::Zero();  // with it [m]
@@ -75,18 +77,25 @@ struct FlatTriangle {
 };
 FlatTriangle flat_triangle(const Mat3& x);
 
+/// A point of a triangle that stands for a part of it.
+struct SamplePoint {
+  Vec3 N;       // barycentric coordinates
+  double part;  // of the triangle's area
+};
+
 /// @param rest_area  of the triangle s [m²]
+/// @param samples    of the triangle; none: exact
 /// @return false when nothing of s is opposite f within the range
 bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_area,
-                   const DepthRange& range, ContactPatch& patch);
+                   const DepthRange& range, ContactPatch& patch,
+                   std::span<const SamplePoint> samples = {});
 
 /// W_a [m²] and G_a [m³] of the triangle's nodes.
 inline Vec3 nodal_areas(const ContactPatch& patch) { return patch.Q.rowwise().sum(); }
 inline Vec3 depth_integrals(const ContactPatch& patch) { return patch.Q * patch.depth; }
 
-/// ∂/∂(x0 x1 x2 f0 f1 f2) of Σ p_a G_a for numbers p that stay as they are.
-Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p);
-/// w ∫ p δd dA + Φ δw/w: with p = k d and Φ = E it is the gradient of E = ½ k w ∫ d² dA.
+/// w ∫ p δd dA + Φ δw/w by (x0 x1 x2 f0 f1 f2): with Φ = Σ p_a G_a the gradient of that sum for
+/// numbers p that stay as they are; with p = k d and Φ = E that of E = ½ k w ∫ d² dA.
 /// @param p  at the nodes of the triangle, linear between them
 Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p, double potential);
 /// ½ k w ∫ d² dA
@@ -104,8 +113,8 @@ PatchStiffness patch_stiffness(const ContactPatch& patch, double k);
 
 /// Adds the second derivative of Σ p_a G_a for numbers p that stay as they are: of the depth, and
 /// of what the face's edges sweep as they move over the triangle, made symmetric: summed over the
-/// two faces at an edge that is exact; and of w as the triangle turns. Indefinite. Left out: the
-/// curvature of n_F·n, and the gradient's missing part at a rim.
+/// two faces at an edge that is exact; and of w as triangle and face turn. Indefinite. Left out:
+/// the gradient's missing part at a rim.
 /// @param potential   what turns with w, see patch_gradient(); 0: without the turning of w
 /// @param stiffness  made by patch_stiffness()
 void add_curvature(const ContactPatch& patch, const Vec3& p, double potential,

@@ -57,9 +57,7 @@ void ContactResponse::find_pressures(const Configuration& configuration,
   direction.point_stiffness = contact.averaged ? 0 : direction.stiffness(0);
   for (const int node : direction.nodes) {
     direction.depth[node] /= direction.measure[node];
-    const double multiplier = direction.multiplier.size() > 0 ? direction.multiplier[node] : 0;
-    direction.pressure[node] =
-        std::max(0.0, multiplier + direction.stiffness(node) * direction.depth[node]);
+    direction.pressure[node] = direction.penalty(node);
   }
   if (!contact.law.acts()) return;
   const ContactSides side = sides_of(model_, direction);
@@ -110,6 +108,7 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
   }
   const auto contact = static_cast<std::size_t>(direction.contact);
   const bool averaged = model_.contacts[contact].averaged;
+  const std::span<const SamplePoint> samples = model_.contacts[contact].samples;
   DepthRange range = depth_range(side.triangles, side.faces, averaged);
   if (!allowances_.empty()) range.allowance = allowances_[contact];
   const std::vector<ContactCandidate>& pairs = list.pairs;
@@ -118,13 +117,14 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
     const FlatTriangle s = flat_triangle(corners_of(configuration, side.triangles, triangle));
     const double rest_area = side.triangles.face_area[static_cast<std::size_t>(triangle)];
     Vec3 covered = Vec3::Zero(), integrals = Vec3::Zero();
+    const std::size_t first_patch = direction.num_patches;
     for (; first < pairs.size() && pairs[first].triangle == triangle; ++first) {
       const int face = pairs[first].face;
       range.reach = pairs[first].reach;
       if (direction.num_patches == direction.stored.size()) direction.stored.emplace_back();
       ContactDirection::Patch& entry = direction.stored[direction.num_patches];
       if (!contact_patch(s, face_now(configuration, side.faces, face), rest_area, range,
-                         entry.patch))
+                         entry.patch, samples))
         continue;
       ++direction.num_patches;
       entry.triangle = triangle;
@@ -132,14 +132,19 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
       covered += nodal_areas(entry.patch);
       integrals += depth_integrals(entry.patch);
     }
+    Vec3 measure_slope = Vec3::Zero();
     for (int i = 0; i < 3; ++i) {
       if (!(covered[i] > 0)) continue;
       const int node = side.triangles.surface.faces(i, triangle);
       if (direction.measure[node] == 0) direction.nodes.push_back(node);
-      direction.measure[node] += averaged ? std::sqrt(covered[i] * rest_area / 3) : covered[i];
+      const double measure = averaged ? std::sqrt(covered[i] * rest_area / 3) : covered[i];
+      if (averaged) measure_slope[i] = 0.5 * measure / covered[i];
+      direction.measure[node] += measure;
       direction.area[node] += covered[i];
       direction.depth[node] += integrals[i];
     }
+    for (std::size_t e = first_patch; e < direction.num_patches; ++e)
+      direction.stored[e].measure_slope = measure_slope;
   }
 }
 

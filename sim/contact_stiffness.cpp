@@ -19,18 +19,52 @@ void ContactStiffness::add(const ContactDirection& direction, const Configuratio
   for (const ContactDirection::Patch& entry : direction.patches()) {
     if (!carries(direction, entry.triangle, triangles)) continue;
     PatchStiffness stiffness = patch_stiffness(entry.patch, k);
-    // Of an average, k = 0, without the turning of w: A_a turns with it too, which the force leaves
-    // out. With this part alone the knee in time takes four times as many iterations.
     if (tangent == fem::Tangent::Consistent)
       add_curvature(entry.patch, scale.stiffness * nodal_pressures(direction, entry, triangles),
-                    patch_energy(entry.patch, k), stiffness);
+                    scale.stiffness * turning_energy(direction, entry, triangles), stiffness);
     add_product(model_, configuration,
                 nodes_of(side.triangles, side.faces, entry.triangle, entry.face), stiffness.left,
                 stiffness.right, A);
   }
+  if (!(direction.point_stiffness > 0))
+    add_measure_stiffness(direction, configuration, scale.stiffness, A);
 }
 
-/// The patches around node i: patch_of_node_[patch_begin_[i] .. patch_begin_[i + 1]).
+/// (p_a²/2k_a − p_a g_a) ∂²A_a/∂W² ∇W ∇Wᵀ: of A = √(W T/3) of each triangle, ∂A/∂W the `slope`, it
+/// is −slope/2W.
+void ContactStiffness::add_measure_stiffness(const ContactDirection& direction,
+                                             const Configuration& configuration, double scale,
+                                             fem::BlockMatrix& A) {
+  const auto& triangles = sides_of(model_, direction).triangles.surface.faces;
+  const auto patches = direction.patches();
+  for (std::size_t first = 0, end = 0; first < patches.size(); first = end) {
+    const ContactDirection::Patch& entry = patches[first];
+    Vec3 covered = Vec3::Zero();
+    bool turns = false;
+    group_.clear();
+    for (; end < patches.size() && patches[end].triangle == entry.triangle; ++end) {
+      covered += nodal_areas(patches[end].patch);
+      turns = turns || patches[end].patch.turning != 0;
+      group_.push_back(static_cast<int>(end));
+    }
+    if (!turns) continue;
+    for (int i = 0; i < 3; ++i) {
+      const int node = triangles(i, entry.triangle);
+      const double p = direction.penalty(node);
+      if (!(p > 0)) continue;
+      const double energy = p * p / (2 * direction.stiffness(node)) - p * direction.depth[node];
+      add_rank_one(
+          direction, group_, configuration,
+          -scale * energy * entry.measure_slope[i] / (2 * covered[i]),
+          [i](const ContactDirection::Patch& other) {
+            return patch_gradient(other.patch, Vec3::Zero(), nodal_areas(other.patch)[i]);
+          },
+          A);
+    }
+  }
+}
+
+/// The patches around node i become patch_of_node_[patch_begin_[i] .. patch_begin_[i + 1]).
 void ContactStiffness::find_patches_of_nodes(const ContactDirection& direction) {
   const ContactSides side = sides_of(model_, direction);
   const auto& triangles = side.triangles.surface.faces;
@@ -46,14 +80,12 @@ void ContactStiffness::find_patches_of_nodes(const ContactDirection& direction) 
           static_cast<int>(e);
 }
 
-/// A += factor g gᵀ, where g sums gradient(patch, place of the node in its triangle) over the
-/// patches around a node.
+/// A += factor g gᵀ, where g sums gradient(entry) over the patches of these numbers.
 template <class Gradient>
-void ContactStiffness::add_rank_one(const ContactDirection& direction, int a,
+void ContactStiffness::add_rank_one(const ContactDirection& direction, std::span<const int> patches,
                                     const Configuration& configuration, double factor,
                                     Gradient&& gradient, fem::BlockMatrix& A) {
   const ContactSides side = sides_of(model_, direction);
-  const auto& triangles = side.triangles.surface.faces;
   const auto add = [&](const NodeRef& node, const Vec3& g) {
     if (node.bone >= model_.layout.num_rigid) return;
     const auto put = [&](int block, const Vec3& part) {
@@ -66,13 +98,9 @@ void ContactStiffness::add_rank_one(const ContactDirection& direction, int a,
     put(node.block, g);
     if (node.bone >= 0) put(node.block + 1, configuration.lever(node).cross(g));
   };
-  for (int k = patch_begin_[static_cast<std::size_t>(a)];
-       k < patch_begin_[static_cast<std::size_t>(a) + 1]; ++k) {
-    const ContactDirection::Patch& entry =
-        direction.stored[static_cast<std::size_t>(patch_of_node_[static_cast<std::size_t>(k)])];
-    int local = 0;
-    while (triangles(local, entry.triangle) != a) ++local;
-    const Vec18 g = gradient(entry.patch, local);
+  for (const int patch : patches) {
+    const ContactDirection::Patch& entry = direction.stored[static_cast<std::size_t>(patch)];
+    const Vec18 g = gradient(entry);
     const auto nodes = nodes_of(side.triangles, side.faces, entry.triangle, entry.face);
     for (std::size_t i = 0; i < 6; ++i)
       add(*nodes[i], g.segment<3>(3 * static_cast<Eigen::Index>(i)));
@@ -87,25 +115,36 @@ void ContactStiffness::add_rank_one(const ContactDirection& direction, int a,
   blocks_.clear();
 }
 
-/// Σ k_a/A_a ∇G_a ∇G_aᵀ, the same with the damping, and −∂t_a/∂V_a.
+/// Σ k_a/A_a (A_a ∇g_a) (A_a ∇g_a)ᵀ, the same with the damping, and −∂t_a/∂V_a.
 void ContactStiffness::add_node_stiffness(const ContactDirection& direction,
                                           const Configuration& configuration, fem::Tangent tangent,
                                           const SystemScale& scale, fem::BlockMatrix& A) {
   const bool averaged = !(direction.point_stiffness > 0);
   if (!averaged && direction.drag.empty()) return;
   find_patches_of_nodes(direction);
-  const auto of_depth = [](const ContactPatch& patch, int local) {
-    return patch_gradient(patch, Vec3::Unit(local));
-  };
+  const auto& triangles = sides_of(model_, direction).triangles.surface.faces;
   for (const int a : direction.nodes) {
     if (!(direction.pressure[a] > 0)) continue;
+    const auto begin = static_cast<std::size_t>(patch_begin_[static_cast<std::size_t>(a)]);
+    const auto end = static_cast<std::size_t>(patch_begin_[static_cast<std::size_t>(a) + 1]);
+    const std::span<const int> around(patch_of_node_.data() + begin, end - begin);
+    const auto place = [&](const ContactDirection::Patch& entry) {
+      Eigen::Index local = 0;
+      while (triangles(local, entry.triangle) != a) ++local;
+      return local;
+    };
+    const auto of_depth = [&](const ContactDirection::Patch& entry) {
+      const Eigen::Index local = place(entry);
+      const Vec3 turning = turning_depths(direction, entry, triangles);
+      return patch_gradient(entry.patch, Vec3::Unit(local), turning[local]);
+    };
     const double penalty = scale.stiffness * direction.stiffness(a) / direction.measure[a];
     if (direction.drag.empty()) {
-      add_rank_one(direction, a, configuration, penalty, of_depth, A);
+      add_rank_one(direction, around, configuration, penalty, of_depth, A);
       continue;
     }
     const NodalDrag& drag = direction.drag[static_cast<std::size_t>(a)];
-    add_rank_one(direction, a, configuration,
+    add_rank_one(direction, around, configuration,
                  (averaged ? drag.stiffening * penalty : 0) +
                      scale.damping * drag.damping / direction.measure[a],
                  of_depth, A);
@@ -116,9 +155,9 @@ void ContactStiffness::add_node_stiffness(const ContactDirection& direction,
       if (!(scale.damping * strength > 0)) continue;
       const Vec3& unit = direction_of_slip;
       add_rank_one(
-          direction, a, configuration, scale.damping * strength / direction.area[a],
-          [&unit](const ContactPatch& patch, int local) {
-            return slip_gradient(patch, unit * Vec3::Unit(local).transpose());
+          direction, around, configuration, scale.damping * strength / direction.area[a],
+          [&](const ContactDirection::Patch& entry) {
+            return slip_gradient(entry.patch, unit * Vec3::Unit(place(entry)).transpose());
           },
           A);
     }

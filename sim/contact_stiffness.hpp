@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sim/contact_direction.hpp"
@@ -13,7 +14,7 @@ class ContactStiffness {
   explicit ContactStiffness(const Model& model);
 
   /// A += contact stiffness of one direction: all of it, or (projected) the positive semidefinite
-  /// part Σ k_a W_a ∇g_a ∇g_aᵀ; and the damping. How friction grows with the pressure is left out:
+  /// part Σ k_a A_a ∇g_a ∇g_aᵀ; and the damping. How friction grows with the pressure is left out:
   /// it is not symmetric.
   void add(const ContactDirection& direction, const Configuration& configuration,
            fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A);
@@ -21,14 +22,18 @@ class ContactStiffness {
  private:
   void find_patches_of_nodes(const ContactDirection& direction);
   template <class Gradient>
-  void add_rank_one(const ContactDirection& direction, int node, const Configuration& configuration,
-                    double factor, Gradient&& gradient, fem::BlockMatrix& A);
+  void add_rank_one(const ContactDirection& direction, std::span<const int> patches,
+                    const Configuration& configuration, double factor, Gradient&& gradient,
+                    fem::BlockMatrix& A);
   void add_node_stiffness(const ContactDirection& direction, const Configuration& configuration,
                           fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A);
+  void add_measure_stiffness(const ContactDirection& direction, const Configuration& configuration,
+                             double scale, fem::BlockMatrix& A);
 
   const Model& model_;
-  // Scratch: the patches around each node of the direction, and a gradient by blocks.
-  std::vector<int> patch_begin_, patch_of_node_;
+  // Scratch: the patches around each node of the direction, those of a triangle, and a gradient by
+  // blocks.
+  std::vector<int> patch_begin_, patch_of_node_, group_;
   Positions gradient_;
   std::vector<int> blocks_;
   std::vector<char> has_gradient_;

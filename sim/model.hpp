@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -118,6 +119,7 @@ struct ForceModel {
 struct ContactModel {
   int a = 0, b = 0;      // bodies; a == b: with itself
   bool averaged = true;  // depths are averaged at the nodes of one side; else pointwise
+  std::span<const SamplePoint> samples;  // of each triangle, for all time; empty: exact
   // At the nodes of a side whose triangles look for faces, times `share` [Pa/m]; else empty.
   Eigen::VectorXd stiffness_a, stiffness_b;
   // What an iteration that comes from afar starts with, of the same sizes: softer.
@@ -125,7 +127,7 @@ struct ContactModel {
   double mean_stiffness = 0;   // of the two sides in series [Pa/m]
   double max_penetration = 0;  // [m] mean depth at a node that the penalty may take
   bool is_bounded = false;     // where it takes more, it is helped: see ContactResponse
-  double share = 1;            // ½ where both sides, or both folds of one body, look for the other
+  double share = 1;            // ½ where both folds of one body look for the other
   SurfaceLaw law;              // its damping times `share`
 };
 

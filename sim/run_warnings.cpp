@@ -51,22 +51,6 @@ void warn_of_energy(const Model& model, const State& state, const Stepper& stepp
         remedy(model)));
 }
 
-/// Where a side ends within the other's triangles, contact that looks from both sides pushes along
-/// it (sim/README.md, Limits).
-void warn_of_push(const Model& model, const State& state, std::vector<std::string>& warnings) {
-  if (model.scenario.contact_response != Scenario::Response::TwoSided) return;
-  if (state.max_penetration <= 0) return;
-  for (const ContactModel& contact : model.contacts) {
-    if (contact.law.friction > 0 || contact.a == contact.b) continue;
-    warnings.push_back(fmt::format(
-        "contact from two sides may push `{}` and `{}` along each other by some 10^-4 of the force "
-        "between them: what nothing else holds drifts; contact_response = \"one-sided\" or "
-        "friction keeps it",
-        name_of(model, contact.a), name_of(model, contact.b)));
-    return;
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> run_warnings(const Model& model, const State& state,
@@ -87,7 +71,6 @@ std::vector<std::string> run_warnings(const Model& model, const State& state,
         name_of(model, contact.a), name_of(model, contact.b), worst.overlap_at, worst.overlap));
   }
   warn_of_energy(model, state, stepper, warnings);
-  warn_of_push(model, state, warnings);
   for (const FreeMotion& motion : stepper.indifferent())
     warnings.push_back(motion.words + ": nothing holds it, and nothing drives it");
   return warnings;

@@ -317,9 +317,9 @@ struct Scenario {
   std::vector<Ligament> ligaments;
   std::vector<Load> loads;
   bool contact = true;  // `contact = false`: nothing touches
-  /// Of a dynamic analysis: depths count point by point, of one side's triangles or of both sides',
+  /// Of a dynamic analysis: depths count point by point, everywhere or at samples of each triangle,
   /// or as averages at nodes, which is what a static one does.
-  enum class Response { OneSided, TwoSided, Averaged } contact_response = Response::OneSided;
+  enum class Response { Pointwise, Sampled, Averaged } contact_response = Response::Pointwise;
   bool settling = true;  // bodies that overlap at the start are pushed apart first
   std::vector<ContactPair> contacts;
   std::vector<Probe> probes;

@@ -118,8 +118,8 @@ void read_settings(const TableReader& document, Scenario& scenario) {
   if (scenario.analysis == Scenario::Analysis::Static)
     document.refuse({"contact_response"}, "a static analysis averages depths");
   document.may("contact_response", scenario.contact_response, [](const Node& n) {
-    return read_choice<Scenario::Response>(n, {{"one-sided", Scenario::Response::OneSided},
-                                               {"two-sided", Scenario::Response::TwoSided},
+    return read_choice<Scenario::Response>(n, {{"pointwise", Scenario::Response::Pointwise},
+                                               {"sampled", Scenario::Response::Sampled},
                                                {"averaged", Scenario::Response::Averaged}});
   });
   const Preset chosen = preset(scenario.accuracy);
@@ -135,7 +135,7 @@ std::string settings_as_json(const Scenario& scenario) {
   const Integrator& integrator = scenario.integrator;
   const Output& output = scenario.output;
   constexpr const char* kAccuracies[] = {"fast", "balanced", "accurate"};
-  constexpr const char* kResponses[] = {"one-sided", "two-sided", "averaged"};
+  constexpr const char* kResponses[] = {"pointwise", "sampled", "averaged"};
   nlohmann::ordered_json json;
   json["title"] = scenario.title;
   for (const auto& [name, word] : scenario.choices) json["choice"][name] = word;

@@ -41,11 +41,6 @@ std::vector<Vec3> path(double depth, double h) {
   return {{-x, y, 0}, {-x, y, -depth}, {x, y, -depth}};
 }
 
-/// Half the range over the mean [%], as it is and without the parabola that the block's size gives.
-struct Ripple {
-  double mean = 0, raw = 0, detrended = 0;
-};
-
 double half_range(const Eigen::VectorXd& values) {
   return 0.5 * (values.maxCoeff() - values.minCoeff());
 }
@@ -56,24 +51,37 @@ Ripple ripple_of(const std::vector<double>& forces) {
   Eigen::MatrixXd powers(f.size(), 3);
   powers << Eigen::VectorXd::Ones(f.size()), s, s.cwiseProduct(s);
   const Eigen::VectorXd rest = f - powers * powers.colPivHouseholderQr().solve(f);
-  return {f.mean(), 100 * half_range(f) / f.mean(), 100 * half_range(rest) / f.mean()};
+  Ripple ripple;
+  ripple.mean = f.mean();
+  ripple.raw = 100 * half_range(f) / f.mean();
+  ripple.detrended = 100 * half_range(rest) / f.mean();
+  return ripple;
 }
 
-void print_row(const std::string& name, const Scene& scene, const StudyOptions& options, double h) {
+Ripple push(const Scene& scene, const StudyOptions& options) {
+  ContactRun run(scene, options);
+  run.steps(1, kPressSteps);
+  run.reset_costs();
+  std::vector<double> forces = {run.contact().force.z()};
+  double penetration = 0;
+  for (int i = 1; i <= kCells * kStepsPerCell; ++i) {
+    run.step(1 + static_cast<double>(i) / (kCells * kStepsPerCell));
+    forces.push_back(run.contact().force.z());
+    penetration = std::max(penetration, run.contact().penetration);
+  }
+  Ripple ripple = ripple_of(forces);
+  ripple.penetration = penetration;
+  ripple.iterations = run.costs().iterations;
+  ripple.costs = cost_columns(run);
+  return ripple;
+}
+
+template <class Push>
+void print_row(const std::string& name, double h, Push&& push) {
   try {
-    ContactRun run(scene, options);
-    run.steps(1, kPressSteps);
-    run.reset_costs();
-    std::vector<double> forces = {run.contact().force.z()};
-    double penetration = 0;
-    for (int i = 1; i <= kCells * kStepsPerCell; ++i) {
-      run.step(1 + static_cast<double>(i) / (kCells * kStepsPerCell));
-      forces.push_back(run.contact().force.z());
-      penetration = std::max(penetration, run.contact().penetration);
-    }
-    const Ripple ripple = ripple_of(forces);
+    const Ripple ripple = push();
     std::printf("| %s | %.6f | %.3f | %.3f | %.2f | %s\n", name.c_str(), ripple.mean, ripple.raw,
-                ripple.detrended, 100 * penetration / h, cost_columns(run).c_str());
+                ripple.detrended, 100 * ripple.penetration / h, ripple.costs.c_str());
     std::fflush(stdout);
   } catch (const std::exception& error) {
     print_failure(name, error);
@@ -99,14 +107,9 @@ Body sphere() {
 
 void drag_row(int cells, double part, const StudyOptions& options) {
   const double h = kSide / cells;
-  Scene scene(options);
-  add_block(scene, cells, part);
-  scene.add(sphere());
-  scene.touch("sphere", "block");
-  scene.drive("sphere", path(kIndentation, h));
   print_row(fmt::format("{}{} | {:.1f}", cells, part > 0 ? ", jittered" : "",
                         std::sqrt(kRadius * kIndentation) / h),
-            scene, options, h);
+            h, [&] { return drag_sphere(cells, part, options); });
 }
 
 constexpr double kPunch = 0.3 * kSide;             // the side of its square face [m]
@@ -145,15 +148,25 @@ void lines_row(const std::string& name, int cells, double part, const StudyOptio
   add_block(scene, cells, part);
   add_punch(scene);
   scene.drive("punch", path(kPunchDepth, h));
-  print_row(fmt::format("{}{} | {}", cells, part > 0 ? ", jittered" : "", name), scene, options, h);
+  print_row(fmt::format("{}{} | {}", cells, part > 0 ? ", jittered" : "", name), h,
+            [&] { return push(scene, options); });
 }
 
 }  // namespace
 
+Ripple drag_sphere(int cells, double part, const StudyOptions& options) {
+  Scene scene(options);
+  add_block(scene, cells, part);
+  scene.add(sphere());
+  scene.touch("sphere", "block");
+  scene.drive("sphere", path(kIndentation, kSide / cells));
+  return push(scene, options);
+}
+
 void study_drag(const StudyOptions& options) {
   print_header("Drag: rigid sphere over a block, 8 steps a cell",
                "cells of the block's side | contact radius/h");
-  for (const int cells : {8, 12, 16, 24})
+  for (const int cells : {8, 12, 16, 26})
     for (const double part : {0.0, kJitter})
       if (cells <= options.finest) drag_row(cells, part, options);
 }

@@ -24,12 +24,9 @@ constexpr double kYoung = 1e6;   // [Pa]
 constexpr int kSteps = 4;
 constexpr int kReference = 8;  // elements through the thickness
 
-struct LayerResult {
-  double force = 0, peak = 0, penetration = 0;  // [N], [Pa], [m]
-  std::string costs;
-};
+}  // namespace
 
-LayerResult press(int elements, double nu, const StudyOptions& options) {
+LayerResult press_layer(int elements, double nu, const StudyOptions& options) {
   const double h = kThickness / elements;
   const std::vector<double> side = graded_lines(kHalfWidth, kFine, h, kGrowth);
   Scene scene(options);
@@ -49,6 +46,8 @@ LayerResult press(int elements, double nu, const StudyOptions& options) {
   return {run.contact().force.z(), peak_pressure(run.nodal_contacts("layer", Vec3::UnitZ())),
           run.contact().penetration, cost_columns(run)};
 }
+
+namespace {
 
 void print_row(int elements, double nu, const LayerResult& result,
                const std::optional<LayerResult>& fine) {
@@ -77,7 +76,7 @@ void study_layer(const StudyOptions& options) {
     for (const int elements : {kReference, 1, 2, 3, 4}) {
       if (elements > options.finest) continue;
       try {
-        const LayerResult result = press(elements, nu, options);
+        const LayerResult result = press_layer(elements, nu, options);
         print_row(elements, nu, result, fine);
         if (elements == kReference) fine = result;
       } catch (const std::exception& error) {

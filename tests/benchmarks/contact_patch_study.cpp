@@ -67,39 +67,48 @@ double spread(const std::vector<NodalContact>& nodes) {
   return 50 * (high - low) / (kYoung * kPress);
 }
 
-void print_row(const char* name, const Scene& scene, const StudyOptions& options) {
+PatchResult result_of(const Scene& scene, const StudyOptions& options) {
+  ContactRun run(scene, options);
+  run.steps(1, 2);
+  const double mean = std::abs(run.contact().force.z()) / (kSide * kSide);
+  double nodal = spread(run.nodal_contacts("lower", Vec3::UnitZ()));
+  if (run.model().tissues.size() > 1)
+    nodal = std::max(nodal, spread(run.nodal_contacts("upper", -Vec3::UnitZ())));
+  return {100 * (mean / (kYoung * kPress) - 1), largest_deviation(run, mean), nodal,
+          cost_columns(run)};
+}
+
+PatchResult press_under_plate(int lower, int plate, double part, const StudyOptions& options) {
+  Scene scene(options);
+  add_lower(scene, lower, part);
+  press_plate(scene, plate);
+  scene.touch("upper", "lower");
+  return result_of(scene, options);
+}
+
+using Press = PatchResult (*)(int, int, double, const StudyOptions&);
+
+void row(const char* name, Press press, int lower, int upper, double part,
+         const StudyOptions& options) {
   try {
-    ContactRun run(scene, options);
-    run.steps(1, 2);
-    const double mean = std::abs(run.contact().force.z()) / (kSide * kSide);
-    double nodal = spread(run.nodal_contacts("lower", Vec3::UnitZ()));
-    if (run.model().tissues.size() > 1)
-      nodal = std::max(nodal, spread(run.nodal_contacts("upper", -Vec3::UnitZ())));
-    std::printf("| %s | %+.4f | %.4f | %.4f | %s\n", name, 100 * (mean / (kYoung * kPress) - 1),
-                largest_deviation(run, mean), nodal, cost_columns(run).c_str());
+    const PatchResult result = press(lower, upper, part, options);
+    std::printf("| %s | %+.4f | %.4f | %.4f | %s\n", name, result.mean, result.deviation,
+                result.nodal, result.costs.c_str());
     std::fflush(stdout);
   } catch (const std::exception& error) {
     print_failure(name, error);
   }
 }
 
-void blocks_row(const char* name, int lower, int upper, double part, const StudyOptions& options) {
+}  // namespace
+
+PatchResult press_blocks(int lower, int upper, double part, const StudyOptions& options) {
   Scene scene(options);
   add_lower(scene, lower, part);
   press_tissue(scene, upper, part);
   scene.touch("upper", "lower");
-  print_row(name, scene, options);
+  return result_of(scene, options);
 }
-
-void plate_row(const char* name, int lower, int plate, double part, const StudyOptions& options) {
-  Scene scene(options);
-  add_lower(scene, lower, part);
-  press_plate(scene, plate);
-  scene.touch("upper", "lower");
-  print_row(name, scene, options);
-}
-
-}  // namespace
 
 void study_patch(const StudyOptions& options) {
   std::printf(
@@ -108,12 +117,12 @@ void study_patch(const StudyOptions& options) {
       "| "
       "%s\n|---|---|---|---|%s\n",
       kCostHeader, kCostRule);
-  blocks_row("3 under 4, regular", 3, 4, 0, options);
-  blocks_row("3 under 4, jittered", 3, 4, kJitter, options);
-  blocks_row("4 under 3, jittered", 4, 3, kJitter, options);
-  blocks_row("7 under 8, jittered", 7, 8, kJitter, options);
-  plate_row("4 under rigid plate, regular", 4, 3, 0, options);
-  plate_row("4 under rigid plate, jittered", 4, 3, kJitter, options);
+  row("3 under 4, regular", press_blocks, 3, 4, 0, options);
+  row("3 under 4, jittered", press_blocks, 3, 4, kJitter, options);
+  row("4 under 3, jittered", press_blocks, 4, 3, kJitter, options);
+  row("7 under 8, jittered", press_blocks, 7, 8, kJitter, options);
+  row("4 under rigid plate, regular", press_under_plate, 4, 3, 0, options);
+  row("4 under rigid plate, jittered", press_under_plate, 4, 3, kJitter, options);
 }
 
 }  // namespace articular::sim

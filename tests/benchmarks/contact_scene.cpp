@@ -4,12 +4,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
 #include "fem/any_material.hpp"
+#include "sim/contact_samples.hpp"
 #include "sim/history.hpp"
 #include "tests/sim/scene.hpp"
 
@@ -34,11 +36,43 @@ std::vector<double> graded(double end, double fine, double h, double growth) {
   return lines;
 }
 
-Model scaled_model(const Scene& scene, const StudyOptions& options) {
+/// Three points, each on the line from a corner to the centre, with this coordinate.
+std::array<SamplePoint, 3> three_points(double at_corner) {
+  std::array<SamplePoint, 3> points;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec3 N = Vec3::Constant(0.5 * (1 - at_corner));
+    N[static_cast<Eigen::Index>(i)] = at_corner;
+    points[i] = {N, 1.0 / 3};
+  }
+  return points;
+}
+
+std::span<const SamplePoint> samples_of(DepthRule rule) {
+  // Beside the corners: on meshes that match, a face's edge would run through them.
+  static const std::array<SamplePoint, 3> inner = three_points(2.0 / 3),
+                                          corners = three_points(1 - 1e-6);
+  switch (rule) {
+    case DepthRule::SevenPoints:
+      return triangle_samples();
+    case DepthRule::ThreePoints:
+      return inner;
+    case DepthRule::Corners:
+      return corners;
+    default:
+      return {};
+  }
+}
+
+Model model_of(const Scene& scene, const StudyOptions& options) {
   Model model = build_model(scene.scenario());
   for (ContactModel& contact : model.contacts) {
-    contact.stiffness_a *= options.stiffness;
-    contact.stiffness_b *= options.stiffness;
+    for (Eigen::VectorXd* stiffness : {&contact.stiffness_a, &contact.stiffness_b})
+      *stiffness *= options.stiffness;
+    if (options.rule == DepthRule::Averaged) continue;
+    contact.averaged = contact.is_bounded = false;
+    contact.samples = samples_of(options.rule);
+    for (Eigen::VectorXd* stiffness : {&contact.stiffness_a, &contact.stiffness_b})
+      stiffness->setConstant(options.stiffness * contact.mean_stiffness);
   }
   return model;
 }
@@ -178,7 +212,7 @@ void Scene::touch(const std::string& a, const std::string& b) {
 }
 
 ContactRun::ContactRun(const Scene& scene, const StudyOptions& options)
-    : model_(scaled_model(scene, options)), stepper_(model_), state_(stepper_.initial()) {}
+    : model_(model_of(scene, options)), stepper_(model_), state_(stepper_.initial()) {}
 
 void ContactRun::step(double t) {
   const auto start = std::chrono::steady_clock::now();

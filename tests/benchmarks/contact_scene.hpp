@@ -12,9 +12,17 @@
 /// Scenes of tissue blocks and rigid indenters, and what is measured in them.
 namespace articular::sim {
 
+/// How depths count: as averages at nodes, which is what statics does; point by point, integrated
+/// exactly; or at samples of each triangle, seven, three or its corners: a nodal penalty.
+enum class DepthRule { Averaged, Pointwise, SevenPoints, ThreePoints, Corners };
+/// As the command line names them, in this order.
+inline constexpr const char* kDepthRules[] = {"averaged", "pointwise", "seven-points",
+                                              "three-points", "corners"};
+
 /// What every contact study takes from the command line.
 struct StudyOptions {
   double stiffness = 1;  // factor on the contact stiffness that the model chooses
+  DepthRule rule = DepthRule::Averaged;
   Material::Element element = Material::Element::Smoothed;
   int finest = 16;  // studies that refine stop at this many elements over their length
 };

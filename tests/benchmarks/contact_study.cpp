@@ -1,4 +1,5 @@
-// tests/benchmarks/contact_study [STUDY]... [stiffness FACTOR] [element plain|smoothed] [finest N]
+// tests/benchmarks/contact_study [STUDY]... [rule RULE] [stiffness FACTOR]
+//                                [element plain|smoothed] [finest N]
 //
 // Verifies contact in static scenes put together in code; prints tables in markdown.
 //
@@ -7,14 +8,18 @@
 //     hertz      a rigid sphere on a large block          cylinders  two of tissue, crossed
 //     layer      a thin layer on bone under a large rigid sphere
 //     lines      a punch with edges pushed across the mesh lines of a block
+//     responses  ways in which depths may count, by three of these scenes
 //
 //     contact_study patch
 //     contact_study drag stiffness 10
 //     contact_study hertz layer element plain
 //
-// Without a study all of them. `stiffness` multiplies the contact stiffness that the model chooses;
-// studies that refine stop at `finest` (default 16) elements over their length.
+// Without a study all of them. `rule` is how depths count: averaged, which is what statics does,
+// pointwise, or at the seven-points, three-points or corners of each triangle. `stiffness`
+// multiplies the contact stiffness that the model chooses; studies that refine stop at `finest`
+// (default 16) elements over their length.
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
@@ -31,9 +36,10 @@ struct Study {
   const char* name;
   void (*run)(const StudyOptions&);
 };
-constexpr Study kStudies[] = {{"patch", study_patch}, {"drag", study_drag},
-                              {"hertz", study_hertz}, {"cylinders", study_cylinders},
-                              {"layer", study_layer}, {"lines", study_lines}};
+constexpr Study kStudies[] = {{"patch", study_patch},        {"drag", study_drag},
+                              {"hertz", study_hertz},        {"cylinders", study_cylinders},
+                              {"layer", study_layer},        {"lines", study_lines},
+                              {"responses", study_responses}};
 
 const Study* find_study(const std::string& name) {
   for (const Study& study : kStudies)
@@ -47,6 +53,10 @@ bool set_option(const std::string& name, const std::string& value, StudyOptions&
     options.stiffness = std::stod(value);
   } else if (name == "element" && (value == "plain" || value == "smoothed")) {
     options.element = value == "plain" ? Material::Element::Plain : Material::Element::Smoothed;
+  } else if (name == "rule") {
+    const auto rule = std::find(std::begin(kDepthRules), std::end(kDepthRules), value);
+    if (rule == std::end(kDepthRules)) return false;
+    options.rule = static_cast<DepthRule>(rule - std::begin(kDepthRules));
   } else if (name == "finest") {
     options.finest = std::stoi(value);
   } else {

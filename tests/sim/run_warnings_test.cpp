@@ -96,32 +96,6 @@ TEST(RunWarnings, EnergyThatWasMadeIsToldWithTheDeepestContact) {
   EXPECT_TRUE(has(told, "max_penetration")) << told;
 }
 
-TEST(RunWarnings, ContactFromTwoSidesIsToldWhereNothingElseHolds) {
-  Scenario s = press(0.8, false);
-  const Body block = s.bodies[2];
-  s.bodies[2] =
-      box_body("block", Body::Kind::Tissue, Vec3::Constant(0.0098), Vec3::Zero(), {2, 2, 2});
-  s.bodies[2].material = block.material;
-  for (const bool two_sided : {false, true}) {
-    for (const bool friction : {false, true}) {
-      s.contact_response = two_sided ? Scenario::Response::TwoSided : Scenario::Response::OneSided;
-      s.contacts.clear();
-      for (const std::string plate : {"floor", "press"}) {
-        ContactPair pair;
-        pair.a = plate;
-        pair.b = "block";
-        pair.friction = friction ? 0.1 : 0;
-        s.contacts.push_back(pair);
-      }
-      Simulation run(s);
-      EXPECT_FALSE(has(all_warnings(run), "from two sides")) << "before anything touches";
-      run.advance(0.1);
-      EXPECT_EQ(has(all_warnings(run), "from two sides"), two_sided && !friction)
-          << two_sided << friction << all_warnings(run);
-    }
-  }
-}
-
 TEST(RunWarnings, EnergyThatWasMadeInBetweenIsTold) {
   Simulation run(column(1e-4, Integrator::Scheme::Dirk3));
   run.advance(0.02);

@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "`lagged`, `margin`, `narrow_test`"},
         Mistake{
             "ResponseOfStatics",
-            "analysis = \"static\"\nduration = \"1 s\"\n@contact_response = \"two-sided\"\n" +
+            "analysis = \"static\"\nduration = \"1 s\"\n@contact_response = \"sampled\"\n" +
                 kBodies,
             "scenario: `contact_response` does not belong here: a static analysis averages depths"},
         Mistake{
