@@ -51,7 +51,7 @@ void ContactStiffness::add_measure_stiffness(const ContactDirection& direction,
     for (int i = 0; i < 3; ++i) {
       const int node = triangles(i, entry.triangle);
       const double p = direction.penalty(node);
-      if (!(p > 0)) continue;
+      if (!(p > 0 && covered[i] > 0)) continue;
       const double energy = p * p / (2 * direction.stiffness(node)) - p * direction.depth[node];
       add_rank_one(
           direction, group_, configuration,
