@@ -69,9 +69,12 @@ Finding heavy(const Bench& bench, double g, double young, bool is_static,
   const double force = std::abs(results.last("floor.force.z [N]"));
   Finding finding = judged(run, std::abs(force / weight - 1), {.right = 0.01, .stable = 0.5},
                            "force on the floor against the weight");
-  finding.measured += fmt::format(
-      "; sideways by {:.2g} of its side",
-      std::hypot(results.last("top.position.x [m]"), results.last("top.position.y [m]")) / kSide);
+  const auto moved = [&](const std::string& column) {
+    return results.last(column) - results.column(column).front();
+  };
+  finding.measured +=
+      fmt::format("; sideways by {:.2g} of its side",
+                  std::hypot(moved("top.position.x [m]"), moved("top.position.y [m]")) / kSide);
   return finding;
 }
 
