@@ -5,6 +5,7 @@ set datafile separator '|'
 file(name) = out . '/' . name . '.txt'
 set grid lc rgb '#dddddd'
 set key below
+set bmargin 10  # room for the keys
 set multiplot layout 1,3
 
 set title 'Hertz: error'
@@ -21,7 +22,7 @@ plot file('hertz') using 2:(abs($4)) with linespoints pt 7 lw 2 lc rgb '#1b9e77'
   file('cylinders') using 2:(abs($7)) with linespoints pt 5 dt 3 lw 2 lc rgb '#d95f02' title 'peak pressure'
 
 set title 'Dragged sphere: ripple of the force'
-set xrange [1.1:5]; set yrange [0.1:4]
+set xrange [1.1:5]; set yrange [0.04:4]
 set xtics (1.3, 2, 3, 4)
 $wanted << END
 2.5|0.5
