@@ -2,15 +2,15 @@
 
 namespace articular::sim {
 
-ContactSides sides_of(const Model& model, int contact, bool reversed) {
+ContactSides sides_of(const Model& model, int contact) {
   const ContactModel& pair = model.contacts[static_cast<std::size_t>(contact)];
   const Collider& a = *model.bodies[static_cast<std::size_t>(pair.a)].collider;
   const Collider& b = *model.bodies[static_cast<std::size_t>(pair.b)].collider;
-  return reversed ? ContactSides{b, a, pair.b, pair.a} : ContactSides{a, b, pair.a, pair.b};
+  return pair.reversed ? ContactSides{b, a, pair.b, pair.a} : ContactSides{a, b, pair.a, pair.b};
 }
 
 ContactSides sides_of(const Model& model, const ContactDirection& direction) {
-  return sides_of(model, direction.contact, direction.reversed);
+  return sides_of(model, direction.contact);
 }
 
 std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider& faces,

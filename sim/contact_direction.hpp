@@ -9,7 +9,7 @@
 #include "sim/contact_friction.hpp"
 #include "sim/contact_patch.hpp"
 
-/// One direction of a contact pair: the patches of a side's triangles opposite the other side's
+/// A contact pair as it stands: the patches of one side's triangles opposite the other side's
 /// faces, and what they sum to at the nodes of those triangles.
 namespace articular::sim {
 
@@ -20,7 +20,6 @@ struct ContactDirection {
     Vec3 measure_slope = Vec3::Zero();  // ∂A_a/∂W_a of the triangle's nodes; pointwise: 0
   };
   int contact = 0;            // index into Model::contacts
-  bool reversed = false;      // the triangles are the contact's second body's
   std::vector<Patch> stored;  // never shrinks: the patches are the first ones
   std::size_t num_patches = 0;
   std::span<const Patch> patches() const { return {stored.data(), num_patches}; }
@@ -51,7 +50,7 @@ struct ContactSides {
   int triangle_body, face_body;
   bool is_self() const { return triangle_body == face_body; }
 };
-ContactSides sides_of(const Model& model, int contact, bool reversed);
+ContactSides sides_of(const Model& model, int contact);
 ContactSides sides_of(const Model& model, const ContactDirection& direction);
 
 /// Whether a node of the triangle has pressure.

@@ -83,13 +83,11 @@ void add_contact(int a, int b, const ContactPair& pair, Model& model) {
         .matrix()
         .eval();
   };
-  if (a == b || looks_first(model, a, b, *A, *B)) {
-    contact.stiffness_a = at_nodes(*A, *B, factor);
-    contact.soft_a = at_nodes(*A, *B, kSoftFactor);
-  } else {
-    contact.stiffness_b = at_nodes(*B, *A, factor);
-    contact.soft_b = at_nodes(*B, *A, kSoftFactor);
-  }
+  contact.reversed = a != b && !looks_first(model, a, b, *A, *B);
+  const Collider& looks = contact.reversed ? *B : *A;
+  const Collider& other = contact.reversed ? *A : *B;
+  contact.stiffness = at_nodes(looks, other, factor);
+  contact.soft = at_nodes(looks, other, kSoftFactor);
   contact.law.friction = pair.friction;
   contact.law.damping = contact.share * pair.damping;
   contact.law.slip_velocity =

@@ -6,15 +6,13 @@
 namespace articular::sim {
 
 ContactResponse::ContactResponse(const Model& model)
-    : model_(model), of_contact_(2 * model.contacts.size(), nullptr) {}
+    : model_(model), of_contact_(model.contacts.size(), nullptr) {}
 
 ContactDirection& ContactResponse::direction_of(const CandidateList& list) {
-  ContactDirection*& known =
-      of_contact_[2 * static_cast<std::size_t>(list.contact) + (list.reversed ? 1 : 0)];
+  ContactDirection*& known = of_contact_[static_cast<std::size_t>(list.contact)];
   if (known != nullptr) return *known;
   ContactDirection& direction = directions_.emplace_back();
   direction.contact = list.contact;
-  direction.reversed = list.reversed;
   const Eigen::Index num_nodes = sides_of(model_, direction).triangles.X.cols();
   for (Eigen::VectorXd* values :
        {&direction.area, &direction.measure, &direction.depth, &direction.pressure})
@@ -49,10 +47,7 @@ void ContactResponse::find_pressures(const Configuration& configuration,
   ++evaluations_[Term::ContactForce];
   const auto c = static_cast<std::size_t>(direction.contact);
   const ContactModel& contact = model_.contacts[c];
-  if (direction.reversed)
-    direction.model_stiffness = soft_ ? &contact.soft_b : &contact.stiffness_b;
-  else
-    direction.model_stiffness = soft_ ? &contact.soft_a : &contact.stiffness_a;
+  direction.model_stiffness = soft_ ? &contact.soft : &contact.stiffness;
   direction.stiffening = stiffening_.size() > 0 ? stiffening_[static_cast<Eigen::Index>(c)] : 1;
   direction.point_stiffness = contact.averaged ? 0 : direction.stiffness(0);
   for (const int node : direction.nodes) {

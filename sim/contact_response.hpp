@@ -90,7 +90,7 @@ class ContactResponse {
   std::vector<double> allowances_;
   Eigen::VectorXd stiffening_;
   std::deque<ContactDirection> directions_;    // all that have had candidates so far
-  std::vector<ContactDirection*> of_contact_;  // two a contact, the second one reversed
+  std::vector<ContactDirection*> of_contact_;  // by contact; none yet: null
   std::vector<ContactDirection*> near_;        // those that have some now
 
   std::vector<double> force_on_bodies_;

@@ -32,11 +32,6 @@ bool tied(const Collider& a, int triangle, const Collider& b, int face) {
   return false;
 }
 
-/// Whether the triangles of the contact's first body, or (reversed) its second, look for faces.
-bool looks(const ContactModel& contact, bool reversed) {
-  return (reversed ? contact.stiffness_b : contact.stiffness_a).size() > 0;
-}
-
 /// Keeps the candidates whose face itself meets the triangle's body. A triangle that passes the
 /// edge of a body also faces that body's far side, which it can't have come through: that side is
 /// outside.
@@ -96,11 +91,8 @@ ContactSearch::ContactSearch(const Model& model) : model_(model) {
   for (const ContactModel& contact : model.contacts) {
     pairs_.push_back({moving_of(contact.a), moving_of(contact.b)});
     if (!contact.averaged) continue;
-    for (const bool reversed : {false, true})
-      if (looks(contact, reversed))
-        open_depth_ = std::max(
-            open_depth_, model.bodies[static_cast<std::size_t>(reversed ? contact.b : contact.a)]
-                             .collider->open_depth);
+    const auto looks = static_cast<std::size_t>(contact.reversed ? contact.b : contact.a);
+    open_depth_ = std::max(open_depth_, model.bodies[looks].collider->open_depth);
   }
 }
 
@@ -161,11 +153,10 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
 }
 
 /// Stays out of the candidates until num_lists_ counts it.
-CandidateList& ContactSearch::next_list(int contact, bool reversed) {
+CandidateList& ContactSearch::next_list(int contact) {
   if (num_lists_ == lists_.size()) lists_.emplace_back();
   CandidateList& list = lists_[num_lists_];
   list.contact = contact;
-  list.reversed = reversed;
   return list;
 }
 
@@ -177,7 +168,7 @@ void ContactSearch::search_itself(int contact, Moving& a, double margin,
   collision::sort_pairs(found_of_a_, *a.tree, *a.tree, sort_scratch_);
   collect(found_of_a_, found_of_a_, a, a,
           model_.contacts[static_cast<std::size_t>(contact)].averaged, margin, of_a_);
-  CandidateList& list = next_list(contact, false);
+  CandidateList& list = next_list(contact);
   list.pairs = of_a_.near;
   merge(of_a_.deep, list.pairs);
   num_lists_ += list.pairs.empty() ? 0 : 1;
@@ -194,19 +185,16 @@ void ContactSearch::search(int contact, Moving& a, Moving& b, double margin,
   collision::faces_in_body(*b.tree, *a.tree, found_of_b_, query, scratch_, options_);
   collision::sort_pairs(found_of_a_, *a.tree, *b.tree, sort_scratch_);
   collision::sort_pairs(found_of_b_, *b.tree, *a.tree, sort_scratch_);
-  // In both directions, even if one side alone looks for the other: what lies deep shows in either.
+  // In both directions, though one side alone looks for the other: what lies deep shows in either.
   const ContactModel& pair = model_.contacts[static_cast<std::size_t>(contact)];
   collect(found_of_a_, found_of_b_, a, b, pair.averaged, margin, of_a_);
   collect(found_of_b_, found_of_a_, b, a, pair.averaged, margin, of_b_);
-  for (const bool reversed : {false, true}) {
-    if (!looks(pair, reversed)) continue;
-    const Direction &own = reversed ? of_b_ : of_a_, &other = reversed ? of_a_ : of_b_;
-    CandidateList& list = next_list(contact, reversed);
-    list.pairs = own.near;
-    merge(own.deep, list.pairs);
-    merge(swapped(other.deep), list.pairs);
-    num_lists_ += list.pairs.empty() ? 0 : 1;
-  }
+  const Direction &own = pair.reversed ? of_b_ : of_a_, &other = pair.reversed ? of_a_ : of_b_;
+  CandidateList& list = next_list(contact);
+  list.pairs = own.near;
+  merge(own.deep, list.pairs);
+  merge(swapped(other.deep), list.pairs);
+  num_lists_ += list.pairs.empty() ? 0 : 1;
 }
 
 void ContactSearch::collect(const std::vector<collision::Penetration>& found,

@@ -14,16 +14,14 @@
 /// pairs of a surface triangle and a facing face of the other body.
 namespace articular::sim {
 
-/// Triangle `s` of body a of the contact pair may touch face `f` of body b (or, reversed, triangle
-/// of b and face of a).
+/// A triangle of the contact's side that looks may touch a face of the other.
 struct ContactCandidate {
   int triangle = 0, face = 0;
   double reach = 0;  // [m] up to this depth the triangle came in through this face
 };
 
 struct CandidateList {
-  int contact = 0;        // index into Model::contacts
-  bool reversed = false;  // the triangles are b's
+  int contact = 0;  // index into Model::contacts
   std::vector<ContactCandidate> pairs;
 };
 
@@ -83,7 +81,7 @@ class ContactSearch {
   };
   void search(int contact, Moving& a, Moving& b, double margin, collision::BlockQueryCounts& query);
   void search_itself(int contact, Moving& a, double margin, collision::BlockQueryCounts& query);
-  CandidateList& next_list(int contact, bool reversed);
+  CandidateList& next_list(int contact);
   /// @param found    triangles of a in tetrahedra of b
   /// @param reverse  of b in a
   void collect(const std::vector<collision::Penetration>& found,

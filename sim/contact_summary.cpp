@@ -34,11 +34,11 @@ void add_to_summary(const Model& model, const ContactDirection& direction,
                     const Configuration& configuration, Counts&& counts, SummarySums& sums) {
   ContactSummary& sum = sums.summary;
   const ContactSides side = sides_of(model, direction);
-  const double share = model.contacts[static_cast<std::size_t>(direction.contact)].share;
+  const ContactModel& contact = model.contacts[static_cast<std::size_t>(direction.contact)];
+  const double share = contact.share;
   const bool is_self = side.is_self();
-  Eigen::VectorXd& through_triangle =
-      direction.reversed && !is_self ? sums.through_b : sums.through_a;
-  Eigen::VectorXd& through_face = direction.reversed || is_self ? sums.through_a : sums.through_b;
+  Eigen::VectorXd& through_triangle = contact.reversed ? sums.through_b : sums.through_a;
+  Eigen::VectorXd& through_face = contact.reversed || is_self ? sums.through_a : sums.through_b;
   const auto& triangles = side.triangles.surface.faces;
   for (const ContactDirection::Patch& entry : direction.patches()) {
     if (!carries(direction, entry.triangle, triangles) || !counts(entry)) continue;
@@ -72,7 +72,7 @@ void add_to_summary(const Model& model, const ContactDirection& direction,
     if (is_self) continue;
     const Vec18 on_nodes = forces_on_nodes(direction, entry, triangles);
     for (int i = 0; i < 3; ++i) {
-      const Vec3 force = (direction.reversed ? -1 : 1) * on_nodes.segment<3>(3 * i);
+      const Vec3 force = (contact.reversed ? -1 : 1) * on_nodes.segment<3>(3 * i);
       sum.force += force;
       sums.moment += x.col(i).cross(force);
     }

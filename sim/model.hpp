@@ -120,10 +120,9 @@ struct ContactModel {
   int a = 0, b = 0;      // bodies; a == b: with itself
   bool averaged = true;  // depths are averaged at the nodes of one side; else pointwise
   std::span<const SamplePoint> samples;  // of each triangle, for all time; empty: exact
-  // At the nodes of a side whose triangles look for faces, times `share` [Pa/m]; else empty.
-  Eigen::VectorXd stiffness_a, stiffness_b;
-  // What an iteration that comes from afar starts with, of the same sizes: softer.
-  Eigen::VectorXd soft_a, soft_b;
+  bool reversed = false;                 // b's triangles look for a's faces
+  Eigen::VectorXd stiffness;   // at the nodes of the side that looks, times `share` [Pa/m]
+  Eigen::VectorXd soft;        // what an iteration that comes from afar starts with
   double mean_stiffness = 0;   // of the two sides in series [Pa/m]
   double max_penetration = 0;  // [m] mean depth at a node that the penalty may take
   bool is_bounded = false;     // where it takes more, it is helped: see ContactResponse

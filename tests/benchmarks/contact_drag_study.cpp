@@ -71,8 +71,7 @@ Ripple push(const Scene& scene, const StudyOptions& options) {
   }
   Ripple ripple = ripple_of(forces);
   ripple.penetration = penetration;
-  ripple.iterations = run.costs().iterations;
-  ripple.costs = cost_columns(run);
+  ripple.costs = run.costs();
   return ripple;
 }
 
@@ -81,7 +80,7 @@ void print_row(const std::string& name, double h, Push&& push) {
   try {
     const Ripple ripple = push();
     std::printf("| %s | %.6f | %.3f | %.3f | %.2f | %s\n", name.c_str(), ripple.mean, ripple.raw,
-                ripple.detrended, 100 * ripple.penetration / h, ripple.costs.c_str());
+                ripple.detrended, 100 * ripple.penetration / h, cost_columns(ripple.costs).c_str());
     std::fflush(stdout);
   } catch (const std::exception& error) {
     print_failure(name, error);

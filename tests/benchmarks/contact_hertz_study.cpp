@@ -90,7 +90,7 @@ void print_row(int elements, const Scene& scene, const StudyOptions& options,
                 error(force, expected.force), error(radius_by_moment(nodes), expected.radius),
                 error(std::sqrt(contact.area / pi), expected.radius),
                 error(peak_pressure(nodes), expected.peak), 100 * contact.penetration / kApproach,
-                cost_columns(run).c_str());
+                cost_columns(run.costs()).c_str());
     std::fflush(stdout);
   } catch (const std::exception& error) {
     print_failure(std::to_string(elements), error);

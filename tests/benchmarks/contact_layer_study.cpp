@@ -44,7 +44,7 @@ LayerResult press_layer(int elements, double nu, const StudyOptions& options) {
   ContactRun run(scene, options);
   run.steps(1, kSteps);
   return {run.contact().force.z(), peak_pressure(run.nodal_contacts("layer", Vec3::UnitZ())),
-          run.contact().penetration, cost_columns(run)};
+          run.contact().penetration, run.costs()};
 }
 
 namespace {
@@ -58,7 +58,7 @@ void print_row(int elements, double nu, const LayerResult& result,
   std::printf("| %d | %.2f | %.5f | %s | %.0f | %s | %.2f | %s\n", elements, nu, result.force,
               error(result.force, reference.force).c_str(), result.peak,
               error(result.peak, reference.peak).c_str(), 100 * result.penetration / kIndentation,
-              result.costs.c_str());
+              cost_columns(result.costs).c_str());
   std::fflush(stdout);
 }
 

@@ -74,8 +74,7 @@ PatchResult result_of(const Scene& scene, const StudyOptions& options) {
   double nodal = spread(run.nodal_contacts("lower", Vec3::UnitZ()));
   if (run.model().tissues.size() > 1)
     nodal = std::max(nodal, spread(run.nodal_contacts("upper", -Vec3::UnitZ())));
-  return {100 * (mean / (kYoung * kPress) - 1), largest_deviation(run, mean), nodal,
-          cost_columns(run)};
+  return {100 * (mean / (kYoung * kPress) - 1), largest_deviation(run, mean), nodal, run.costs()};
 }
 
 PatchResult press_under_plate(int lower, int plate, double part, const StudyOptions& options) {
@@ -93,7 +92,7 @@ void row(const char* name, Press press, int lower, int upper, double part,
   try {
     const PatchResult result = press(lower, upper, part, options);
     std::printf("| %s | %+.4f | %.4f | %.4f | %s\n", name, result.mean, result.deviation,
-                result.nodal, result.costs.c_str());
+                result.nodal, cost_columns(result.costs).c_str());
     std::fflush(stdout);
   } catch (const std::exception& error) {
     print_failure(name, error);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kJitter = 0.2;
 constexpr double kPoisson = 0.3;
 
-/// The table's next cells, of which there are `count`; where there is no solution, why.
+/// The table's next cells, of which there are `count`; dashes where there is no solution.
 void print_cells(int count, const std::function<void()>& print) {
   try {
     print();
@@ -35,7 +35,7 @@ void print_row(DepthRule rule, double stiffness, StudyOptions options) {
     if (cells > options.finest) continue;
     print_cells(3, [&] {
       const Ripple ripple = drag_sphere(cells, 0, options);
-      std::printf(" %.3f | %.2f | %.1f |", ripple.mean, ripple.detrended, ripple.iterations);
+      std::printf(" %.3f | %.2f | %.1f |", ripple.mean, ripple.detrended, ripple.costs.iterations);
     });
   }
   print_cells(2, [&] {

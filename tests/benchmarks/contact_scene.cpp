@@ -66,13 +66,12 @@ std::span<const SamplePoint> samples_of(DepthRule rule) {
 Model model_of(const Scene& scene, const StudyOptions& options) {
   Model model = build_model(scene.scenario());
   for (ContactModel& contact : model.contacts) {
-    for (Eigen::VectorXd* stiffness : {&contact.stiffness_a, &contact.stiffness_b})
-      *stiffness *= options.stiffness;
-    if (options.rule == DepthRule::Averaged) continue;
-    contact.averaged = contact.is_bounded = false;
-    contact.samples = samples_of(options.rule);
-    for (Eigen::VectorXd* stiffness : {&contact.stiffness_a, &contact.stiffness_b})
-      stiffness->setConstant(options.stiffness * contact.mean_stiffness);
+    if (options.rule != DepthRule::Averaged) {
+      contact.averaged = contact.is_bounded = false;
+      contact.samples = samples_of(options.rule);
+      contact.stiffness.setConstant(contact.mean_stiffness);
+    }
+    contact.stiffness *= options.stiffness;
   }
   return model;
 }
@@ -291,8 +290,7 @@ double peak_pressure(const std::vector<NodalContact>& nodes) {
 const char* const kCostHeader = "iterations/step | rejected | s/step |";
 const char* const kCostRule = "---|---|---|";
 
-std::string cost_columns(const ContactRun& run) {
-  const Costs costs = run.costs();
+std::string cost_columns(const Costs& costs) {
   return fmt::format("{:.1f} | {} | {:.2f} |", costs.iterations, costs.rejected, costs.seconds);
 }
 

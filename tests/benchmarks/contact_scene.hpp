@@ -126,7 +126,7 @@ double peak_pressure(const std::vector<NodalContact>& nodes);
 /// The columns that every table ends with.
 extern const char* const kCostHeader;
 extern const char* const kCostRule;
-std::string cost_columns(const ContactRun& run);
+std::string cost_columns(const Costs& costs);
 /// A row that could not be computed: its name and why.
 void print_failure(const std::string& name, const std::exception& error);
 

@@ -8,7 +8,7 @@
 //     hertz      a rigid sphere on a large block          cylinders  two of tissue, crossed
 //     layer      a thin layer on bone under a large rigid sphere
 //     lines      a punch with edges pushed across the mesh lines of a block
-//     responses  ways in which depths may count, by three of these scenes
+//     responses  all rules at three stiffnesses, by three of these scenes
 //
 //     contact_study patch
 //     contact_study drag stiffness 10

@@ -10,7 +10,7 @@ struct PatchResult {
   double mean = 0;       // from the exact one
   double deviation = 0;  // of σ_zz from the mean, largest
   double nodal = 0;      // half the range of the pressure at nodes
-  std::string costs;
+  Costs costs;
 };
 /// @param part  of a cell that nodes are displaced by
 PatchResult press_blocks(int lower, int upper, double part, const StudyOptions& options);
@@ -20,15 +20,14 @@ PatchResult press_blocks(int lower, int upper, double part, const StudyOptions& 
 struct Ripple {
   double mean = 0, raw = 0, detrended = 0;  // [N], [%], [%]
   double penetration = 0;                   // [m]
-  double iterations = 0;                    // of Newton, a step
-  std::string costs;
+  Costs costs;
 };
 Ripple drag_sphere(int cells, double part, const StudyOptions& options);
 
 /// A layer on bone under a sphere.
 struct LayerResult {
   double force = 0, peak = 0, penetration = 0;  // [N], [Pa], [m]
-  std::string costs;
+  Costs costs;
 };
 LayerResult press_layer(int elements, double nu, const StudyOptions& options);
 

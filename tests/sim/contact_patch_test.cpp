@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "patch_triangles.hpp"
 #include "scene.hpp"
 
 namespace articular::sim {
@@ -22,18 +23,6 @@ constexpr DepthRange kRange{10, 10};
 struct Pair {
   Mat3 s, f;
 };
-
-Mat3 large_face() {
-  Mat3 f;
-  f << -20, 20, 0, -20, -20, 30, 0, 0, 0;
-  return f;
-}
-
-Mat3 small_triangle(double depth) {
-  Mat3 s;
-  s << 0, 0, 1, 0, 1, 0, -depth, -depth, -depth;
-  return s;
-}
 
 /// Triangles wholly behind a face that covers them.
 Pair covered_pair(Random& random) {

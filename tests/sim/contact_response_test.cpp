@@ -105,7 +105,7 @@ TEST(AveragedContact, CarriesAtTheNodesOfOneSideOnly) {
   SunkBlock block;
   block.forces(block.y);
   ASSERT_EQ(block.search.candidates().size(), 1U);
-  EXPECT_TRUE(block.search.candidates()[0].reversed);  // the second body's
+  EXPECT_TRUE(block.model.contacts[0].reversed);  // the second body's
   const ContactSummary sum = contact_summaries(block.model, block.response, block.configuration)[0];
   EXPECT_NEAR(sum.area, kSide * kSide, 1e-12);
   EXPECT_GT(sum.max_depth, 0.03 * kSide);

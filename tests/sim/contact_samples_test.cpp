@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "patch_triangles.hpp"
 #include "scene.hpp"
 
 namespace articular::sim {
@@ -12,19 +13,6 @@ namespace {
 
 constexpr DepthRange kBehind{0, 10};
 constexpr double kRestArea = 0.5;
-
-/// A triangle that looks down, by `depth` behind a face that looks up.
-Mat3 triangle_at(double depth) {
-  Mat3 s;
-  s << 0, 0, 1, 0, 1, 0, -depth, -depth, -depth;
-  return s;
-}
-
-Mat3 large_face() {
-  Mat3 f;
-  f << -20, 20, 0, -20, -20, 30, 0, 0, 0;
-  return f;
-}
 
 /// N_0^i N_1^j N_2^k by the rule.
 double sum_of(int i, int j, int k) {
@@ -50,7 +38,7 @@ TEST(TriangleSamples, IntegratePolynomialsUpToTheFifthDegree) {
 TEST(SampledPatch, OfACoveredTriangleIsTheExactOne) {
   Random random(1);
   for (int n = 0; n < 20; ++n) {
-    Mat3 s = triangle_at(0.5);
+    Mat3 s = small_triangle(0.5);
     for (int i = 0; i < 3; ++i) s.col(i) += 0.2 * random.vec3();
     ContactPatch exact, sampled;
     ASSERT_TRUE(
@@ -73,8 +61,8 @@ TEST(SampledPatch, PointsOverEdgesBetweenFacesCountOnce) {
     Mat3 f;
     f << center, around[k], around[(k + 1) % 3];
     ContactPatch patch;
-    if (contact_patch(flat_triangle(triangle_at(0.1)), flat_triangle(f), kRestArea, kBehind, patch,
-                      triangle_samples()))
+    if (contact_patch(flat_triangle(small_triangle(0.1)), flat_triangle(f), kRestArea, kBehind,
+                      patch, triangle_samples()))
       area += patch.area;
   }
   EXPECT_NEAR(area, kRestArea, 1e-12);
@@ -93,7 +81,7 @@ TEST(SampledPatch, TheGradientIsTheDerivativeOfTheEnergy) {
   Random random(2);
   int crossing = 0;
   for (int n = 0; n < 50; ++n) {
-    Mat3 s = triangle_at(0);
+    Mat3 s = small_triangle(0);
     for (int i = 0; i < 3; ++i) s.col(i) += 0.2 * random.vec3();
     ContactPatch patch;
     if (!contact_patch(flat_triangle(s), flat_triangle(large_face()), kRestArea, kBehind, patch,
