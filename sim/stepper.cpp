@@ -181,7 +181,8 @@ bool Stepper::try_step(State& state, double h) {
 
 bool Stepper::try_time_step(State& state, double h) {
   // Implicit Euler and BDF need contacts where the step ends: they are looked for where everything
-  // will be if it moves on as now. A scheme with stages between needs them on the whole way.
+  // will be if it moves on as now. A scheme with stages between needs them on the whole way, and
+  // looks from its middle.
   const Integrator::Scheme scheme = model_.scenario.integrator.scheme;
   const bool only_end =
       scheme == Integrator::Scheme::ImplicitEuler || scheme == Integrator::Scheme::Bdf;
@@ -191,7 +192,7 @@ bool Stepper::try_time_step(State& state, double h) {
     why_ = Rejection::TooFast;
     return false;
   }
-  const Configuration& where = only_end ? end : start_;
+  const Configuration where = only_end ? end : predicted(model_, start_, 0.5 * h);
   bool lags = is_still_found(end);
   state.counts.lagged_steps += lags ? 1 : 0;
   for (;;) {
@@ -211,7 +212,8 @@ bool Stepper::try_time_step(State& state, double h) {
     }
     bool covered = true;
     if (search_) {
-      const double stray = search_->motion_since(dynamics_->configuration());
+      double stray = search_->motion_since(dynamics_->configuration());
+      if (!only_end) stray = std::max(stray, search_->motion_since(start_));
       if (stray > dynamics_->trusted_motion()) {
         ++state.counts.rejected_motion;
         why_ = Rejection::TooFast;
