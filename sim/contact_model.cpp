@@ -13,18 +13,17 @@
 namespace articular::sim {
 namespace {
 
-/// Contact stiffness of a side is this times constrained modulus / element height. Statics ends at
-/// a thousand, where forces no longer depend on it, and begins softer: from afar a stiff iteration
-/// is thrown back and forth. In time, where Newton's iteration ends by how far things still move, a
-/// stiffer contact would turn that into noise of its forces; averaged depths, with the tolerance of
-/// the accurate preset, can be stiffer.
-constexpr double kStaticFactor = 1000, kSoftFactor = 10, kDynamicFactor = 10, kAccurateFactor = 100;
+/// Contact stiffness of a side is this times constrained modulus / element height. From a thousand
+/// on forces of averaged depths no longer depend on it. Statics ends there and begins softer: from
+/// afar a stiff iteration is thrown back and forth. In time, where that ends by how far things still
+/// move, it takes the accurate preset's tolerance: what is left of motion is noise of the forces.
+constexpr double kStiffFactor = 1000, kSoftFactor = 10;
 
 double stiffness_factor(const Scenario& scenario) {
-  if (scenario.analysis == Scenario::Analysis::Static) return kStaticFactor;
-  const bool stiff = scenario.contact_response == Scenario::Response::Averaged &&
-                     scenario.accuracy == Scenario::Accuracy::Accurate;
-  return stiff ? kAccurateFactor : kDynamicFactor;
+  const bool stiff = scenario.analysis == Scenario::Analysis::Static ||
+                     (scenario.contact_response == Scenario::Response::Averaged &&
+                      scenario.accuracy == Scenario::Accuracy::Accurate);
+  return stiff ? kStiffFactor : kSoftFactor;
 }
 
 /// Of the elements at the surface: what friction at 0.7 of its limit creeps in the whole scene.

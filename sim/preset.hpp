@@ -10,6 +10,7 @@ namespace articular::sim {
 /// the step and the tolerance.
 struct Preset {
   Integrator integrator;
+  Scenario::Response contact_response = Scenario::Response::Pointwise;
   /// What came out in mandible/opening-study.toml: largest error of the incisors' path.
   std::string promise;
 };

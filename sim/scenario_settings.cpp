@@ -117,12 +117,13 @@ void read_settings(const TableReader& document, Scenario& scenario) {
   document.may("settling", scenario.settling, read_boolean);
   if (scenario.analysis == Scenario::Analysis::Static)
     document.refuse({"contact_response"}, "a static analysis averages depths");
+  const Preset chosen = preset(scenario.accuracy);
+  scenario.contact_response = chosen.contact_response;
   document.may("contact_response", scenario.contact_response, [](const Node& n) {
     return read_choice<Scenario::Response>(n, {{"pointwise", Scenario::Response::Pointwise},
                                                {"sampled", Scenario::Response::Sampled},
                                                {"averaged", Scenario::Response::Averaged}});
   });
-  const Preset chosen = preset(scenario.accuracy);
   scenario.integrator = chosen.integrator;
   if (const Node* node = document.find("integrator"))
     read_integrator(*node, scenario.analysis, scenario.integrator);

@@ -561,15 +561,19 @@ TEST_F(Presets, SetSchemeStepAndTolerance) {
   const Scenario balanced = read("accuracy = \"balanced\"\n" + kStart);
   EXPECT_EQ(balanced.integrator.step, 1e-3);
   EXPECT_EQ(balanced.integrator.scheme, Integrator::Scheme::ImplicitEuler);
-  const Integrator accurate = read("accuracy = \"accurate\"\n" + kStart).integrator;
-  EXPECT_EQ(accurate.step, 1e-3);
-  EXPECT_EQ(accurate.scheme, Integrator::Scheme::TrBdf2);
-  EXPECT_EQ(accurate.element_tolerance, 5e-5);
+  EXPECT_EQ(balanced.contact_response, Scenario::Response::Pointwise);
+  const Scenario accurate = read("accuracy = \"accurate\"\n" + kStart);
+  EXPECT_EQ(accurate.integrator.step, 1e-3);
+  EXPECT_EQ(accurate.integrator.scheme, Integrator::Scheme::TrBdf2);
+  EXPECT_EQ(accurate.integrator.element_tolerance, 5e-5);
+  EXPECT_EQ(accurate.contact_response, Scenario::Response::Averaged);
 }
 
-TEST_F(Presets, GiveWayToTheIntegratorTable) {
-  const Integrator integrator =
-      read("accuracy = \"accurate\"\n" + kStart + "[integrator]\nstep = \"4 ms\"\n").integrator;
+TEST_F(Presets, GiveWayToWhatTheScenarioSays) {
+  const Scenario scenario = read("accuracy = \"accurate\"\ncontact_response = \"pointwise\"\n" +
+                                 kStart + "[integrator]\nstep = \"4 ms\"\n");
+  EXPECT_EQ(scenario.contact_response, Scenario::Response::Pointwise);
+  const Integrator& integrator = scenario.integrator;
   EXPECT_EQ(integrator.step, 4e-3);
   EXPECT_EQ(integrator.element_tolerance, 5e-5);
   EXPECT_FALSE(integrator.position_tolerance.has_value());
