@@ -10,6 +10,7 @@
 
 #include "sim/error.hpp"
 #include "sim/held_bone.hpp"
+#include "sim/line_search.hpp"
 #include "sim/linear_solver.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/stopwatch.hpp"
@@ -22,9 +23,6 @@ using sundials::check;
 using sundials::guarded;
 using sundials::view;
 
-/// The slope along a correction has to fall to this part before the correction is taken.
-constexpr double kSlopeFall = 0.8;
-constexpr int kMostTrials = 8;
 /// A full correction below this part of what may move in one changes nothing: where nothing is
 /// strained, forces are round-off, and their balance says nothing.
 constexpr double kNoMotion = 1e-10;
@@ -234,17 +232,11 @@ double Equilibrium::Solver::largest_displacement(const Eigen::VectorXd& u) const
 /// The part of a correction from before_ to take.
 double Equilibrium::Solver::line_search(const Eigen::VectorXd& direction) {
   const double motion = largest_displacement(direction);
-  double s = motion > dynamics_.trusted_motion() ? dynamics_.trusted_motion() / motion : 1;
-  const double slope = direction.dot(r_before_);
-  if (!(slope < 0)) return s;  // not downhill: nothing to search for
-  for (int trial = 0; trial < kMostTrials; ++trial) {
-    trial_ = before_ + s * direction;
-    const double there = direction.dot(searched_residual(s));
-    if (there <= -kSlopeFall * slope) return s;  // false for NaN
-    const double secant = std::isfinite(there) ? slope / (slope - there) : 0.25;
-    s *= std::clamp(secant, 0.1, 0.5);
-  }
-  return s;
+  const double most = motion > dynamics_.trusted_motion() ? dynamics_.trusted_motion() / motion : 1;
+  return searched_part(most, direction.dot(r_before_), [&](double part) {
+    trial_ = before_ + part * direction;
+    return direction.dot(searched_residual(part));
+  });
 }
 
 int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b,

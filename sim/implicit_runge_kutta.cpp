@@ -38,6 +38,7 @@ class ImplicitRungeKutta final : public TimeIntegrator {
     newton_.restart();
     keep_matrix_ = false;
     acceleration_.setZero();
+    t_landing_.reset();
   }
   const SolverCounts& counts() const override { return counts_; }
   double solve_seconds() const override { return newton_.solve_seconds(); }
@@ -50,6 +51,10 @@ class ImplicitRungeKutta final : public TimeIntegrator {
                           realtype tolerance, N_Vector weights, void* data);
   static int predict_stage(realtype t, N_Vector z, void* data);
   [[nodiscard]] bool evolve(const Eigen::VectorXd& start, double t, double h);
+  [[nodiscard]] bool evolve_by_either_tangent(const Eigen::VectorXd& start, double t, double h);
+  [[nodiscard]] bool evolve_from_soft_contact(const Eigen::VectorXd& start, double t, double h);
+  Eigen::VectorXd mean_acceleration(const Eigen::VectorXd& start, const Eigen::VectorXd& end,
+                                    double h) const;
 
   const Model& model_;
   Dynamics& dynamics_;
@@ -58,8 +63,10 @@ class ImplicitRungeKutta final : public TimeIntegrator {
   double step_ = 0;     // [s] being tried
   double t_start_ = 0;  // [s] of that step
   bool keep_matrix_ = false;
-  Eigen::VectorXd acceleration_;  // mean of the last step, zero if there is none
-  std::exception_ptr error_;      // thrown below a C callback
+  const bool has_stiff_contact_;
+  std::optional<double> t_landing_;  // [s] a step from there is known to need soft contact first
+  Eigen::VectorXd acceleration_;     // mean of the last step, zero if there is none
+  std::exception_ptr error_;         // thrown below a C callback
   sundials::Context context_;
   sundials::Vector y_;
   sundials::Solver solver_;
@@ -151,6 +158,9 @@ ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics)
     : model_(model),
       dynamics_(dynamics),
       newton_(model, dynamics),
+      has_stiff_contact_(std::any_of(
+          model.contacts.begin(), model.contacts.end(),
+          [](const ContactModel& contact) { return contact.soft != contact.stiffness; })),
       acceleration_(Eigen::VectorXd::Zero(3 * model.layout.num_unknown_blocks())),
       context_(sundials::make_context()),
       y_(sundials::make_vector(model.layout.size(), context_)),
@@ -205,17 +215,46 @@ bool ImplicitRungeKutta::evolve(const Eigen::VectorXd& start, double t, double h
   return view(y_).allFinite();
 }
 
-std::optional<double> ImplicitRungeKutta::advance(Eigen::VectorXd& y, double t, double h) {
-  step_ = h;
-  t_start_ = t;
-  // Over a jump of the active contacts the Gauss–Newton matrix may get where the consistent one,
-  // whose curvature is of the wrong side, does not: it has a try before the step is shortened.
-  bool done = false;
+/// Over a jump of the active contacts the Gauss–Newton matrix may get where the consistent one,
+/// whose curvature is of the wrong side, does not: it has a try before the step is shortened.
+bool ImplicitRungeKutta::evolve_by_either_tangent(const Eigen::VectorXd& start, double t,
+                                                  double h) {
   for (const fem::Tangent tangent : {fem::Tangent::Consistent, fem::Tangent::Projected}) {
     newton_.begin_step(keep_matrix_, tangent);
     keep_matrix_ = false;  // after a failure
-    done = evolve(y, t, h);
-    if (done || newton_.used_projected_only()) break;
+    if (evolve(start, t, h)) return true;
+    if (newton_.used_projected_only()) break;
+  }
+  return false;
+}
+
+/// Where bodies land, stiff contact throws the iteration back and forth: it starts from where the
+/// step leads with soft contact, as statics does.
+bool ImplicitRungeKutta::evolve_from_soft_contact(const Eigen::VectorXd& start, double t,
+                                                  double h) {
+  dynamics_.set_soft_contact(true);
+  const bool landed = evolve_by_either_tangent(start, t, h);
+  dynamics_.set_soft_contact(false);
+  if (!landed) return false;
+  acceleration_ = mean_acceleration(start, view(y_), h);
+  newton_.search_lines(true);
+  const bool done = evolve_by_either_tangent(start, t, h);
+  newton_.search_lines(false);
+  return done;
+}
+
+Eigen::VectorXd ImplicitRungeKutta::mean_acceleration(const Eigen::VectorXd& start,
+                                                      const Eigen::VectorXd& end, double h) const {
+  return (end - start).segment(model_.layout.velocities(), acceleration_.size()) / h;
+}
+
+std::optional<double> ImplicitRungeKutta::advance(Eigen::VectorXd& y, double t, double h) {
+  step_ = h;
+  t_start_ = t;
+  bool done = t_landing_ != t && evolve_by_either_tangent(y, t, h);
+  if (!done && has_stiff_contact_) {
+    t_landing_ = t;
+    done = evolve_from_soft_contact(y, t, h);
   }
   if (!done) {
     acceleration_.setZero();
@@ -224,14 +263,13 @@ std::optional<double> ImplicitRungeKutta::advance(Eigen::VectorXd& y, double t, 
   }
   ++counts_.steps;
   keep_matrix_ = true;
-  const int first = model_.layout.velocities();
   const Eigen::VectorXd before = y;
   y = view(y_);
   for (int r = 0; r < model_.layout.num_rigid; ++r)
     y.segment<4>(model_.layout.bone_q(r)).normalize();
   if (model_.scenario.integrator.scheme == Integrator::Scheme::ImplicitEuler)
     keep_angular_momentum(model_, before, h, y);
-  acceleration_ = (y - before).segment(first, acceleration_.size()) / h;
+  acceleration_ = mean_acceleration(before, y, h);
   return t + h;
 }
 

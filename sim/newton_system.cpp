@@ -5,6 +5,7 @@
 
 #include "sim/contact_imbalance.hpp"
 #include "sim/held_bone.hpp"
+#include "sim/line_search.hpp"
 #include "sim/newton_weights.hpp"
 #include "sim/stopwatch.hpp"
 
@@ -45,6 +46,7 @@ NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
 void NewtonSystem::restart() {
   solver_ = make_linear_solver(model_);
   gamma_ = 0;
+  searches_ = false;
 }
 
 void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
@@ -114,13 +116,17 @@ double NewtonSystem::largest_motion(double gamma) const {
   return gamma * std::sqrt(largest);
 }
 
+bool NewtonSystem::is_at_end(double gamma) const {
+  constexpr double kOfTolerance = 0.1;
+  return imbalance_ <= 1 && largest_motion(gamma) <= kOfTolerance * model_.position_tolerance;
+}
+
 double NewtonSystem::step_fraction(double gamma) const {
   const double motion = largest_motion(gamma);
   return motion > dynamics_.trusted_motion() ? dynamics_.trusted_motion() / motion : 1;
 }
 
 bool NewtonSystem::accelerate(double gamma) {
-  constexpr double kEnd = 0.1;  // of the tolerance: Newton's own correction ends the iteration
   // Tissue alone is left to Newton's method: a block that was inside out was accelerated into an
   // equilibrium that is none to stay in.
   if (!dynamics_.touches()) {
@@ -130,9 +136,29 @@ bool NewtonSystem::accelerate(double gamma) {
   dynamics_.multiply_mass(w_, mass_rhs_);
   anderson_.see(w_, mass_rhs_);
   if (!anderson_.is_slow()) return false;
-  if (imbalance_ <= 1 && largest_motion(gamma) <= kEnd * model_.position_tolerance) return false;
+  if (is_at_end(gamma)) return false;  // by Newton's own correction
   anderson_.improve(w_);
   return true;
+}
+
+/// The energy is the one that an implicit step makes least. Its slope along w is −wᵀ r with the
+/// right hand side r of solve(), which along w changes by γ times the forces' change less part * M
+/// w.
+double NewtonSystem::searched_fraction(double most, const double* y, double gamma, const double* x,
+                                       SolverCounts& counts) {
+  if (!dynamics_.touches() || is_at_end(gamma)) return most;
+  const Eigen::Map<const Eigen::VectorXd> start(y, model_.layout.size());
+  const Eigen::Map<const Eigen::VectorXd> way(x, model_.layout.size());
+  const double t = dynamics_.configuration().t;
+  dynamics_.multiply_mass(w_, weighted_);
+  const double slope = -w_.dot(mass_rhs_), inertia = w_.dot(weighted_);
+  forces_ = dynamics_.forces().head(w_.size());
+  return searched_part(most, slope, [&](double part) {
+    ++counts.force_evaluations;
+    trial_ = start + part * way;
+    dynamics_.evaluate(trial_.data(), t);
+    return slope + part * inertia - gamma * w_.dot(dynamics_.forces().head(w_.size()) - forces_);
+  });
 }
 
 bool NewtonSystem::solve(const double* y, double gamma, const double* b, double* x,
@@ -191,9 +217,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     auto own = w_.segment<6>(3 * bone.block);
     own = (free_part(bone, own) + given - free_part(bone, given)).eval();
   }
-  const bool accelerated = may_accelerate_ && accelerate(gamma);
-  const double scale = step_fraction(gamma);
-  if (may_accelerate_) anderson_.took(scale, w_);
+  const bool accelerated = may_accelerate_ && !searches_ && accelerate(gamma);
 
   Eigen::Map<Eigen::VectorXd>(x, 3 * layout.num_free_nodes) =
       gamma * w_.head(3 * layout.num_free_nodes);
@@ -215,6 +239,9 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     x_q[3] = dq.z() + growth * q.z();
   }
   dynamics_.correct_lags(b, gamma, w_, x);
+  double scale = step_fraction(gamma);
+  if (searches_) scale = searched_fraction(scale, y, gamma, x, counts);
+  if (may_accelerate_) anderson_.took(scale, w_);
   changed_ = accelerated || scale < 1;
   if (scale < 1) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;
   return true;

@@ -25,6 +25,9 @@ class NewtonSystem {
   /// A new step begins; with `keep_matrix` the last one's matrix may serve its first iteration.
   /// @param tangent  Projected: does without the consistent one
   void begin_step(bool keep_matrix, fem::Tangent tangent);
+  /// From now on, corrections go as far as a line search lets them (line_search.hpp): for stiff
+  /// contact, near its solution. Afar, it would creep from each contact that closes to the next.
+  void search_lines(bool searches) { searches_ = searches; }
   /// An iteration begins, of a step or one of its stages, that may be accelerated (anderson.hpp)
   /// where it is slow.
   void begin_iteration();
@@ -46,6 +49,11 @@ class NewtonSystem {
   bool needs_matrix(double gamma) const;
   /// Part of the correction w that stays within Dynamics::trusted_motion().
   double step_fraction(double gamma) const;
+  /// w is far below the tolerance, and what touches in balance.
+  bool is_at_end(double gamma) const;
+  /// Part of the correction w to take, which is x for the whole state y; at most the given one.
+  double searched_fraction(double most, const double* y, double gamma, const double* x,
+                           SolverCounts& counts);
   /// Makes w better where the iteration is slow. @return whether it did
   bool accelerate(double gamma);
   /// How far w moves a node or bone at most [m].
@@ -59,6 +67,7 @@ class NewtonSystem {
   Dynamics& dynamics_;
   std::unique_ptr<fem::LinearSolver> solver_;
   Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_;
+  Eigen::VectorXd weighted_, forces_, trial_;        // of the line search
   double gamma_ = 0;                                 // of the matrix that is factored; 0: none
   std::uint64_t pattern_ = 0;                        // of that matrix
   fem::Tangent tangent_ = fem::Tangent::Consistent;  // of that matrix
@@ -67,6 +76,7 @@ class NewtonSystem {
   int iteration_ = 0;                                // in this step
   bool changed_ = false;                             // the last correction, see changed()
   bool may_accelerate_ = false;                      // in this step
+  bool searches_ = false;                            // see search_lines()
   Anderson anderson_;
   double imbalance_ = 0;                     // see imbalance()
   double residual_ = 0, last_residual_ = 0;  // of this iteration and the one before

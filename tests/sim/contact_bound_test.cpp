@@ -139,5 +139,29 @@ TEST(ContactResponses, AveragedInTimeRestWhereStaticsDoes) {
   EXPECT_NEAR(stiff, still, 1e-4 * still);
 }
 
+// A ball of 20 kg/l falls 0.2 mm onto a layer, in steps of 10 ms: from a gap, iterations with stiff
+// contact don't come to an end, and only those that start from soft contact do.
+TEST(ContactResponses, StiffContactLandsWithoutShorterSteps) {
+  Scenario s = contact_scene(10e-3);
+  s.accuracy = Scenario::Accuracy::Accurate;
+  s.contact_response = Scenario::Response::Averaged;
+  s.integrator.element_tolerance = 5e-5;
+  s.bodies = {stand("plate"),
+              box_body("layer", Body::Kind::Tissue, {0.02, 0.02, 0.01}, {0, 0, 5e-3}, {10, 10, 5}),
+              Body{}};
+  s.bodies[1].material = neo_hookean(20e3, 0.3);
+  Body& ball = s.bodies[2];
+  ball.name = "ball";
+  ball.kind = Body::Kind::Rigid;
+  ball.density = 20e3;
+  ball.sphere = SphereGeometry{0.01, 2e-3, {0, 0, 0.0202}};
+  s.attachments = {attach("layer", "plate", {-1, -1, -1e-4}, {1, 1, 1e-4})};
+  s.loads = {gravity({0, 0, -9.81})};
+  Simulation run(s);
+  run.advance(0.05);
+  EXPECT_EQ(run.state.counts.rejected_newton, 0);
+  EXPECT_GT(run.stepper.dynamics().contact_summary(0).force.norm(), 0.1);
+}
+
 }  // namespace
 }  // namespace articular::sim
