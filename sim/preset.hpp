@@ -11,7 +11,8 @@ namespace articular::sim {
 struct Preset {
   Integrator integrator;
   Scenario::Response contact_response = Scenario::Response::Pointwise;
-  /// What came out in mandible/opening-study.toml: largest error of the incisors' path.
+  /// What came out in mandible/opening-study.toml: largest error of the incisors' path, and that of
+  /// the mean force on the joint.
   std::string promise;
 };
 

@@ -98,28 +98,29 @@ double told(const Assessment& assessment, std::size_t i) {
   return std::isfinite(assessment.uncertainty) ? std::max(error, assessment.uncertainty) : error;
 }
 
+/// Errors that differ by less count as equal: their tables would not show it.
+constexpr double kNearer = 0.99;
+
 void find_front(const std::vector<StudyCase>& cases, Assessment& assessment) {
-  const auto takes_part = [&](std::size_t i) {
-    return cases[i].reference < 0 && std::isfinite(assessment.cases[i].error);
-  };
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (!takes_part(i)) continue;
-    CaseAssessment& mine = assessment.cases[i];
-    mine.on_front = true;
-    for (std::size_t j = 0; j < cases.size(); ++j) {
-      if (j == i || !takes_part(j)) continue;
-      const double time = assessment.cases[j].time;
-      const bool as_good = time <= mine.time && told(assessment, j) <= told(assessment, i);
-      const bool better = time < mine.time || told(assessment, j) < told(assessment, i) || j < i;
-      if (as_good && better) mine.on_front = false;
-    }
+  std::vector<std::size_t> order;  // of those that take part, from cheap to dear
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    if (cases[i].reference < 0 && std::isfinite(assessment.cases[i].error)) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(assessment.cases[a].time, told(assessment, a)) <
+           std::pair(assessment.cases[b].time, told(assessment, b));
+  });
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : order) {
+    assessment.cases[i].on_front = told(assessment, i) < kNearer * nearest;
+    if (assessment.cases[i].on_front) nearest = told(assessment, i);
   }
   const std::vector<std::size_t> best = front(assessment);
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (!takes_part(i) || assessment.cases[i].on_front) continue;
-    for (const std::size_t j : best)
-      if (assessment.cases[i].better < 0 && told(assessment, j) <= told(assessment, i))
-        assessment.cases[i].better = static_cast<int>(j);
+  for (const std::size_t i : order) {
+    if (assessment.cases[i].on_front) continue;
+    const auto better = std::find_if(best.begin(), best.end(), [&](std::size_t j) {
+      return kNearer * told(assessment, j) <= told(assessment, i);
+    });
+    assessment.cases[i].better = static_cast<int>(*better);
   }
 }
 

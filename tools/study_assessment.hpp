@@ -27,8 +27,9 @@ struct Assessment {
   std::vector<CaseAssessment> cases;
 };
 
-/// Compares what the cases left in their folders with what is right. An error below the
-/// uncertainty of the reference counts as one of that size on the front.
+/// Compares what the cases left in their folders with what is right. On the front an error below
+/// the uncertainty of the reference counts as one of that size, and errors within a hundredth of
+/// each other as equal.
 /// @throws sim::SimulationError  when a reference did not finish
 /// @throws sim::InputError       when an output is not in the results
 Assessment assess(const Study& study, const std::vector<StudyCase>& cases,

@@ -151,6 +151,15 @@ TEST_F(FrontTest, AFailedCaseIsNotOnIt) {
   EXPECT_TRUE(std::isnan(assessment.cases[1].error));
 }
 
+TEST_F(FrontTest, AHundredthNearerIsNotNearer) {
+  add(1, 1.2);
+  add(2, 1.199);  // 1: as near as 0
+  add(3, 1.195);  // 2: nearer than 0, though hardly than 1
+  const Assessment assessment = assessed();
+  EXPECT_EQ(front(assessment), (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(assessment.cases[1].better, 0);
+}
+
 // Nearer than the reference is known does not count as nearer.
 TEST_F(FrontTest, ErrorsBelowTheUncertaintyAreEqual) {
   add(1, 1.001);
