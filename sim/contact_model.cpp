@@ -15,8 +15,9 @@ namespace {
 
 /// Contact stiffness of a side is this times constrained modulus / element height. From a thousand
 /// on forces of averaged depths no longer depend on it. Statics ends there and begins softer: from
-/// afar a stiff iteration is thrown back and forth. In time, where that ends by how far things still
-/// move, it takes the accurate preset's tolerance: what is left of motion is noise of the forces.
+/// afar a stiff iteration is thrown back and forth. In time, where that ends by how far things
+/// still move, it takes the accurate preset's tolerance: what is left of motion is noise of the
+/// forces.
 constexpr double kStiffFactor = 1000, kSoftFactor = 10;
 
 double stiffness_factor(const Scenario& scenario) {

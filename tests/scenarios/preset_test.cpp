@@ -1,5 +1,5 @@
-// fast, balanced and accurate are ordered in error, on scenes that set nothing of what they set but,
-// where errors in time are compared, how contact counts depths.
+// fast, balanced and accurate are ordered in error, on scenes that set nothing of what they set
+// but, where errors in time are compared, how contact counts depths.
 #include <gtest/gtest.h>
 
 #include <cmath>
