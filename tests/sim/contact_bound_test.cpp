@@ -148,13 +148,8 @@ TEST(ContactResponses, StiffContactLandsWithoutShorterSteps) {
   s.integrator.element_tolerance = 5e-5;
   s.bodies = {stand("plate"),
               box_body("layer", Body::Kind::Tissue, {0.02, 0.02, 0.01}, {0, 0, 5e-3}, {10, 10, 5}),
-              Body{}};
+              ball_body(20e3, {0.01, 2e-3, {0, 0, 0.0202}})};
   s.bodies[1].material = neo_hookean(20e3, 0.3);
-  Body& ball = s.bodies[2];
-  ball.name = "ball";
-  ball.kind = Body::Kind::Rigid;
-  ball.density = 20e3;
-  ball.sphere = SphereGeometry{0.01, 2e-3, {0, 0, 0.0202}};
   s.attachments = {attach("layer", "plate", {-1, -1, -1e-4}, {1, 1, 1e-4})};
   s.loads = {gravity({0, 0, -9.81})};
   Simulation run(s);

@@ -84,14 +84,9 @@ TEST(DeepContact, AHeavyBallThrownIntoASlabComesOutWhereItCameIn) {
   Scenario s = contact_scene(0.5e-3);
   s.bodies = {stand("floor"),
               box_body("slab", Body::Kind::Tissue, {0.1, 0.1, 0.04}, {0, 0, -0.02}, {8, 8, 4}),
-              Body{}};
+              ball_body(10e3, {0.012, 5e-3, {1e-3, 2e-3, 0.0125}})};
   s.bodies[1].material = neo_hookean(50e3, 0.3);
-  Body& ball = s.bodies[2];
-  ball.name = "ball";
-  ball.kind = Body::Kind::Rigid;
-  ball.density = 10e3;
-  ball.sphere = SphereGeometry{0.012, 5e-3, {1e-3, 2e-3, 0.0125}};
-  ball.velocity = {0, 0, -4};
+  s.bodies[2].velocity = {0, 0, -4};
   s.attachments = {attach("slab", "floor", {-1, -1, -0.041}, {1, 1, -0.039})};
   Simulation run(s);
   double lowest = 0, end = 0;

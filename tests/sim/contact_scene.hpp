@@ -32,6 +32,16 @@ inline Body mesh_body(const std::string& name, Body::Kind kind, const MeshData& 
   return body;
 }
 
+/// A rigid one.
+inline Body ball_body(double density, const SphereGeometry& sphere) {
+  Body ball;
+  ball.name = "ball";
+  ball.kind = Body::Kind::Rigid;
+  ball.density = density;
+  ball.sphere = sphere;
+  return ball;
+}
+
 /// The elements of a box whose centres keep() accepts.
 template <class Keep>
 MeshData carved(const BoxGeometry& box, Keep&& keep) {
