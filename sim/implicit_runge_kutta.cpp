@@ -38,7 +38,7 @@ class ImplicitRungeKutta final : public TimeIntegrator {
     newton_.restart();
     keep_matrix_ = false;
     acceleration_.setZero();
-    from_afar_ = false;
+    t_landing_.reset();
   }
   const SolverCounts& counts() const override { return counts_; }
   double solve_seconds() const override { return newton_.solve_seconds(); }
@@ -64,9 +64,9 @@ class ImplicitRungeKutta final : public TimeIntegrator {
   double t_start_ = 0;  // [s] of that step
   bool keep_matrix_ = false;
   const bool has_stiff_contact_;
-  bool from_afar_ = false;        // the next step starts from soft contact
-  Eigen::VectorXd acceleration_;  // mean of the last step, zero if there is none
-  std::exception_ptr error_;      // thrown below a C callback
+  std::optional<double> t_landing_;  // [s] a step from there is known to need soft contact first
+  Eigen::VectorXd acceleration_;     // mean of the last step, zero if there is none
+  std::exception_ptr error_;         // thrown below a C callback
   sundials::Context context_;
   sundials::Vector y_;
   sundials::Solver solver_;
@@ -229,22 +229,17 @@ bool ImplicitRungeKutta::evolve_by_either_tangent(const Eigen::VectorXd& start, 
 }
 
 /// Where bodies land, stiff contact throws the iteration back and forth: it starts from where the
-/// step leads with soft contact, as statics does. So do the steps that follow, until it takes a few
-/// iterations from there.
+/// step leads with soft contact, as statics does.
 bool ImplicitRungeKutta::evolve_from_soft_contact(const Eigen::VectorXd& start, double t,
                                                   double h) {
-  constexpr int kFew = 5;
-  from_afar_ = true;
   dynamics_.set_soft_contact(true);
   const bool landed = evolve_by_either_tangent(start, t, h);
   dynamics_.set_soft_contact(false);
   if (!landed) return false;
   acceleration_ = mean_acceleration(start, view(y_), h);
   newton_.search_lines(true);
-  const auto before = counts_.newton_iterations;
   const bool done = evolve_by_either_tangent(start, t, h);
   newton_.search_lines(false);
-  from_afar_ = !done || counts_.newton_iterations - before > kFew;
   return done;
 }
 
@@ -256,8 +251,11 @@ Eigen::VectorXd ImplicitRungeKutta::mean_acceleration(const Eigen::VectorXd& sta
 std::optional<double> ImplicitRungeKutta::advance(Eigen::VectorXd& y, double t, double h) {
   step_ = h;
   t_start_ = t;
-  bool done = !from_afar_ && evolve_by_either_tangent(y, t, h);
-  if (!done && has_stiff_contact_) done = evolve_from_soft_contact(y, t, h);
+  bool done = t_landing_ != t && evolve_by_either_tangent(y, t, h);
+  if (!done && has_stiff_contact_) {
+    t_landing_ = t;
+    done = evolve_from_soft_contact(y, t, h);
+  }
   if (!done) {
     acceleration_.setZero();
     ++counts_.rejected_newton;
