@@ -10,8 +10,7 @@ Preset preset(Scenario::Accuracy accuracy) {
       integrator.step = 2e-3;
       preset.promise =
           "within 0.5 mm of a converged run where a jaw opens by 34 mm, and 4 % of the force on "
-          "its "
-          "joint, at 0.9 of the time of balanced";
+          "its joint, at 0.9 of the time of balanced";
       break;
     case Scenario::Accuracy::Balanced:
       preset.promise =
