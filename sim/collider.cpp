@@ -7,6 +7,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/contact_patch.hpp"
+#include "sim/smooth_sheets.hpp"
+
 namespace articular::sim {
 namespace {
 
@@ -153,6 +156,9 @@ void complete_collider(Collider& collider, const std::vector<char>& is_outer) {
     collider.face_area[f] =
         0.5 * (collider.X.col(face[1]) - a).cross(collider.X.col(face[2]) - a).norm();
   }
+
+  // Faces that are farther from parallel don't face the same one.
+  collider.sheet_node = number_sheets(collider.X, faces, kFacingNone, collider.sheets);
 
   // Mean height of the elements that have a face on the surface, over that face.
   collider.height.setZero(num_nodes);

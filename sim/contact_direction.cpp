@@ -25,9 +25,9 @@ std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider
   return nodes;
 }
 
-bool carries(const ContactDirection& direction, int triangle, const Eigen::Matrix3Xi& faces) {
-  return direction.pressure[faces(0, triangle)] > 0 || direction.pressure[faces(1, triangle)] > 0 ||
-         direction.pressure[faces(2, triangle)] > 0;
+bool carries(const ContactDirection& direction, int triangle, const Eigen::Matrix3Xi& sheets) {
+  return direction.pressure[sheets(0, triangle)] > 0 ||
+         direction.pressure[sheets(1, triangle)] > 0 || direction.pressure[sheets(2, triangle)] > 0;
 }
 
 Mat3 corners_of(const Configuration& configuration, const Collider& collider, int face) {
@@ -39,57 +39,57 @@ Mat3 corners_of(const Configuration& configuration, const Collider& collider, in
 }
 
 Vec3 nodal_pressures(const ContactDirection& direction, const ContactDirection::Patch& entry,
-                     const Eigen::Matrix3Xi& faces) {
+                     const Eigen::Matrix3Xi& sheets) {
   Vec3 p;
   for (int i = 0; i < 3; ++i) {
-    const int node = faces(i, entry.triangle);
-    p[i] = direction.pressure[node];
+    const int sheet = sheets(i, entry.triangle);
+    p[i] = direction.pressure[sheet];
     if (!(direction.point_stiffness > 0)) continue;
     p[i] = direction.point_stiffness * entry.patch.depth[i];
-    if (!direction.drag.empty()) p[i] += direction.drag[static_cast<std::size_t>(node)].pressure;
+    if (!direction.drag.empty()) p[i] += direction.drag[static_cast<std::size_t>(sheet)].pressure;
   }
   return p;
 }
 
 Vec3 turning_depths(const ContactDirection& direction, const ContactDirection::Patch& entry,
-                    const Eigen::Matrix3Xi& faces) {
+                    const Eigen::Matrix3Xi& sheets) {
   if (entry.patch.turning == 0) return Vec3::Zero();
   Vec3 depths = depth_integrals(entry.patch);
   const Vec3 measures = entry.measure_slope.cwiseProduct(nodal_areas(entry.patch));
-  for (int i = 0; i < 3; ++i) depths[i] -= direction.depth[faces(i, entry.triangle)] * measures[i];
+  for (int i = 0; i < 3; ++i) depths[i] -= direction.depth[sheets(i, entry.triangle)] * measures[i];
   return depths;
 }
 
 double turning_energy(const ContactDirection& direction, const ContactDirection::Patch& entry,
-                      const Eigen::Matrix3Xi& faces) {
+                      const Eigen::Matrix3Xi& sheets) {
   if (entry.patch.turning == 0) return 0;
   if (direction.point_stiffness > 0) return patch_energy(entry.patch, direction.point_stiffness);
-  const Vec3 depths = turning_depths(direction, entry, faces);
+  const Vec3 depths = turning_depths(direction, entry, sheets);
   const Vec3 measures = entry.measure_slope.cwiseProduct(nodal_areas(entry.patch));
   double energy = 0;
   for (int i = 0; i < 3; ++i) {
-    const int node = faces(i, entry.triangle);
-    const double p = direction.penalty(node);
-    energy += p * depths[i] + p * p / (2 * direction.stiffness(node)) * measures[i];
+    const int sheet = sheets(i, entry.triangle);
+    const double p = direction.penalty(sheet);
+    energy += p * depths[i] + p * p / (2 * direction.stiffness(sheet)) * measures[i];
   }
   return energy;
 }
 
 Vec18 forces_on_nodes(const ContactDirection& direction, const ContactDirection::Patch& entry,
-                      const Eigen::Matrix3Xi& faces) {
-  double turning = turning_energy(direction, entry, faces);
+                      const Eigen::Matrix3Xi& sheets) {
+  double turning = turning_energy(direction, entry, sheets);
   if (!direction.drag.empty()) {
-    const Vec3 depths = turning_depths(direction, entry, faces);
+    const Vec3 depths = turning_depths(direction, entry, sheets);
     for (int i = 0; i < 3; ++i)
       turning +=
-          direction.drag[static_cast<std::size_t>(faces(i, entry.triangle))].pressure * depths[i];
+          direction.drag[static_cast<std::size_t>(sheets(i, entry.triangle))].pressure * depths[i];
   }
   const Vec18 forces =
-      -patch_gradient(entry.patch, nodal_pressures(direction, entry, faces), turning);
+      -patch_gradient(entry.patch, nodal_pressures(direction, entry, sheets), turning);
   if (direction.drag.empty()) return forces;
   Mat3 t;
   for (int i = 0; i < 3; ++i)
-    t.col(i) = direction.drag[static_cast<std::size_t>(faces(i, entry.triangle))].traction;
+    t.col(i) = direction.drag[static_cast<std::size_t>(sheets(i, entry.triangle))].traction;
   return forces + slip_gradient(entry.patch, t);
 }
 

@@ -10,7 +10,8 @@
 #include "sim/contact_patch.hpp"
 
 /// A contact pair as it stands: the patches of one side's triangles opposite the other side's
-/// faces, and what they sum to at the nodes of those triangles.
+/// faces, and what they sum to at the nodes of those triangles: where a node has several smooth
+/// sheets around it, at each (smooth_sheets.hpp).
 namespace articular::sim {
 
 struct ContactDirection {
@@ -23,20 +24,20 @@ struct ContactDirection {
   std::vector<Patch> stored;  // never shrinks: the patches are the first ones
   std::size_t num_patches = 0;
   std::span<const Patch> patches() const { return {stored.data(), num_patches}; }
-  // By node of the side whose triangles these are; zero where it meets nothing:
+  // By sheet of the side whose triangles these are; zero where it meets nothing:
   Eigen::VectorXd area;                              // W [m²]
   Eigen::VectorXd measure;                           // A [m²]
   Eigen::VectorXd depth;                             // g [m]
   Eigen::VectorXd pressure;                          // p [Pa], with that of damping
   Eigen::VectorXd multiplier;                        // λ [Pa]; empty: none
-  std::vector<int> nodes;                            // that have an area
-  const Eigen::VectorXd* model_stiffness = nullptr;  // at these nodes [Pa/m]
+  std::vector<int> sheets;                           // that have an area
+  const Eigen::VectorXd* model_stiffness = nullptr;  // of the sheets [Pa/m]
   double stiffening = 1;
-  double stiffness(int node) const { return (*model_stiffness)[node] * stiffening; }  // k [Pa/m]
+  double stiffness(int sheet) const { return (*model_stiffness)[sheet] * stiffening; }  // k [Pa/m]
   /// <λ + k g> [Pa]: the pressure without that of damping.
-  double penalty(int node) const {
-    const double lambda = multiplier.size() > 0 ? multiplier[node] : 0;
-    return std::max(0.0, lambda + stiffness(node) * depth[node]);
+  double penalty(int sheet) const {
+    const double lambda = multiplier.size() > 0 ? multiplier[sheet] : 0;
+    return std::max(0.0, lambda + stiffness(sheet) * depth[sheet]);
   }
   /// Where depths are not averaged, k of each point [Pa/m]; then g and p above are but means.
   double point_stiffness = 0;
@@ -53,8 +54,9 @@ struct ContactSides {
 ContactSides sides_of(const Model& model, int contact);
 ContactSides sides_of(const Model& model, const ContactDirection& direction);
 
-/// Whether a node of the triangle has pressure.
-bool carries(const ContactDirection& direction, int triangle, const Eigen::Matrix3Xi& faces);
+/// Whether there is pressure at a corner of the triangle.
+/// @param sheets  of the triangles' side, here and below
+bool carries(const ContactDirection& direction, int triangle, const Eigen::Matrix3Xi& sheets);
 
 /// The six nodes of a patch: the triangle's, then the face's.
 std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider& faces,
@@ -64,20 +66,19 @@ std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider
 Mat3 corners_of(const Configuration& configuration, const Collider& collider, int face);
 
 /// Pressures at the nodes of a patch's triangle [Pa].
-/// @param faces  of the triangles' side
 Vec3 nodal_pressures(const ContactDirection& direction, const ContactDirection::Patch& entry,
-                     const Eigen::Matrix3Xi& faces);
+                     const Eigen::Matrix3Xi& sheets);
 
 /// What turns with a patch's weight (Φ of patch_gradient()): of A_a g_a at the triangle's nodes,
 /// A_a δg_a = δG_a − g_a δA_a [m³],
 Vec3 turning_depths(const ContactDirection& direction, const ContactDirection::Patch& entry,
-                    const Eigen::Matrix3Xi& faces);
+                    const Eigen::Matrix3Xi& sheets);
 /// and of the energy [J]; that of an average is E_a = A_a p_a²/2k_a with p_a = λ_a + k_a g_a.
 double turning_energy(const ContactDirection& direction, const ContactDirection::Patch& entry,
-                      const Eigen::Matrix3Xi& faces);
+                      const Eigen::Matrix3Xi& sheets);
 
 /// Forces on a patch's six nodes [N].
 Vec18 forces_on_nodes(const ContactDirection& direction, const ContactDirection::Patch& entry,
-                      const Eigen::Matrix3Xi& faces);
+                      const Eigen::Matrix3Xi& sheets);
 
 }  // namespace articular::sim

@@ -11,7 +11,7 @@ namespace {
 
 using SixVectors = Eigen::Matrix<double, 3, 6>;
 
-/// Rates at the nodes of a direction: in `closing` and `slip`, sums over patches.
+/// Rates at the sheets of a direction: in `closing` and `slip`, sums over patches.
 struct Rates {
   Eigen::VectorXd closing;  // A ġ [m³/s]
   Positions slip;           // W V [m³/s]
@@ -21,20 +21,21 @@ struct Rates {
 template <class Velocity>
 Rates rates_of(const ContactDirection& direction, const Collider& triangles, const Collider& faces,
                Velocity&& velocity_of) {
-  Rates rates{Eigen::VectorXd::Zero(triangles.X.cols()), Positions::Zero(3, triangles.X.cols())};
+  const std::ptrdiff_t num_sheets = std::ssize(triangles.sheet_node);
+  Rates rates{Eigen::VectorXd::Zero(num_sheets), Positions::Zero(3, num_sheets)};
   for (const ContactDirection::Patch& entry : direction.patches()) {
-    if (!carries(direction, entry.triangle, triangles.surface.faces)) continue;
+    if (!carries(direction, entry.triangle, triangles.sheets)) continue;
     const auto nodes = nodes_of(triangles, faces, entry.triangle, entry.face);
     SixVectors v;
     for (Eigen::Index k = 0; k < 6; ++k)
       v.col(k) = velocity_of(*nodes[static_cast<std::size_t>(k)]);
     const Mat3 slip = slip_integrals(entry.patch, v);
-    const Vec3 turning = turning_depths(direction, entry, triangles.surface.faces);
+    const Vec3 turning = turning_depths(direction, entry, triangles.sheets);
     for (int i = 0; i < 3; ++i) {
-      const int node = triangles.surface.faces(i, entry.triangle);
-      rates.closing[node] +=
+      const int sheet = triangles.sheets(i, entry.triangle);
+      rates.closing[sheet] +=
           patch_gradient(entry.patch, Vec3::Unit(i), turning[i]).dot(v.reshaped());
-      rates.slip.col(node) += slip.col(i);
+      rates.slip.col(sheet) += slip.col(i);
     }
   }
   return rates;
@@ -42,11 +43,11 @@ Rates rates_of(const ContactDirection& direction, const Collider& triangles, con
 
 /// Sums of w N_a n over the patches.
 Positions normals_of(const ContactDirection& direction, const Collider& triangles) {
-  Positions normals = Positions::Zero(3, triangles.X.cols());
+  Positions normals = Positions::Zero(3, std::ssize(triangles.sheet_node));
   for (const ContactDirection::Patch& entry : direction.patches()) {
     const Vec3 areas = nodal_areas(entry.patch);
     for (int i = 0; i < 3; ++i)
-      normals.col(triangles.surface.faces(i, entry.triangle)) += areas[i] * entry.patch.normal;
+      normals.col(triangles.sheets(i, entry.triangle)) += areas[i] * entry.patch.normal;
   }
   return normals;
 }
@@ -100,13 +101,14 @@ void find_drag(const SurfaceLaw& law, const Collider& triangles, const Collider&
   const Rates rates = rates_of(direction, triangles, faces,
                                [&](const NodeRef& node) { return configuration.velocity(node); });
   const Positions normals = normals_of(direction, triangles);
-  direction.drag.assign(static_cast<std::size_t>(triangles.X.cols()), {});
-  for (const int node : direction.nodes) {
-    if (!(direction.pressure[node] > 0)) continue;
-    NodalDrag& drag = direction.drag[static_cast<std::size_t>(node)];
-    drag = nodal_drag(law, direction.pressure[node], rates.closing[node] / direction.measure[node],
-                      rates.slip.col(node) / direction.area[node], normals.col(node).normalized());
-    direction.pressure[node] += drag.pressure;
+  direction.drag.assign(triangles.sheet_node.size(), {});
+  for (const int sheet : direction.sheets) {
+    if (!(direction.pressure[sheet] > 0)) continue;
+    NodalDrag& drag = direction.drag[static_cast<std::size_t>(sheet)];
+    drag =
+        nodal_drag(law, direction.pressure[sheet], rates.closing[sheet] / direction.measure[sheet],
+                   rates.slip.col(sheet) / direction.area[sheet], normals.col(sheet).normalized());
+    direction.pressure[sheet] += drag.pressure;
   }
 }
 
@@ -120,18 +122,18 @@ void add_drag_product(const ContactDirection& direction, const Collider& triangl
     return velocity;
   });
   for (const ContactDirection::Patch& entry : direction.patches()) {
-    if (!carries(direction, entry.triangle, triangles.surface.faces)) continue;
+    if (!carries(direction, entry.triangle, triangles.sheets)) continue;
     Vec3 p;
     Mat3 t;
     for (int i = 0; i < 3; ++i) {
-      const int node = triangles.surface.faces(i, entry.triangle);
-      const NodalDrag& drag = direction.drag[static_cast<std::size_t>(node)];
-      const Vec3 slip = rates.slip.col(node) / direction.area[node];
-      p[i] = drag.damping * rates.closing[node] / direction.measure[node];
+      const int sheet = triangles.sheets(i, entry.triangle);
+      const NodalDrag& drag = direction.drag[static_cast<std::size_t>(sheet)];
+      const Vec3 slip = rates.slip.col(sheet) / direction.area[sheet];
+      p[i] = drag.damping * rates.closing[sheet] / direction.measure[sheet];
       t.col(i) = drag.drag_along * drag.along.dot(slip) * drag.along +
                  drag.drag_across * drag.across.dot(slip) * drag.across;
     }
-    const double turning = p.dot(turning_depths(direction, entry, triangles.surface.faces));
+    const double turning = p.dot(turning_depths(direction, entry, triangles.sheets));
     const Vec18 product = patch_gradient(entry.patch, p, turning) + slip_gradient(entry.patch, t);
     const auto nodes = nodes_of(triangles, faces, entry.triangle, entry.face);
     for (Eigen::Index k = 0; k < 6; ++k)
@@ -143,10 +145,10 @@ void add_drag_product(const ContactDirection& direction, const Collider& triangl
 double drag_power(const ContactDirection& direction) {
   double power = 0;
   if (direction.drag.empty()) return power;
-  for (const int node : direction.nodes) {
-    const NodalDrag& drag = direction.drag[static_cast<std::size_t>(node)];
-    power += drag.pressure * drag.closing * direction.measure[node] -
-             drag.traction.dot(drag.slip) * direction.area[node];
+  for (const int sheet : direction.sheets) {
+    const NodalDrag& drag = direction.drag[static_cast<std::size_t>(sheet)];
+    power += drag.pressure * drag.closing * direction.measure[sheet] -
+             drag.traction.dot(drag.slip) * direction.area[sheet];
   }
   return power;
 }

@@ -17,14 +17,16 @@ namespace {
 /// on forces of averaged depths no longer depend on it. Statics ends there and begins softer: from
 /// afar a stiff iteration is thrown back and forth. In time, where that ends by how far things
 /// still move, it takes the accurate preset's tolerance: what is left of motion is noise of the
-/// forces.
-constexpr double kStiffFactor = 1000, kSoftFactor = 10;
+/// forces; by other tolerances a tenth of it is enough. Explicit steps are as long as the stiffness
+/// lets them.
+constexpr double kSoftFactor = 10, kFirmFactor = 100, kStiffFactor = 1000;
 
 double stiffness_factor(const Scenario& scenario) {
-  const bool stiff = scenario.analysis == Scenario::Analysis::Static ||
-                     (scenario.contact_response == Scenario::Response::Averaged &&
-                      scenario.accuracy == Scenario::Accuracy::Accurate);
-  return stiff ? kStiffFactor : kSoftFactor;
+  if (scenario.analysis == Scenario::Analysis::Static) return kStiffFactor;
+  if (scenario.contact_response != Scenario::Response::Averaged) return kSoftFactor;
+  if (scenario.accuracy == Scenario::Accuracy::Accurate) return kStiffFactor;
+  const bool is_explicit = scenario.integrator.scheme == Integrator::Scheme::Explicit;
+  return is_explicit ? kSoftFactor : kFirmFactor;
 }
 
 /// Of the elements at the surface: what friction at 0.7 of its limit creeps in the whole scene.
@@ -75,19 +77,19 @@ void add_contact(int a, int b, const ContactPair& pair, Model& model) {
       pair.max_penetration.value_or(kMaxPenetration * std::min(A->size, B->size));
   // The depth of a layer is its own compression.
   contact.is_bounded = layers == 0 && (is_static || pair.max_penetration);
-  const auto at_nodes = [&](const Collider& side, const Collider& other, double c) {
+  const auto of_sheets = [&](const Collider& side, const Collider& other, double c) {
     if (pair.stiffness || !contact.averaged)
-      return Eigen::VectorXd::Constant(side.X.cols(), contact.share * contact.mean_stiffness)
+      return Eigen::VectorXd::Constant(std::ssize(side.sheet_node),
+                                       contact.share * contact.mean_stiffness)
           .eval();
-    return (contact.share / ((side.compliance.array() + other.mean_compliance) / c + layers))
-        .matrix()
-        .eval();
+    const Eigen::ArrayXd compliance = side.compliance(side.sheet_node);
+    return (contact.share / ((compliance + other.mean_compliance) / c + layers)).matrix().eval();
   };
   contact.reversed = a != b && !looks_first(model, a, b, *A, *B);
   const Collider& looks = contact.reversed ? *B : *A;
   const Collider& other = contact.reversed ? *A : *B;
-  contact.stiffness = at_nodes(looks, other, factor);
-  contact.soft = at_nodes(looks, other, kSoftFactor);
+  contact.stiffness = of_sheets(looks, other, factor);
+  contact.soft = of_sheets(looks, other, kSoftFactor);
   contact.law.friction = pair.friction;
   contact.law.damping = contact.share * pair.damping;
   contact.law.slip_velocity =

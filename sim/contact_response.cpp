@@ -13,10 +13,10 @@ ContactDirection& ContactResponse::direction_of(const CandidateList& list) {
   if (known != nullptr) return *known;
   ContactDirection& direction = directions_.emplace_back();
   direction.contact = list.contact;
-  const Eigen::Index num_nodes = sides_of(model_, direction).triangles.X.cols();
+  const Eigen::Index num_sheets = std::ssize(sides_of(model_, direction).triangles.sheet_node);
   for (Eigen::VectorXd* values :
        {&direction.area, &direction.measure, &direction.depth, &direction.pressure})
-    values->setZero(num_nodes);
+    values->setZero(num_sheets);
   known = &direction;
   return direction;
 }
@@ -24,8 +24,8 @@ ContactDirection& ContactResponse::direction_of(const CandidateList& list) {
 void ContactResponse::clear(ContactDirection& direction) const {
   for (Eigen::VectorXd* values :
        {&direction.area, &direction.measure, &direction.depth, &direction.pressure})
-    for (const int node : direction.nodes) (*values)[node] = 0;
-  direction.nodes.clear();
+    for (const int sheet : direction.sheets) (*values)[sheet] = 0;
+  direction.sheets.clear();
   direction.drag.clear();
   direction.num_patches = 0;
 }
@@ -50,9 +50,9 @@ void ContactResponse::find_pressures(const Configuration& configuration,
   direction.model_stiffness = soft_ ? &contact.soft : &contact.stiffness;
   direction.stiffening = stiffening_.size() > 0 ? stiffening_[static_cast<Eigen::Index>(c)] : 1;
   direction.point_stiffness = contact.averaged ? 0 : direction.stiffness(0);
-  for (const int node : direction.nodes) {
-    direction.depth[node] /= direction.measure[node];
-    direction.pressure[node] = direction.penalty(node);
+  for (const int sheet : direction.sheets) {
+    direction.depth[sheet] /= direction.measure[sheet];
+    direction.pressure[sheet] = direction.penalty(sheet);
   }
   if (!contact.law.acts()) return;
   const ContactSides side = sides_of(model_, direction);
@@ -67,9 +67,10 @@ bool ContactResponse::augment() {
     ContactDirection& direction = *near;
     const ContactModel& contact = model_.contacts[static_cast<std::size_t>(direction.contact)];
     if (!contact.is_bounded || !contact.averaged) continue;
-    const bool exceeds = std::any_of(direction.nodes.begin(), direction.nodes.end(), [&](int node) {
-      return direction.pressure[node] > 0 && direction.depth[node] > contact.max_penetration;
-    });
+    const bool exceeds =
+        std::any_of(direction.sheets.begin(), direction.sheets.end(), [&](int sheet) {
+          return direction.pressure[sheet] > 0 && direction.depth[sheet] > contact.max_penetration;
+        });
     if (!exceeds) continue;
     direction.multiplier = direction.pressure;
     any = true;
@@ -91,7 +92,7 @@ const FlatTriangle& ContactResponse::face_now(const Configuration& configuration
   return faces_[f];
 }
 
-/// Patches of a direction, and what they sum to at nodes: W, A and (in place of g) G.
+/// Patches of a direction, and what they sum to at sheets: W, A and (in place of g) G.
 void ContactResponse::find_patches(const CandidateList& list, const Configuration& configuration,
                                    ContactDirection& direction) {
   const ContactSides side = sides_of(model_, direction);
@@ -130,13 +131,13 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
     Vec3 measure_slope = Vec3::Zero();
     for (int i = 0; i < 3; ++i) {
       if (!(covered[i] > 0)) continue;
-      const int node = side.triangles.surface.faces(i, triangle);
-      if (direction.measure[node] == 0) direction.nodes.push_back(node);
+      const int sheet = side.triangles.sheets(i, triangle);
+      if (direction.measure[sheet] == 0) direction.sheets.push_back(sheet);
       const double measure = averaged ? std::sqrt(covered[i] * rest_area / 3) : covered[i];
       if (averaged) measure_slope[i] = 0.5 * measure / covered[i];
-      direction.measure[node] += measure;
-      direction.area[node] += covered[i];
-      direction.depth[node] += integrals[i];
+      direction.measure[sheet] += measure;
+      direction.area[sheet] += covered[i];
+      direction.depth[sheet] += integrals[i];
     }
     for (std::size_t e = first_patch; e < direction.num_patches; ++e)
       direction.stored[e].measure_slope = measure_slope;
@@ -147,11 +148,11 @@ void ContactResponse::add_force(const Configuration& configuration, Eigen::Vecto
   force_on_bodies_.assign(model_.bodies.size(), 0);
   for (const ContactDirection* direction : near_) {
     const ContactSides side = sides_of(model_, *direction);
-    const auto& triangles = side.triangles.surface.faces;
+    const auto& sheets = side.triangles.sheets;
     Vec3 on_triangles = Vec3::Zero();
     for (const ContactDirection::Patch& entry : direction->patches()) {
-      if (!carries(*direction, entry.triangle, triangles)) continue;
-      const Vec18 forces = forces_on_nodes(*direction, entry, triangles);
+      if (!carries(*direction, entry.triangle, sheets)) continue;
+      const Vec18 forces = forces_on_nodes(*direction, entry, sheets);
       const auto nodes = nodes_of(side.triangles, side.faces, entry.triangle, entry.face);
       for (std::size_t i = 0; i < 6; ++i)
         sim::add_force(configuration, *nodes[i],
@@ -182,8 +183,8 @@ std::vector<double> ContactResponse::point_depths() const {
 double ContactResponse::largest_force() const {
   double largest = 0;
   for (const ContactDirection* direction : near_)
-    for (const int node : direction->nodes)
-      largest = std::max(largest, direction->pressure[node] * direction->area[node]);
+    for (const int sheet : direction->sheets)
+      largest = std::max(largest, direction->pressure[sheet] * direction->area[sheet]);
   return largest;
 }
 

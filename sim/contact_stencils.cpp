@@ -43,16 +43,16 @@ void append_missing_pairs(const Model& model, const CandidateList& list, const C
   }
 }
 
-/// An average couples all around its node.
+/// An average couples all that its sheet meets.
 void append_missing_averages(const Model& model, const CandidateList& list,
                              const Collider& triangles, const Collider& faces,
                              const fem::BlockMatrix& A, Stencils& stencils) {
-  std::vector<std::vector<int>> blocks_of_node(static_cast<std::size_t>(triangles.X.cols()));
+  std::vector<std::vector<int>> blocks_of_sheet(triangles.sheet_node.size());
   for (const ContactCandidate& candidate : list.pairs)
-    for (const int a : triangles.surface.faces.col(candidate.triangle))
+    for (const int a : triangles.sheets.col(candidate.triangle))
       for (const NodeRef* node : nodes_of(triangles, faces, candidate.triangle, candidate.face))
-        append_blocks(model, *node, blocks_of_node[static_cast<std::size_t>(a)]);
-  for (std::vector<int>& blocks : blocks_of_node) {
+        append_blocks(model, *node, blocks_of_sheet[static_cast<std::size_t>(a)]);
+  for (std::vector<int>& blocks : blocks_of_sheet) {
     if (blocks.empty()) continue;
     sort_unique(blocks);
     if (!lacks(A, blocks, blocks)) continue;

@@ -15,13 +15,13 @@ void ContactStiffness::add(const ContactDirection& direction, const Configuratio
   const double k = scale.stiffness * direction.point_stiffness;
   if (tangent != fem::Tangent::Consistent && k == 0) return;
   const ContactSides side = sides_of(model_, direction);
-  const auto& triangles = side.triangles.surface.faces;
+  const auto& sheets = side.triangles.sheets;
   for (const ContactDirection::Patch& entry : direction.patches()) {
-    if (!carries(direction, entry.triangle, triangles)) continue;
+    if (!carries(direction, entry.triangle, sheets)) continue;
     PatchStiffness stiffness = patch_stiffness(entry.patch, k);
     if (tangent == fem::Tangent::Consistent)
-      add_curvature(entry.patch, scale.stiffness * nodal_pressures(direction, entry, triangles),
-                    scale.stiffness * turning_energy(direction, entry, triangles), stiffness);
+      add_curvature(entry.patch, scale.stiffness * nodal_pressures(direction, entry, sheets),
+                    scale.stiffness * turning_energy(direction, entry, sheets), stiffness);
     add_product(model_, configuration,
                 nodes_of(side.triangles, side.faces, entry.triangle, entry.face), stiffness.left,
                 stiffness.right, A);
@@ -35,7 +35,7 @@ void ContactStiffness::add(const ContactDirection& direction, const Configuratio
 void ContactStiffness::add_measure_stiffness(const ContactDirection& direction,
                                              const Configuration& configuration, double scale,
                                              fem::BlockMatrix& A) {
-  const auto& triangles = sides_of(model_, direction).triangles.surface.faces;
+  const auto& sheets = sides_of(model_, direction).triangles.sheets;
   const auto patches = direction.patches();
   for (std::size_t first = 0, end = 0; first < patches.size(); first = end) {
     const ContactDirection::Patch& entry = patches[first];
@@ -49,10 +49,10 @@ void ContactStiffness::add_measure_stiffness(const ContactDirection& direction,
     }
     if (!turns) continue;
     for (int i = 0; i < 3; ++i) {
-      const int node = triangles(i, entry.triangle);
-      const double p = direction.penalty(node);
+      const int sheet = sheets(i, entry.triangle);
+      const double p = direction.penalty(sheet);
       if (!(p > 0 && covered[i] > 0)) continue;
-      const double energy = p * p / (2 * direction.stiffness(node)) - p * direction.depth[node];
+      const double energy = p * p / (2 * direction.stiffness(sheet)) - p * direction.depth[sheet];
       add_rank_one(
           direction, group_, configuration,
           -scale * energy * entry.measure_slope[i] / (2 * covered[i]),
@@ -64,20 +64,20 @@ void ContactStiffness::add_measure_stiffness(const ContactDirection& direction,
   }
 }
 
-/// The patches around node i become patch_of_node_[patch_begin_[i] .. patch_begin_[i + 1]).
-void ContactStiffness::find_patches_of_nodes(const ContactDirection& direction) {
+/// The patches of sheet i become patch_of_sheet_[patch_begin_[i] .. patch_begin_[i + 1]).
+void ContactStiffness::find_patches_of_sheets(const ContactDirection& direction) {
   const ContactSides side = sides_of(model_, direction);
-  const auto& triangles = side.triangles.surface.faces;
-  patch_begin_.assign(static_cast<std::size_t>(side.triangles.X.cols()) + 2, 0);
+  const auto& sheets = side.triangles.sheets;
+  patch_begin_.assign(side.triangles.sheet_node.size() + 2, 0);
   for (const ContactDirection::Patch& entry : direction.patches())
-    for (const int node : triangles.col(entry.triangle))
-      ++patch_begin_[static_cast<std::size_t>(node) + 2];
+    for (const int sheet : sheets.col(entry.triangle))
+      ++patch_begin_[static_cast<std::size_t>(sheet) + 2];
   for (std::size_t i = 1; i < patch_begin_.size(); ++i) patch_begin_[i] += patch_begin_[i - 1];
-  patch_of_node_.resize(3 * direction.num_patches);
+  patch_of_sheet_.resize(3 * direction.num_patches);
   for (std::size_t e = 0; e < direction.num_patches; ++e)
-    for (const int node : triangles.col(direction.stored[e].triangle))
-      patch_of_node_[static_cast<std::size_t>(patch_begin_[static_cast<std::size_t>(node) + 1]++)] =
-          static_cast<int>(e);
+    for (const int sheet : sheets.col(direction.stored[e].triangle))
+      patch_of_sheet_[static_cast<std::size_t>(
+          patch_begin_[static_cast<std::size_t>(sheet) + 1]++)] = static_cast<int>(e);
 }
 
 /// A += factor g gᵀ, where g sums gradient(entry) over the patches of these numbers.
@@ -121,21 +121,21 @@ void ContactStiffness::add_node_stiffness(const ContactDirection& direction,
                                           const SystemScale& scale, fem::BlockMatrix& A) {
   const bool averaged = !(direction.point_stiffness > 0);
   if (!averaged && direction.drag.empty()) return;
-  find_patches_of_nodes(direction);
-  const auto& triangles = sides_of(model_, direction).triangles.surface.faces;
-  for (const int a : direction.nodes) {
+  find_patches_of_sheets(direction);
+  const auto& sheets = sides_of(model_, direction).triangles.sheets;
+  for (const int a : direction.sheets) {
     if (!(direction.pressure[a] > 0)) continue;
     const auto begin = static_cast<std::size_t>(patch_begin_[static_cast<std::size_t>(a)]);
     const auto end = static_cast<std::size_t>(patch_begin_[static_cast<std::size_t>(a) + 1]);
-    const std::span<const int> around(patch_of_node_.data() + begin, end - begin);
+    const std::span<const int> around(patch_of_sheet_.data() + begin, end - begin);
     const auto place = [&](const ContactDirection::Patch& entry) {
       Eigen::Index local = 0;
-      while (triangles(local, entry.triangle) != a) ++local;
+      while (sheets(local, entry.triangle) != a) ++local;
       return local;
     };
     const auto of_depth = [&](const ContactDirection::Patch& entry) {
       const Eigen::Index local = place(entry);
-      const Vec3 turning = turning_depths(direction, entry, triangles);
+      const Vec3 turning = turning_depths(direction, entry, sheets);
       return patch_gradient(entry.patch, Vec3::Unit(local), turning[local]);
     };
     const double penalty = scale.stiffness * direction.stiffness(a) / direction.measure[a];

@@ -20,7 +20,7 @@ class ContactStiffness {
            fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A);
 
  private:
-  void find_patches_of_nodes(const ContactDirection& direction);
+  void find_patches_of_sheets(const ContactDirection& direction);
   template <class Gradient>
   void add_rank_one(const ContactDirection& direction, std::span<const int> patches,
                     const Configuration& configuration, double factor, Gradient&& gradient,
@@ -31,9 +31,9 @@ class ContactStiffness {
                              double scale, fem::BlockMatrix& A);
 
   const Model& model_;
-  // Scratch: the patches around each node of the direction, those of a triangle, and a gradient by
+  // Scratch: the patches of each sheet of the direction, those of a triangle, and a gradient by
   // blocks.
-  std::vector<int> patch_begin_, patch_of_node_, group_;
+  std::vector<int> patch_begin_, patch_of_sheet_, group_;
   Positions gradient_;
   std::vector<int> blocks_;
   std::vector<char> has_gradient_;

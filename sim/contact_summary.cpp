@@ -39,38 +39,38 @@ void add_to_summary(const Model& model, const ContactDirection& direction,
   const bool is_self = side.is_self();
   Eigen::VectorXd& through_triangle = contact.reversed ? sums.through_b : sums.through_a;
   Eigen::VectorXd& through_face = contact.reversed || is_self ? sums.through_a : sums.through_b;
-  const auto& triangles = side.triangles.surface.faces;
+  const auto& sheets = side.triangles.sheets;
   for (const ContactDirection::Patch& entry : direction.patches()) {
-    if (!carries(direction, entry.triangle, triangles) || !counts(entry)) continue;
+    if (!carries(direction, entry.triangle, sheets) || !counts(entry)) continue;
     const Mat3 x = corners_of(configuration, side.triangles, entry.triangle);
     const Vec3 area = nodal_areas(entry.patch);
     for (int i = 0; i < 3; ++i) {
-      const int node = triangles(i, entry.triangle);
-      if (!(direction.pressure[node] > 0)) continue;
+      const int sheet = sheets(i, entry.triangle);
+      if (!(direction.pressure[sheet] > 0)) continue;
       if (!(area[i] > 0)) continue;
       sum.area += area[i] * share;
-      if (!(direction.point_stiffness > 0)) {  // of the node's energy its part by area
+      if (!(direction.point_stiffness > 0)) {  // of the sheet's energy its part by area
         const double damping =
-            direction.drag.empty() ? 0 : direction.drag[static_cast<std::size_t>(node)].pressure;
-        sum.energy += 0.5 * (direction.pressure[node] - damping) *
-                      std::max(0.0, direction.depth[node]) * direction.measure[node] * area[i] /
-                      direction.area[node];
+            direction.drag.empty() ? 0 : direction.drag[static_cast<std::size_t>(sheet)].pressure;
+        sum.energy += 0.5 * (direction.pressure[sheet] - damping) *
+                      std::max(0.0, direction.depth[sheet]) * direction.measure[sheet] * area[i] /
+                      direction.area[sheet];
       }
-      sum.max_pressure = std::max(sum.max_pressure, direction.pressure[node] / share);
-      if (direction.depth[node] > sum.max_depth) {
-        sum.max_depth = direction.depth[node];
+      sum.max_pressure = std::max(sum.max_pressure, direction.pressure[sheet] / share);
+      if (direction.depth[sheet] > sum.max_depth) {
+        sum.max_depth = direction.depth[sheet];
         sum.deepest = x.col(i);
       }
     }
     sum.max_point_depth = std::max(sum.max_point_depth, entry.patch.depth_max);
     sum.energy += patch_energy(entry.patch, direction.point_stiffness);
-    const Vec3 q = entry.patch.Q * nodal_pressures(direction, entry, triangles);
+    const Vec3 q = entry.patch.Q * nodal_pressures(direction, entry, sheets);
     sum.normal_force += q.sum();
     sum.center += x * q;
     through_triangle[entry.triangle] += q.sum();
     through_face[entry.face] += q.sum() / -entry.patch.cosine;  // it acts along the face's normal
     if (is_self) continue;
-    const Vec18 on_nodes = forces_on_nodes(direction, entry, triangles);
+    const Vec18 on_nodes = forces_on_nodes(direction, entry, sheets);
     for (int i = 0; i < 3; ++i) {
       const Vec3 force = (contact.reversed ? -1 : 1) * on_nodes.segment<3>(3 * i);
       sum.force += force;
@@ -139,9 +139,10 @@ std::vector<Positions> nodal_contact_forces(const Model& model, const ContactRes
   for (const ContactDirection* direction : response.directions()) {
     const ContactSides side = sides_of(model, *direction);
     const auto &triangles = side.triangles.surface.faces, &faces = side.faces.surface.faces;
+    const auto& sheets = side.triangles.sheets;
     for (const ContactDirection::Patch& entry : direction->patches()) {
-      if (!carries(*direction, entry.triangle, triangles)) continue;
-      const Vec18 on_nodes = forces_on_nodes(*direction, entry, triangles);
+      if (!carries(*direction, entry.triangle, sheets)) continue;
+      const Vec18 on_nodes = forces_on_nodes(*direction, entry, sheets);
       for (int i = 0; i < 3; ++i) {
         forces[static_cast<std::size_t>(side.triangle_body)].col(triangles(i, entry.triangle)) +=
             on_nodes.segment<3>(3 * i);
@@ -226,13 +227,13 @@ std::vector<SurfaceContact> surface_contacts(const Model& model, const ContactRe
     const double share = model.contacts[static_cast<std::size_t>(direction->contact)].share;
     SurfaceSums& of_triangles = sums[static_cast<std::size_t>(side.triangle_body)];
     SurfaceSums& of_faces = sums[static_cast<std::size_t>(side.face_body)];
-    const auto& triangles = side.triangles.surface.faces;
+    const auto& sheets = side.triangles.sheets;
     for (const ContactDirection::Patch& entry : direction->patches()) {
-      const Vec3 p = nodal_pressures(*direction, entry, triangles);
+      const Vec3 p = nodal_pressures(*direction, entry, sheets);
       add_faces(entry, p, of_triangles, of_faces);
       // What is near, but carries nothing, must not thin out another contact at the same node. Of a
       // body with itself both directions count, or half the pressure would stand for all of it.
-      if (carries(*direction, entry.triangle, triangles) || side.is_self())
+      if (carries(*direction, entry.triangle, sheets) || side.is_self())
         add_nodes(entry, p, share, side.triangles, side.faces, of_triangles, of_faces);
     }
   }

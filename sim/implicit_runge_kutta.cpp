@@ -26,6 +26,8 @@ struct FreeNonlinear {
 constexpr double kNewtonFraction = 0.1;
 /// Of that part: residuals below count as none.
 constexpr double kLeastResidual = 1e-12;
+/// With stiff contact, corrections from this one on are searched for how far they may go.
+constexpr int kSearchesFrom = 8;
 /// Contact that opens and closes makes corrections grow for an iteration or two; ARKODE's limit of
 /// 2.3 gives up then.
 constexpr double kDivergenceRatio = 1e3;
@@ -172,6 +174,7 @@ ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics)
   check(ARKStepSetErrHandlerFn(arkode, sundials::ignore_message, nullptr),
         "ARKStepSetErrHandlerFn");
   check(ARKStepSetUserData(arkode, this), "ARKStepSetUserData");
+  if (has_stiff_contact_) newton_.search_lines(kSearchesFrom);
   set_scheme(arkode, model.scenario.integrator.scheme);
   check(ARKStepWFtolerances(arkode, weights), "ARKStepWFtolerances");
   check(ARKStepSetNonlinearSolver(arkode, nonlinear_.get()), "ARKStepSetNonlinearSolver");
@@ -237,9 +240,9 @@ bool ImplicitRungeKutta::evolve_from_soft_contact(const Eigen::VectorXd& start, 
   dynamics_.set_soft_contact(false);
   if (!landed) return false;
   acceleration_ = mean_acceleration(start, view(y_), h);
-  newton_.search_lines(true);
+  newton_.search_lines(0);
   const bool done = evolve_by_either_tangent(start, t, h);
-  newton_.search_lines(false);
+  newton_.search_lines(kSearchesFrom);
   return done;
 }
 

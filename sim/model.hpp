@@ -49,6 +49,8 @@ struct Collider {
   collision::Surface surface;             // of a shell: without its inner and lateral faces
   std::vector<NodeRef> nodes;             // what moves each node
   std::vector<double> face_area;          // at the start [m²]
+  Eigen::Matrix3Xi sheets;                // of the corners of each face, and
+  std::vector<int> sheet_node;            // the node of each: see smooth_sheets.hpp
   std::vector<int> nearby_begin, nearby;  // per tetrahedron: faces around it
   std::vector<char> is_inner;             // per tetrahedron: no node of it is on the surface
   Eigen::VectorXd compliance;             // of an element at the surface, h/M, at each node [m/Pa]

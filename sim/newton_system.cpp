@@ -46,7 +46,6 @@ NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
 void NewtonSystem::restart() {
   solver_ = make_linear_solver(model_);
   gamma_ = 0;
-  searches_ = false;
 }
 
 void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
@@ -59,6 +58,7 @@ void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
 
 void NewtonSystem::begin_iteration() {
   may_accelerate_ = true;
+  correction_ = 0;
   anderson_.restart();
 }
 
@@ -217,7 +217,8 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     auto own = w_.segment<6>(3 * bone.block);
     own = (free_part(bone, own) + given - free_part(bone, given)).eval();
   }
-  const bool accelerated = may_accelerate_ && !searches_ && accelerate(gamma);
+  const bool searches = correction_++ >= searches_from_;
+  const bool accelerated = may_accelerate_ && !searches && accelerate(gamma);
 
   Eigen::Map<Eigen::VectorXd>(x, 3 * layout.num_free_nodes) =
       gamma * w_.head(3 * layout.num_free_nodes);
@@ -240,8 +241,8 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   }
   dynamics_.correct_lags(b, gamma, w_, x);
   double scale = step_fraction(gamma);
-  if (searches_) scale = searched_fraction(scale, y, gamma, x, counts);
-  if (may_accelerate_) anderson_.took(scale, w_);
+  if (searches) scale = searched_fraction(scale, y, gamma, x, counts);
+  if (may_accelerate_ && !searches) anderson_.took(scale, w_);
   changed_ = accelerated || scale < 1;
   if (scale < 1) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;
   return true;

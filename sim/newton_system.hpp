@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "sim/anderson.hpp"
 #include "sim/dynamics.hpp"
 #include "sim/linear_solver.hpp"
@@ -25,9 +27,10 @@ class NewtonSystem {
   /// A new step begins; with `keep_matrix` the last one's matrix may serve its first iteration.
   /// @param tangent  Projected: does without the consistent one
   void begin_step(bool keep_matrix, fem::Tangent tangent);
-  /// From now on, corrections go as far as a line search lets them (line_search.hpp): for stiff
-  /// contact, near its solution. Afar, it would creep from each contact that closes to the next.
-  void search_lines(bool searches) { searches_ = searches; }
+  /// From now on, corrections from this one of an iteration on (0: all of them) go as far as a line
+  /// search lets them (line_search.hpp). Near the solution that ends cycles of contacts that open
+  /// and close; afar, it would creep from each contact that closes to the next.
+  void search_lines(int from) { searches_from_ = from; }
   /// An iteration begins, of a step or one of its stages, that may be accelerated (anderson.hpp)
   /// where it is slow.
   void begin_iteration();
@@ -67,16 +70,17 @@ class NewtonSystem {
   Dynamics& dynamics_;
   std::unique_ptr<fem::LinearSolver> solver_;
   Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_;
-  Eigen::VectorXd weighted_, forces_, trial_;        // of the line search
-  double gamma_ = 0;                                 // of the matrix that is factored; 0: none
-  std::uint64_t pattern_ = 0;                        // of that matrix
-  fem::Tangent tangent_ = fem::Tangent::Consistent;  // of that matrix
-  fem::Tangent first_ = fem::Tangent::Consistent;    // to try in this step
-  bool used_consistent_ = false;                     // in this step
-  int iteration_ = 0;                                // in this step
-  bool changed_ = false;                             // the last correction, see changed()
-  bool may_accelerate_ = false;                      // in this step
-  bool searches_ = false;                            // see search_lines()
+  Eigen::VectorXd weighted_, forces_, trial_;            // of the line search
+  double gamma_ = 0;                                     // of the matrix that is factored; 0: none
+  std::uint64_t pattern_ = 0;                            // of that matrix
+  fem::Tangent tangent_ = fem::Tangent::Consistent;      // of that matrix
+  fem::Tangent first_ = fem::Tangent::Consistent;        // to try in this step
+  bool used_consistent_ = false;                         // in this step
+  int iteration_ = 0;                                    // in this step
+  bool changed_ = false;                                 // the last correction, see changed()
+  bool may_accelerate_ = false;                          // in this step
+  int correction_ = 0;                                   // of this iteration
+  int searches_from_ = std::numeric_limits<int>::max();  // see search_lines()
   Anderson anderson_;
   double imbalance_ = 0;                     // see imbalance()
   double residual_ = 0, last_residual_ = 0;  // of this iteration and the one before

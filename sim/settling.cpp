@@ -235,10 +235,13 @@ Settling settle(const Model& model, Eigen::VectorXd& y, const IterationWatch& wa
   if (model.contacts.empty() || y.size() == 0) return {};
   Settler settler(model, watch);
   if (settler.overlaps(y).empty()) return {};
-  if (model.scenario.analysis == Scenario::Analysis::Dynamic) return settler.settle(y);
-  // The soft pointwise contact of a dynamic analysis gets bodies out of each other more easily.
+  if (std::none_of(model.contacts.begin(), model.contacts.end(),
+                   [](const ContactModel& contact) { return contact.averaged; }))
+    return settler.settle(y);
+  // Soft pointwise contact gets bodies out of each other more easily, and edges and corners too.
   Scenario scenario = model.scenario;
   scenario.analysis = Scenario::Analysis::Dynamic;
+  scenario.contact_response = Scenario::Response::Pointwise;
   const Model pointwise = build_model(std::move(scenario));
   return Settler(pointwise, watch).settle(y);
 }

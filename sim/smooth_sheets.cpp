@@ -1,0 +1,96 @@
+#include "sim/smooth_sheets.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace articular::sim {
+namespace {
+
+Positions unit_normals(const Positions& X, const Eigen::Matrix3Xi& faces) {
+  Positions normals(3, faces.cols());
+  for (Eigen::Index f = 0; f < faces.cols(); ++f) {
+    const Vec3 a = X.col(faces(0, f));
+    normals.col(f) = (X.col(faces(1, f)) - a).cross(X.col(faces(2, f)) - a).normalized();
+  }
+  return normals;
+}
+
+/// An edge of a face from its corner to the next one.
+struct Edge {
+  int low, high;  // nodes
+  int face, corner;
+};
+
+std::vector<Edge> sorted_edges(const Eigen::Matrix3Xi& faces) {
+  std::vector<Edge> edges;
+  for (int f = 0; f < faces.cols(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax({faces(k, f), faces((k + 1) % 3, f)});
+      edges.push_back({low, high, f, k});
+    }
+  std::sort(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) {
+    return std::array{p.low, p.high, p.face} < std::array{q.low, q.high, q.face};
+  });
+  return edges;
+}
+
+/// Sets of corners that grow together; each is known by its least one.
+class Sets {
+ public:
+  explicit Sets(Eigen::Index n) : parent_(static_cast<std::size_t>(n)) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int find(int i) {
+    while (parent_[static_cast<std::size_t>(i)] != i) i = parent_[static_cast<std::size_t>(i)];
+    return i;
+  }
+  void join(int i, int j) {
+    const auto [low, high] = std::minmax({find(i), find(j)});
+    parent_[static_cast<std::size_t>(high)] = low;
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+}  // namespace
+
+std::vector<int> number_sheets(const Positions& X, const Eigen::Matrix3Xi& faces, double crease,
+                               Eigen::Matrix3Xi& sheets) {
+  const Positions normals = unit_normals(X, faces);
+  const std::vector<Edge> edges = sorted_edges(faces);
+  Sets corners(3 * faces.cols());
+  for (std::size_t e = 1; e < edges.size(); ++e) {
+    const Edge &p = edges[e - 1], &q = edges[e];
+    if (p.low != q.low || p.high != q.high) continue;
+    if (!(normals.col(p.face).dot(normals.col(q.face)) > crease)) continue;
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) {
+        const int of_p = (p.corner + i) % 3, of_q = (q.corner + j) % 3;
+        if (faces(of_p, p.face) == faces(of_q, q.face))
+          corners.join(3 * p.face + of_p, 3 * q.face + of_q);
+      }
+  }
+  std::vector<int> node_of(static_cast<std::size_t>(X.cols()));
+  std::iota(node_of.begin(), node_of.end(), 0);
+  std::vector<char> has_first(node_of.size(), 0);
+  sheets.resize(3, faces.cols());
+  for (int corner = 0; corner < sheets.size(); ++corner) {
+    const int least = corners.find(corner), node = faces.reshaped()[corner];
+    int& sheet = sheets.reshaped()[corner];
+    if (least != corner) {
+      sheet = sheets.reshaped()[least];
+    } else if (has_first[static_cast<std::size_t>(node)] == 0) {
+      has_first[static_cast<std::size_t>(node)] = 1;
+      sheet = node;
+    } else {
+      sheet = static_cast<int>(node_of.size());
+      node_of.push_back(node);
+    }
+  }
+  return node_of;
+}
+
+}  // namespace articular::sim
