@@ -42,6 +42,7 @@ struct ContactDirection {
   /// Where depths are not averaged, k of each point [Pa/m]; then g and p above are but means.
   double point_stiffness = 0;
   std::vector<NodalDrag> drag;  // empty: neither friction nor damping
+  Positions grip;               // g by sheet, see contact_friction.hpp; empty: none
 };
 
 /// The side whose triangles look for faces, and the side whose faces they meet.

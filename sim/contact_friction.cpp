@@ -41,6 +41,17 @@ Rates rates_of(const ContactDirection& direction, const Collider& triangles, con
   return rates;
 }
 
+/// The same for velocities of the blocks.
+Rates rates_of(const ContactDirection& direction, const Collider& triangles, const Collider& faces,
+               const Configuration& configuration, const Eigen::VectorXd& u) {
+  return rates_of(direction, triangles, faces, [&](const NodeRef& node) {
+    Vec3 velocity = u.segment<3>(3 * node.block);
+    if (node.bone >= 0)
+      velocity += u.segment<3>(3 * node.block + 3).cross(configuration.lever(node));
+    return velocity;
+  });
+}
+
 /// Sums of w N_a n over the patches.
 Positions normals_of(const ContactDirection& direction, const Collider& triangles) {
   Positions normals = Positions::Zero(3, std::ssize(triangles.sheet_node));
@@ -52,10 +63,32 @@ Positions normals_of(const ContactDirection& direction, const Collider& triangle
   return normals;
 }
 
+Vec3 tangential(const Vec3& v, const Vec3& normal) { return v - normal.dot(v) * normal; }
+
+std::optional<Vec3> grip_of(const ContactDirection& direction, int sheet) {
+  if (direction.grip.cols() == 0) return std::nullopt;
+  return direction.grip.col(sheet);
+}
+
+/// Of a matrix I − (a bᵀ + b aᵀ)/2 in the plane across the normal.
+struct Axes {
+  Vec3 along, across;
+  double value_along, value_across;
+};
+
+Axes axes_of(const Vec3& a, const Vec3& b, const Vec3& normal) {
+  constexpr double kOpposite = 1e-6;
+  const double sizes = a.norm() * b.norm(), product = a.dot(b);
+  Vec3 along = b.norm() * a + a.norm() * b;
+  if (!(along.norm() > kOpposite * sizes)) along = normal.cross(b);
+  along = along.isZero(0) ? normal.unitOrthogonal() : along.normalized();
+  return {along, normal.cross(along), 1 - 0.5 * (product + sizes), 1 - 0.5 * (product - sizes)};
+}
+
 }  // namespace
 
 NodalDrag nodal_drag(const SurfaceLaw& law, double pressure, double closing, const Vec3& slip,
-                     const Vec3& normal) {
+                     const Vec3& normal, const std::optional<Vec3>& grip) {
   NodalDrag drag;
   drag.closing = closing;
   // No more than the penalty gives: pressure rises from 0 where surfaces meet, and never pulls.
@@ -66,14 +99,24 @@ NodalDrag nodal_drag(const SurfaceLaw& law, double pressure, double closing, con
     drag.stiffening = closing > 0 ? 2 : 0;
   if (!(law.friction > 0)) return drag;
   const double limit = law.friction * (pressure + drag.pressure);
-  drag.slip = slip - normal.dot(slip) * normal;
-  const double speed = drag.slip.norm(), regular = std::hypot(speed, law.slip_velocity);
-  drag.traction = -limit / regular * drag.slip;
-  drag.along = speed > 0 ? Vec3(drag.slip / speed) : Vec3(normal.unitOrthogonal());
-  drag.across = normal.cross(drag.along);
-  drag.drag_across = limit / regular;
-  drag.drag_along = drag.drag_across * std::pow(law.slip_velocity / regular, 2);
+  drag.slip = tangential(slip, normal);
+  const double regular = std::hypot(drag.slip.norm(), law.slip_velocity);
+  const Vec3 own = drag.slip / regular;
+  drag.traction = -limit * own;
+  const Axes axes = axes_of(grip ? tangential(*grip, normal) : own, own, normal);
+  drag.along = axes.along;
+  drag.across = axes.across;
+  drag.drag_along = limit / regular * axes.value_along;
+  drag.drag_across = limit / regular * axes.value_across;
   return drag;
+}
+
+Vec3 next_grip(const SurfaceLaw& law, const Vec3& slip, const Vec3& change,
+               const std::optional<Vec3>& grip) {
+  const double regular = std::hypot(slip.norm(), law.slip_velocity);
+  const Vec3 own = slip / regular;
+  const Vec3 next = own + (change - grip.value_or(own) * own.dot(change)) / regular;
+  return next / std::max(1.0, next.norm());
 }
 
 // u_i = v_i − d_i ṅ − Σ β_mi ḟ_m at the triangle's nodes, with ṅ = −Σ ∇N_j (n·v_j).
@@ -107,7 +150,8 @@ void find_drag(const SurfaceLaw& law, const Collider& triangles, const Collider&
     NodalDrag& drag = direction.drag[static_cast<std::size_t>(sheet)];
     drag =
         nodal_drag(law, direction.pressure[sheet], rates.closing[sheet] / direction.measure[sheet],
-                   rates.slip.col(sheet) / direction.area[sheet], normals.col(sheet).normalized());
+                   rates.slip.col(sheet) / direction.area[sheet], normals.col(sheet).normalized(),
+                   grip_of(direction, sheet));
     direction.pressure[sheet] += drag.pressure;
   }
 }
@@ -115,12 +159,7 @@ void find_drag(const SurfaceLaw& law, const Collider& triangles, const Collider&
 void add_drag_product(const ContactDirection& direction, const Collider& triangles,
                       const Collider& faces, const Configuration& configuration,
                       const Eigen::VectorXd& u, double scale, Eigen::VectorXd& f) {
-  const Rates rates = rates_of(direction, triangles, faces, [&](const NodeRef& node) {
-    Vec3 velocity = u.segment<3>(3 * node.block);
-    if (node.bone >= 0)
-      velocity += u.segment<3>(3 * node.block + 3).cross(configuration.lever(node));
-    return velocity;
-  });
+  const Rates rates = rates_of(direction, triangles, faces, configuration, u);
   for (const ContactDirection::Patch& entry : direction.patches()) {
     if (!carries(direction, entry.triangle, triangles.sheets)) continue;
     Vec3 p;
@@ -140,6 +179,24 @@ void add_drag_product(const ContactDirection& direction, const Collider& triangl
       add_force(configuration, *nodes[static_cast<std::size_t>(k)],
                 scale * product.segment<3>(3 * k), f);
   }
+}
+
+void update_grips(const SurfaceLaw& law, const Collider& triangles, const Collider& faces,
+                  const Configuration& configuration, const Eigen::VectorXd& change,
+                  ContactDirection& direction) {
+  const Rates rates = rates_of(direction, triangles, faces, configuration, change);
+  const Positions normals = normals_of(direction, triangles);
+  Positions next = Positions::Zero(3, std::ssize(triangles.sheet_node));
+  for (const int sheet : direction.sheets) {
+    if (!(direction.pressure[sheet] > 0)) continue;
+    const Vec3 normal = normals.col(sheet).normalized();
+    std::optional<Vec3> grip = grip_of(direction, sheet);
+    if (grip) grip = tangential(*grip, normal);
+    next.col(sheet) =
+        next_grip(law, direction.drag[static_cast<std::size_t>(sheet)].slip,
+                  tangential(rates.slip.col(sheet) / direction.area[sheet], normal), grip);
+  }
+  direction.grip = std::move(next);
 }
 
 double drag_power(const ContactDirection& direction) {

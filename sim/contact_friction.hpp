@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/contact_patch.hpp"
@@ -16,6 +17,14 @@
 /// whose power is Σ W_a t_a·V_a: as u vanishes for a common rigid motion, they are equal and
 /// opposite and make no net moment.
 ///
+/// The derivative −∂t/∂V = μ p/s (I − ŝ ŝᵀ), with s = √(|V|² + v_s²) and ŝ = V/s, is next to
+/// nothing along a slip faster than v_s: where a node has to stop, Newton's iteration would throw
+/// it far to the other side, and on and on. It goes to its end where the grip g = ŝ is an unknown
+/// of its own, with a matrix of I − (g ŝᵀ + ŝ gᵀ)/2, semidefinite as |g| ≤ 1, the same once they
+/// are equal: the primal-dual method for total variation [Chan 1999], whose root is this one.
+///
+/// [Chan 1999] Chan, Golub, Mulet. A nonlinear primal-dual method for total variation-based image
+/// restoration. SIAM J. Sci. Comput. 20:1964.
 /// [Wriggers 2006] Wriggers. Computational Contact Mechanics, 2nd ed. Springer.
 namespace articular::sim {
 
@@ -35,9 +44,9 @@ struct SurfaceLaw {
 struct NodalDrag {
   Vec3 traction = Vec3::Zero();  // t [Pa]
   Vec3 slip = Vec3::Zero();      // V [m/s]
-  Vec3 along = Vec3::Zero();     // unit tangents: that of the slip,
-  Vec3 across = Vec3::Zero();    // and the other one
-  double drag_along = 0;         // −∂t/∂V along them [Pa s/m]
+  Vec3 along = Vec3::Zero();     // unit tangents,
+  Vec3 across = Vec3::Zero();    // the axes of the matrix
+  double drag_along = 0;         // that stands for −∂t/∂V, along them [Pa s/m]
   double drag_across = 0;
   double closing = 0;     // rate of the mean depth [m/s]
   double pressure = 0;    // of damping, part of the node's [Pa]
@@ -47,8 +56,14 @@ struct NodalDrag {
 
 /// @param pressure  of the penalty [Pa], > 0
 /// @param normal    unit
+/// @param grip      g, no longer than 1; none: ŝ
 NodalDrag nodal_drag(const SurfaceLaw& law, double pressure, double closing, const Vec3& slip,
-                     const Vec3& normal);
+                     const Vec3& normal, const std::optional<Vec3>& grip = {});
+
+/// g that goes with a change δV of the slip: g s = V to first order, shortened to 1.
+/// @param grip  the last one; none: ŝ
+Vec3 next_grip(const SurfaceLaw& law, const Vec3& slip, const Vec3& change,
+               const std::optional<Vec3>& grip);
 
 /// Σ_a t_a·∫ w N_a u dA by the velocities of the six nodes. @param t  one a node of the triangle
 Vec18 slip_gradient(const ContactPatch& patch, const Mat3& t);
@@ -64,6 +79,11 @@ void find_drag(const SurfaceLaw& law, const Collider& triangles, const Collider&
 void add_drag_product(const ContactDirection& direction, const Collider& triangles,
                       const Collider& faces, const Configuration& configuration,
                       const Eigen::VectorXd& u, double scale, Eigen::VectorXd& f);
+
+/// Grips after a change of the blocks' velocities from those of find_drag().
+void update_grips(const SurfaceLaw& law, const Collider& triangles, const Collider& faces,
+                  const Configuration& configuration, const Eigen::VectorXd& change,
+                  ContactDirection& direction);
 
 /// What friction and damping lose [W].
 double drag_power(const ContactDirection& direction);

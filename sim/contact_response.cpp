@@ -198,6 +198,20 @@ void ContactResponse::add_damping_product(const Configuration& configuration,
   }
 }
 
+void ContactResponse::update_grips(const Configuration& configuration,
+                                   const Eigen::VectorXd& change) {
+  for (ContactDirection* const near : near_) {
+    const ContactModel& contact = model_.contacts[static_cast<std::size_t>(near->contact)];
+    if (!(contact.law.friction > 0)) continue;
+    const ContactSides side = sides_of(model_, *near);
+    sim::update_grips(contact.law, side.triangles, side.faces, configuration, change, *near);
+  }
+}
+
+void ContactResponse::drop_grips() {
+  for (ContactDirection& direction : directions_) direction.grip.resize(3, 0);
+}
+
 double ContactResponse::damping_power() const {
   double power = 0;
   for (const ContactDirection* direction : near_) power += drag_power(*direction);

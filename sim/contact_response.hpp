@@ -47,6 +47,11 @@ class ContactResponse {
   bool augment();
   /// From the next evaluate() on, λ = 0.
   void drop_multipliers();
+  /// From the next evaluate() on, the grips of friction are those after a change of the blocks'
+  /// velocities.
+  void update_grips(const Configuration& configuration, const Eigen::VectorXd& change);
+  /// From the next evaluate() on, there are none.
+  void drop_grips();
   /// From the next evaluate() on, this part of each contact's depth is allowed [m]; empty: none.
   void set_allowances(std::vector<double> allowances) { allowances_ = std::move(allowances); }
 

@@ -10,8 +10,9 @@ ContactStiffness::ContactStiffness(const Model& model) : model_(model) {
 }
 
 void ContactStiffness::add(const ContactDirection& direction, const Configuration& configuration,
-                           fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A) {
-  add_node_stiffness(direction, configuration, tangent, scale, A);
+                           fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A,
+                           FrictionCoupling& coupling) {
+  add_node_stiffness(direction, configuration, scale, A, coupling);
   const double k = scale.stiffness * direction.point_stiffness;
   if (tangent != fem::Tangent::Consistent && k == 0) return;
   const ContactSides side = sides_of(model_, direction);
@@ -80,11 +81,10 @@ void ContactStiffness::find_patches_of_sheets(const ContactDirection& direction)
           patch_begin_[static_cast<std::size_t>(sheet) + 1]++)] = static_cast<int>(e);
 }
 
-/// A += factor g gᵀ, where g sums gradient(entry) over the patches of these numbers.
+/// gradient_ becomes the sum of gradient(entry) over the patches of these numbers, by blocks_.
 template <class Gradient>
-void ContactStiffness::add_rank_one(const ContactDirection& direction, std::span<const int> patches,
-                                    const Configuration& configuration, double factor,
-                                    Gradient&& gradient, fem::BlockMatrix& A) {
+void ContactStiffness::gather(const ContactDirection& direction, std::span<const int> patches,
+                              const Configuration& configuration, Gradient&& gradient) {
   const ContactSides side = sides_of(model_, direction);
   const auto add = [&](const NodeRef& node, const Vec3& g) {
     if (node.bone >= model_.layout.num_rigid) return;
@@ -105,9 +105,9 @@ void ContactStiffness::add_rank_one(const ContactDirection& direction, std::span
     for (std::size_t i = 0; i < 6; ++i)
       add(*nodes[i], g.segment<3>(3 * static_cast<Eigen::Index>(i)));
   }
-  for (const int i : blocks_)
-    for (const int j : blocks_)
-      A.block(A.slot(i, j)) += factor * gradient_.col(i) * gradient_.col(j).transpose();
+}
+
+void ContactStiffness::drop_gathered() {
   for (const int block : blocks_) {
     gradient_.col(block).setZero();
     has_gradient_[static_cast<std::size_t>(block)] = 0;
@@ -115,10 +115,40 @@ void ContactStiffness::add_rank_one(const ContactDirection& direction, std::span
   blocks_.clear();
 }
 
-/// Σ k_a/A_a (A_a ∇g_a) (A_a ∇g_a)ᵀ, the same with the damping, and −∂t_a/∂V_a.
+/// A += factor g gᵀ, where g sums gradient(entry) over the patches of these numbers.
+template <class Gradient>
+void ContactStiffness::add_rank_one(const ContactDirection& direction, std::span<const int> patches,
+                                    const Configuration& configuration, double factor,
+                                    Gradient&& gradient, fem::BlockMatrix& A) {
+  gather(direction, patches, configuration, gradient);
+  for (const int i : blocks_)
+    for (const int j : blocks_)
+      A.block(A.slot(i, j)) += factor * gradient_.col(i) * gradient_.col(j).transpose();
+  drop_gathered();
+}
+
+/// One sheet's columns: `drag` of S, factor times `depth` of G, summed over the patches.
+template <class Drag, class Depth>
+void ContactStiffness::add_coupling(const ContactDirection& direction, std::span<const int> patches,
+                                    const Configuration& configuration, double factor, Drag&& drag,
+                                    Depth&& depth, FrictionCoupling& coupling) {
+  coupled_.clear();
+  gather(direction, patches, configuration, drag);
+  for (const int block : blocks_) coupled_.push_back({block, gradient_.col(block), Vec3::Zero()});
+  drop_gathered();
+  gather(direction, patches, configuration, depth);  // of the same blocks
+  for (FrictionCoupling::Entry& entry : coupled_)
+    entry.pressure = factor * gradient_.col(entry.block);
+  drop_gathered();
+  coupling.add_sheet(coupled_);
+}
+
+/// Σ k_a/A_a (A_a ∇g_a) (A_a ∇g_a)ᵀ, the same with the damping, and what friction resists with; how
+/// it grows with the pressure, −∂t_a/∂p_a ∇p_aᵀ, is coupling.
 void ContactStiffness::add_node_stiffness(const ContactDirection& direction,
-                                          const Configuration& configuration, fem::Tangent tangent,
-                                          const SystemScale& scale, fem::BlockMatrix& A) {
+                                          const Configuration& configuration,
+                                          const SystemScale& scale, fem::BlockMatrix& A,
+                                          FrictionCoupling& coupling) {
   const bool averaged = !(direction.point_stiffness > 0);
   if (!averaged && direction.drag.empty()) return;
   find_patches_of_sheets(direction);
@@ -144,23 +174,23 @@ void ContactStiffness::add_node_stiffness(const ContactDirection& direction,
       continue;
     }
     const NodalDrag& drag = direction.drag[static_cast<std::size_t>(a)];
-    add_rank_one(direction, around, configuration,
-                 (averaged ? drag.stiffening * penalty : 0) +
-                     scale.damping * drag.damping / direction.measure[a],
-                 of_depth, A);
-    // Friction grows with the slip ever more slowly: the secant is an upper bound of the tangent.
-    const double along = tangent == fem::Tangent::Consistent ? drag.drag_along : drag.drag_across;
-    for (const auto& [direction_of_slip, strength] :
-         {std::pair(drag.along, along), std::pair(drag.across, drag.drag_across)}) {
-      if (!(scale.damping * strength > 0)) continue;
-      const Vec3& unit = direction_of_slip;
-      add_rank_one(
-          direction, around, configuration, scale.damping * strength / direction.area[a],
-          [&](const ContactDirection::Patch& entry) {
-            return slip_gradient(entry.patch, unit * Vec3::Unit(place(entry)).transpose());
-          },
-          A);
-    }
+    const double stiffening = drag.stiffening * penalty;
+    const double damping = scale.damping * drag.damping / direction.measure[a];
+    add_rank_one(direction, around, configuration, (averaged ? stiffening : 0) + damping, of_depth,
+                 A);
+    const auto of_slip = [&](const Vec3& t) {
+      return [&, t](const ContactDirection::Patch& entry) {
+        return slip_gradient(entry.patch, t * Vec3::Unit(place(entry)).transpose());
+      };
+    };
+    for (const auto& [axis, strength] :
+         {std::pair(drag.along, drag.drag_along), std::pair(drag.across, drag.drag_across)})
+      if (scale.damping * strength > 0)
+        add_rank_one(direction, around, configuration, scale.damping * strength / direction.area[a],
+                     of_slip(axis), A);
+    if (!drag.traction.isZero(0))
+      add_coupling(direction, around, configuration, stiffening + damping,
+                   of_slip(-drag.traction / direction.pressure[a]), of_depth, coupling);
   }
 }
 

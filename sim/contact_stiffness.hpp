@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/contact_direction.hpp"
+#include "sim/friction_coupling.hpp"
 #include "sim/system_matrix.hpp"
 
 namespace articular::sim {
@@ -14,29 +15,40 @@ class ContactStiffness {
   explicit ContactStiffness(const Model& model);
 
   /// A += contact stiffness of one direction: all of it, or (projected) the positive semidefinite
-  /// part Σ k_a A_a ∇g_a ∇g_aᵀ; and the damping. How friction grows with the pressure is left out:
-  /// it is not symmetric.
+  /// part Σ k_a A_a ∇g_a ∇g_aᵀ; and the damping. How friction grows with the pressure goes into
+  /// `coupling`.
   void add(const ContactDirection& direction, const Configuration& configuration,
-           fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A);
+           fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A,
+           FrictionCoupling& coupling);
 
  private:
   void find_patches_of_sheets(const ContactDirection& direction);
+  template <class Gradient>
+  void gather(const ContactDirection& direction, std::span<const int> patches,
+              const Configuration& configuration, Gradient&& gradient);
+  void drop_gathered();
   template <class Gradient>
   void add_rank_one(const ContactDirection& direction, std::span<const int> patches,
                     const Configuration& configuration, double factor, Gradient&& gradient,
                     fem::BlockMatrix& A);
   void add_node_stiffness(const ContactDirection& direction, const Configuration& configuration,
-                          fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A);
+                          const SystemScale& scale, fem::BlockMatrix& A,
+                          FrictionCoupling& coupling);
+  template <class Drag, class Depth>
+  void add_coupling(const ContactDirection& direction, std::span<const int> patches,
+                    const Configuration& configuration, double factor, Drag&& drag, Depth&& depth,
+                    FrictionCoupling& coupling);
   void add_measure_stiffness(const ContactDirection& direction, const Configuration& configuration,
                              double scale, fem::BlockMatrix& A);
 
   const Model& model_;
-  // Scratch: the patches of each sheet of the direction, those of a triangle, and a gradient by
-  // blocks.
+  // Scratch: the patches of each sheet of the direction, those of a triangle, a gradient by blocks,
+  // and what couples one sheet.
   std::vector<int> patch_begin_, patch_of_sheet_, group_;
   Positions gradient_;
   std::vector<int> blocks_;
   std::vector<char> has_gradient_;
+  std::vector<FrictionCoupling::Entry> coupled_;
 };
 
 }  // namespace articular::sim

@@ -27,6 +27,7 @@ class Dynamics {
     matrix_.forget();
     contact_.drop_multipliers();
     contact_.set_soft(false);
+    contact_.drop_grips();
     drop_prediction();
   }
 
@@ -60,6 +61,11 @@ class Dynamics {
   void set_stiffening(const Eigen::VectorXd& factors) { contact_.set_stiffening(factors); }
   bool augment_contact() { return contact_.augment(); }
   void drop_multipliers() { contact_.drop_multipliers(); }
+  /// From the next evaluate() on, see ContactResponse::update_grips() and drop_grips().
+  void update_grips(const Eigen::VectorXd& change) {
+    contact_.update_grips(configuration_, change);
+  }
+  void drop_grips() { contact_.drop_grips(); }
   /// From the next evaluate() on, without gravity, loads and lines.
   void set_unloaded(bool unloaded) { unloaded_ = unloaded; }
   const ContactResponse& contact() const { return contact_; }
@@ -81,6 +87,9 @@ class Dynamics {
 
   /// Mass, damping and stiffness at the last evaluate(), over the unknown blocks.
   const fem::BlockMatrix& matrix(const SystemScale& scale, fem::Tangent tangent);
+
+  /// What friction adds to that matrix. Refers to this object.
+  const FrictionCoupling& friction_coupling() const { return matrix_.friction_coupling(); }
 
   /// What smoothed tissues add to that matrix: pressures that couple all of their nodes. Refers to
   /// this object.

@@ -301,10 +301,11 @@ const fem::BlockMatrix& NewtonMatrix::assemble(const Moment& now, const SystemSc
   add_masses(now.configuration, scale, common);
   for (std::size_t l = 0; l < model_.lines.size(); ++l)
     add_line_stiffness(model_, model_.lines[l], now.configuration, now.lines[l], scale, common);
+  friction_.clear();
   for (const ContactDirection* direction : now.contact.directions()) {
     if (direction->num_patches == 0) continue;
     ++evaluations_[Term::ContactStiffness];
-    contact_.add(*direction, now.configuration, tangent, scale, common);
+    contact_.add(*direction, now.configuration, tangent, scale, common, friction_);
   }
   pressure_terms_.clear();
   if (!smoothed_) {

@@ -45,6 +45,8 @@ class NewtonMatrix {
                                    fem::Tangent tangent);
   /// Of stiffness and inertia.
   const EvaluationCounts& evaluations() const { return evaluations_; }
+  /// What friction adds to that matrix.
+  const FrictionCoupling& friction_coupling() const { return friction_; }
   /// What smoothed tissues add to that matrix: pressures that couple all of their nodes. Refers to
   /// this object.
   fem::PressurePart pressure_part() const;
@@ -93,6 +95,7 @@ class NewtonMatrix {
   fem::BlockMatrix plain_;          // with smoothed tissues: couplings of the elements alone
   std::vector<int> slot_of_plain_;  // of each of its blocks in A_
   std::vector<fem::PressureTerm> pressure_terms_;
+  FrictionCoupling friction_;
   EvaluationCounts evaluations_;
 };
 

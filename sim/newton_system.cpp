@@ -53,11 +53,13 @@ void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
   first_ = tangent;
   used_consistent_ = false;
   may_accelerate_ = false;
+  dynamics_.drop_grips();
   if (!keep_matrix) gamma_ = 0;
 }
 
 void NewtonSystem::begin_iteration() {
   may_accelerate_ = true;
+  dynamics_.drop_grips();
   correction_ = 0;
   anderson_.restart();
 }
@@ -80,13 +82,25 @@ bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, SolverCounts& cou
   return ready;
 }
 
-bool NewtonSystem::solve_linear(SolverCounts& counts) {
-  const Stopwatch watch(solve_seconds_);
-  w_.setZero(mass_rhs_.size());
-  const fem::SolveReport report = solver_->solve(mass_rhs_, w_);
+bool NewtonSystem::solve_symmetric(const Eigen::VectorXd& r, Eigen::VectorXd& w,
+                                   SolverCounts& counts) {
+  w.setZero(r.size());
+  const fem::SolveReport report = solver_->solve(r, w);
   ++counts.linear_solves;
   counts.linear_iterations += report.iterations;
-  const bool solved = report.converged && w_.allFinite();
+  return report.converged && w.allFinite();
+}
+
+bool NewtonSystem::solve_linear(SolverCounts& counts) {
+  const Stopwatch watch(solve_seconds_);
+  const auto solve = [&](Eigen::VectorXd& r, Eigen::VectorXd& w) {
+    keep_free_part(model_, r);
+    return solve_symmetric(r, w, counts);
+  };
+  const FrictionCoupling& coupling = dynamics_.friction_coupling();
+  const bool solved =
+      solve_symmetric(mass_rhs_, w_, counts) &&
+      (coupling.num_sheets() == 0 || solve_with_friction(coupling, solve, mass_rhs_, w_));
   used_consistent_ |= solved && tangent_ == fem::Tangent::Consistent;
   return solved;
 }
@@ -239,6 +253,9 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     x_q[2] = dq.y() + growth * q.y();
     x_q[3] = dq.z() + growth * q.z();
   }
+  velocity_change_.setZero(3 * model_.num_blocks);
+  velocity_change_.head(num_velocities) = velocity_change;
+  dynamics_.update_grips(velocity_change_);
   dynamics_.correct_lags(b, gamma, w_, x);
   double scale = step_fraction(gamma);
   if (searches) scale = searched_fraction(scale, y, gamma, x, counts);

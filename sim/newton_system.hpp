@@ -63,13 +63,16 @@ class NewtonSystem {
   double largest_motion(double gamma) const;
   [[nodiscard]] bool prepare(double gamma, fem::Tangent tangent, SolverCounts& counts);
   [[nodiscard]] bool solve_linear(SolverCounts& counts);
+  /// w = A⁻¹ r with the matrix that is factored.
+  [[nodiscard]] bool solve_symmetric(const Eigen::VectorXd& r, Eigen::VectorXd& w,
+                                     SolverCounts& counts);
   /// w, with the consistent matrix if it is positive definite, else with the projected one.
   [[nodiscard]] bool find_correction(double gamma, SolverCounts& counts);
 
   const Model& model_;
   Dynamics& dynamics_;
   std::unique_ptr<fem::LinearSolver> solver_;
-  Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_;
+  Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_, velocity_change_;
   Eigen::VectorXd weighted_, forces_, trial_;            // of the line search
   double gamma_ = 0;                                     // of the matrix that is factored; 0: none
   std::uint64_t pattern_ = 0;                            // of that matrix

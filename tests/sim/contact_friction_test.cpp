@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "contact_scene.hpp"
 #include "sim/contact_search.hpp"
@@ -83,6 +84,122 @@ TEST(Drag, OfDampingNeverPullsAndIsContinuousWhereSurfacesMeet) {
   EXPECT_EQ(nodal_drag(law, 1e-9, 9, Vec3::Zero(), Vec3::UnitZ()).pressure, 1e-9);
 }
 
+/// The matrix that stands for −∂t/∂V, in space.
+Mat3 resistance(const NodalDrag& drag) {
+  return drag.drag_along * drag.along * drag.along.transpose() +
+         drag.drag_across * drag.across * drag.across.transpose();
+}
+
+TEST(Grip, ThatOfTheSlipMakesTheMatrixTheDerivativeOfTheTraction) {
+  const SurfaceLaw law{kFriction, kSlip, 0};
+  const Vec3 normal = Vec3(1, 2, -3).normalized(), slip(2 * kSlip, -kSlip, 0.5 * kSlip);
+  const auto traction = [&](const Vec3& v) { return nodal_drag(law, 200, 0, v, normal).traction; };
+  const Mat3 matrix = resistance(nodal_drag(law, 200, 0, slip, normal));
+  constexpr double kDifference = 1e-5 * kSlip;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 d = kDifference * Vec3::Unit(i);
+    const Vec3 change = (traction(slip + d) - traction(slip - d)) / (2 * kDifference);
+    EXPECT_LT((matrix.col(i) + change).norm(), 1e-8 * matrix.norm());
+  }
+}
+
+TEST(Grip, OfAnyDirectionGivesTheMatrixThatItIsDefinedBy) {
+  const SurfaceLaw law{kFriction, kSlip, 0};
+  Random random(5);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Vec3 normal = random.vec3().normalized(), slip = 5 * kSlip * random.vec3();
+    const NodalDrag plain = nodal_drag(law, 200, 0, slip, normal);
+    const double regular = std::hypot(plain.slip.norm(), kSlip);
+    const Vec3 own = plain.slip / regular;
+    // Opposite, none, or any.
+    const Vec3 grip = trial == 0 ? Vec3(-own) : trial == 1 ? Vec3::Zero().eval() : random.vec3();
+    const Vec3 g = grip - normal.dot(grip) * normal;
+    const Mat3 plane = Mat3::Identity() - normal * normal.transpose();
+    const Mat3 expected =
+        kFriction * 200 / regular * (plane - 0.5 * (g * own.transpose() + own * g.transpose()));
+    const NodalDrag drag = nodal_drag(law, 200, 0, slip, normal, grip);
+    EXPECT_LT((resistance(drag) - expected).norm(), 1e-12 * expected.norm()) << trial;
+    EXPECT_EQ(drag.traction, plain.traction);
+    if (g.norm() > 1) continue;
+    EXPECT_GE(drag.drag_along, 0);
+    EXPECT_GE(drag.drag_across, 0);
+  }
+}
+
+/// Newton's iterations for a mass on a spring that friction holds, F = K V + μ p V/s, from a slip
+/// of 300 v_s; 50: it does not get there.
+int iterations(bool with_grip, double force) {
+  constexpr double kSpring = 1e-3;
+  const SurfaceLaw law{1, 1, 0};
+  Vec3 slip(300, 0, 0);
+  std::optional<Vec3> grip;
+  for (int i = 0; i < 50; ++i) {
+    const NodalDrag drag = nodal_drag(law, 1, 0, slip, Vec3::UnitZ(), grip);
+    const Vec3 residual = Vec3(force, 0, 0) - kSpring * slip + drag.traction;
+    if (residual.norm() < 1e-9) return i;
+    const Mat3 K = resistance(drag) + kSpring * Mat3::Identity();
+    const Vec3 change = K.inverse() * residual;
+    if (with_grip) grip = next_grip(law, drag.slip, change, grip);
+    slip += change;
+  }
+  return 50;
+}
+
+TEST(Grip, LetsNewtonsIterationStopWhatSlides) {
+  for (const double force : {0.0, 0.3, -0.7, 0.9}) {
+    EXPECT_LT(iterations(true, force), 15) << force;
+    EXPECT_EQ(iterations(false, force), 50) << force;
+  }
+}
+
+TEST(Grip, IsShortenedToOneAndFollowsTheSlip) {
+  const SurfaceLaw law{1, kSlip, 0};
+  const Vec3 slip(3 * kSlip, 0, 0);
+  EXPECT_NEAR(
+      (next_grip(law, slip, Vec3::Zero(), Vec3(0, 0.2, 0)) - slip / std::hypot(3 * kSlip, kSlip))
+          .norm(),
+      0, 1e-14);
+  EXPECT_NEAR(next_grip(law, slip, Vec3(0, 100 * kSlip, 0), {}).norm(), 1, 1e-14);
+}
+
+TEST(FrictionCoupling, IsSolvedForByAFewSolutionsOfTheSymmetricMatrix) {
+  constexpr int kBlocks = 12, kSheets = 8;
+  Random random(6);
+  const Eigen::MatrixXd R = random.vector(9 * kBlocks * kBlocks).reshaped(3 * kBlocks, 3 * kBlocks);
+  const Eigen::MatrixXd A = R * R.transpose() + Eigen::MatrixXd::Identity(3 * kBlocks, 3 * kBlocks);
+  const Eigen::LLT<Eigen::MatrixXd> factor(A);
+  Eigen::MatrixXd all = A;
+  FrictionCoupling coupling;
+  for (int a = 0; a < kSheets; ++a) {
+    Eigen::MatrixXd s = Eigen::MatrixXd::Zero(3 * kBlocks, 1), g = s;
+    std::vector<FrictionCoupling::Entry> entries;
+    for (int k = 0; k < 3; ++k) {
+      const int block = (a + 4 * k) % kBlocks;
+      entries.push_back({block, 0.3 * random.vec3(), random.vec3()});
+      s.middleRows<3>(3 * block) = entries.back().drag;
+      g.middleRows<3>(3 * block) = entries.back().pressure;
+    }
+    coupling.add_sheet(entries);
+    all += s * g.transpose();
+  }
+  int solutions = 0;
+  const auto solve = [&](Eigen::VectorXd& r, Eigen::VectorXd& w) {
+    ++solutions;
+    w = factor.solve(r);
+    return true;
+  };
+  const Eigen::VectorXd b = random.vector(3 * kBlocks);
+  Eigen::VectorXd w = factor.solve(b);
+  const Eigen::VectorXd expected = all.partialPivLu().solve(b);
+  EXPECT_GT((w - expected).norm(), 0.01 * expected.norm());
+  ASSERT_TRUE(solve_with_friction(coupling, solve, b, w));
+  EXPECT_LT((w - expected).norm(), 2e-3 * expected.norm());
+  EXPECT_LE(solutions, kSheets + 1);
+
+  const auto fails = [](Eigen::VectorXd&, Eigen::VectorXd&) { return false; };
+  EXPECT_FALSE(solve_with_friction(coupling, fails, b, w));
+}
+
 // --- forces
 
 /// A block of tissue, tilted and spinning, pressed into a softer one; it also has a rigid one on
@@ -144,7 +261,92 @@ TEST(ContactDrag, ForcesAreEqualAndOppositeWithoutNetMoment) {
   EXPECT_LT(moment.norm(), 1e-14 * sum * kWidth);
 }
 
-// With both, friction also follows the damped pressure, which the symmetric matrix leaves out.
+/// y = A w
+Eigen::VectorXd times(const fem::BlockMatrix& A, const Eigen::VectorXd& w) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(w.size());
+  for (int i = 0; i < A.num_blocks(); ++i)
+    for (int s = A.row_begin()[static_cast<std::size_t>(i)];
+         s < A.row_begin()[static_cast<std::size_t>(i) + 1]; ++s)
+      y.segment<3>(3 * i) += A.block(s) * w.segment<3>(3 * A.column()[static_cast<std::size_t>(s)]);
+  return y;
+}
+
+/// What friction adds to a product with the last matrix.
+Eigen::VectorXd coupled(const Dynamics& dynamics, const Eigen::VectorXd& w) {
+  const FrictionCoupling& coupling = dynamics.friction_coupling();
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(w.size());
+  coupling.add_drag(coupling.pressures(w), 1, y);
+  return y;
+}
+
+// With both, friction also follows the damped pressure.
+TEST(ContactDrag, MatrixAndCouplingAreTheDerivativeOfTheForcesByVelocity) {
+  const Model model = build_model(stack(0.5, 1e3));
+  Forces now(model);
+  const int n = 3 * model.layout.num_unknown_blocks(), first = model.layout.velocities();
+  Random random(3);
+  const Eigen::VectorXd w = random.vector(n);
+  const Eigen::VectorXd by_matrix =
+      times(now.dynamics.matrix({0, 1, 0}, fem::Tangent::Consistent), w);
+  const Eigen::VectorXd by_both = by_matrix + coupled(now.dynamics, w);
+  constexpr double kDifference = 1e-5;  // [m/s]
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(n);
+  for (const double sign : {1.0, -1.0}) {
+    Eigen::VectorXd y = now.y;
+    y.segment(first, n) += sign * kDifference * w;
+    now.dynamics.evaluate(y.data(), 0);
+    change -= sign / (2 * kDifference) * now.dynamics.forces().head(n);
+  }
+  EXPECT_LT((change - by_both).norm(), 1e-6 * by_both.norm());
+  EXPECT_GT((change - by_matrix).norm(), 1e-3 * by_matrix.norm());
+}
+
+// A block that slides is pressed down as a whole: nothing turns, and all that friction does is to
+// follow the pressure.
+TEST(ContactDrag, CouplingIsTheDerivativeOfFrictionByTheDepth) {
+  for (const Scenario::Response response :
+       {Scenario::Response::Pointwise, Scenario::Response::Averaged}) {
+    Scenario s = contact_scene(1e-4);
+    s.contact_response = response;
+    s.bodies = {box_body("lower", Body::Kind::Fixed, {0.03, 0.03, 0.01}, {0, 0, -0.005}, {3, 3, 1}),
+                box_body("upper", Body::Kind::Tissue, {kWidth, kWidth, kHeight}, {1e-3, 0, 0.0049},
+                         {2, 2, 1})};
+    s.bodies[1].velocity = {-0.03, 0.02, 0};
+    s.contacts = {{"lower", "upper", 1e8, {}}};
+    s.contacts[0].friction = 0.5;
+    s.contacts[0].slip_velocity = 0.03;
+    const Model model = build_model(s);
+    Dynamics dynamics(model);
+    ContactSearch search(model);
+    Eigen::VectorXd y = initial_state(model);
+    Configuration start;
+    read_state(model, y.data(), 0, start);
+    search.find(start, 1e-4);
+    dynamics.set_candidates(search.candidates());
+    dynamics.evaluate(y.data(), 0);
+    const int n = 3 * model.layout.num_unknown_blocks();
+    const Eigen::VectorXd down = Vec3(0, 0, -1).replicate(n / 3, 1);
+    const Eigen::VectorXd by_matrix =
+        times(dynamics.matrix({0, 0, 1}, fem::Tangent::Consistent), down);
+    const Eigen::VectorXd friction = coupled(dynamics, down);
+    constexpr double kDifference = 1e-7;  // [m]
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(n);
+    for (const double sign : {1.0, -1.0}) {
+      Eigen::VectorXd there = y;
+      there.head(n) += sign * kDifference * down;
+      dynamics.evaluate(there.data(), 0);
+      change -= sign / (2 * kDifference) * dynamics.forces().head(n);
+    }
+    // Along the table; with the depth, friction also gets a longer lever.
+    const auto sideways = [n](const Eigen::VectorXd& f) {
+      return f.reshaped(3, n / 3).topRows<2>();
+    };
+    EXPECT_LT((sideways(change) - sideways(friction)).norm(), 1e-6 * friction.norm());
+    EXPECT_LT(sideways(by_matrix).norm(), 1e-6 * friction.norm());
+    EXPECT_GT(friction.norm(), 0.1 * by_matrix.norm());
+  }
+}
+
 TEST(ContactDrag, MatrixAndProductAreTheDerivativeOfTheForcesByVelocity) {
   for (const auto& [friction, damping] : {std::pair(0.5, 0.0), std::pair(0.0, 1e3)}) {
     const Model model = build_model(stack(friction, damping));
@@ -153,12 +355,7 @@ TEST(ContactDrag, MatrixAndProductAreTheDerivativeOfTheForcesByVelocity) {
     Random random(3);
     const Eigen::VectorXd w = random.vector(n);
     const fem::BlockMatrix& A = now.dynamics.matrix({0, 1, 0}, fem::Tangent::Consistent);
-    Eigen::VectorXd by_matrix = Eigen::VectorXd::Zero(n);
-    for (int i = 0; i < A.num_blocks(); ++i)
-      for (int s = A.row_begin()[static_cast<std::size_t>(i)];
-           s < A.row_begin()[static_cast<std::size_t>(i) + 1]; ++s)
-        by_matrix.segment<3>(3 * i) +=
-            A.block(s) * w.segment<3>(3 * A.column()[static_cast<std::size_t>(s)]);
+    const Eigen::VectorXd by_matrix = times(A, w);
     Eigen::VectorXd all = Eigen::VectorXd::Zero(3 * model.num_blocks), product = all;
     all.head(n) = w;
     now.dynamics.add_damping_product(all, 1, product);
