@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "sim/angular_momentum.hpp"
@@ -26,8 +27,8 @@ struct FreeNonlinear {
 constexpr double kNewtonFraction = 0.1;
 /// Of that part: residuals below count as none.
 constexpr double kLeastResidual = 1e-12;
-/// With stiff contact, corrections from this one on are searched for how far they may go.
-constexpr int kSearchesFrom = 8;
+/// With stiff contact, a second try searches corrections from this one on for how far they may go.
+constexpr int kSearchesFrom = 8, kNever = std::numeric_limits<int>::max();
 /// Contact that opens and closes makes corrections grow for an iteration or two; ARKODE's limit of
 /// 2.3 gives up then.
 constexpr double kDivergenceRatio = 1e3;
@@ -53,7 +54,8 @@ class ImplicitRungeKutta final : public TimeIntegrator {
                           realtype tolerance, N_Vector weights, void* data);
   static int predict_stage(realtype t, N_Vector z, void* data);
   [[nodiscard]] bool evolve(const Eigen::VectorXd& start, double t, double h);
-  [[nodiscard]] bool evolve_by_either_tangent(const Eigen::VectorXd& start, double t, double h);
+  [[nodiscard]] bool evolve_by_either_tangent(const Eigen::VectorXd& start, double t, double h,
+                                              bool lands = false);
   [[nodiscard]] bool evolve_from_soft_contact(const Eigen::VectorXd& start, double t, double h);
   Eigen::VectorXd mean_acceleration(const Eigen::VectorXd& start, const Eigen::VectorXd& end,
                                     double h) const;
@@ -174,7 +176,6 @@ ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics)
   check(ARKStepSetErrHandlerFn(arkode, sundials::ignore_message, nullptr),
         "ARKStepSetErrHandlerFn");
   check(ARKStepSetUserData(arkode, this), "ARKStepSetUserData");
-  if (has_stiff_contact_) newton_.search_lines(kSearchesFrom);
   set_scheme(arkode, model.scenario.integrator.scheme);
   check(ARKStepWFtolerances(arkode, weights), "ARKStepWFtolerances");
   check(ARKStepSetNonlinearSolver(arkode, nonlinear_.get()), "ARKStepSetNonlinearSolver");
@@ -219,14 +220,21 @@ bool ImplicitRungeKutta::evolve(const Eigen::VectorXd& start, double t, double h
 }
 
 /// Over a jump of the active contacts the Gauss–Newton matrix may get where the consistent one,
-/// whose curvature is of the wrong side, does not: it has a try before the step is shortened.
-bool ImplicitRungeKutta::evolve_by_either_tangent(const Eigen::VectorXd& start, double t,
-                                                  double h) {
-  for (const fem::Tangent tangent : {fem::Tangent::Consistent, fem::Tangent::Projected}) {
+/// whose curvature is of the wrong side, does not: it has a try before the step is shortened. So
+/// has a line search where contact is stiff, which ends cycles; at a kink that Newton's iteration
+/// steps over it may creep without end.
+/// @param lands  contact is where soft contact leads: each correction is searched
+bool ImplicitRungeKutta::evolve_by_either_tangent(const Eigen::VectorXd& start, double t, double h,
+                                                  bool lands) {
+  const int first = lands ? 0 : kNever;
+  const int second = has_stiff_contact_ && !lands ? kSearchesFrom : first;
+  for (const auto& [tangent, searched_from] :
+       {std::pair(fem::Tangent::Consistent, first), std::pair(fem::Tangent::Projected, second)}) {
+    newton_.search_lines(searched_from);
     newton_.begin_step(keep_matrix_, tangent);
     keep_matrix_ = false;  // after a failure
     if (evolve(start, t, h)) return true;
-    if (newton_.used_projected_only()) break;
+    if (newton_.used_projected_only() && first == second) break;
   }
   return false;
 }
@@ -240,10 +248,7 @@ bool ImplicitRungeKutta::evolve_from_soft_contact(const Eigen::VectorXd& start, 
   dynamics_.set_soft_contact(false);
   if (!landed) return false;
   acceleration_ = mean_acceleration(start, view(y_), h);
-  newton_.search_lines(0);
-  const bool done = evolve_by_either_tangent(start, t, h);
-  newton_.search_lines(kSearchesFrom);
-  return done;
+  return evolve_by_either_tangent(start, t, h, true);
 }
 
 Eigen::VectorXd ImplicitRungeKutta::mean_acceleration(const Eigen::VectorXd& start,

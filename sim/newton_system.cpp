@@ -65,8 +65,15 @@ void NewtonSystem::begin_iteration() {
 }
 
 bool NewtonSystem::needs_matrix(double gamma) const {
-  if (gamma != gamma_ || pattern_ != dynamics_.pattern_id()) return true;
+  if (gamma != gamma_ || pattern_ != dynamics_.pattern_id() || has_parted()) return true;
   return iteration_ > 0 && residual_ > kSlowFall * last_residual_;
+}
+
+bool NewtonSystem::has_parted() const {
+  const std::vector<double>& now = dynamics_.contact().force_on_bodies();
+  for (std::size_t b = 0; b < touching_.size(); ++b)
+    if (touching_[b] > 0 && now[b] == 0) return true;
+  return false;
 }
 
 bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, SolverCounts& counts) {
@@ -78,6 +85,7 @@ bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, SolverCounts& cou
       prepare_linear(*solver_, A, dynamics_.configuration().x, dynamics_.pressure_part());
   gamma_ = ready ? gamma : 0;
   pattern_ = A.pattern_id();
+  touching_ = dynamics_.contact().force_on_bodies();
   tangent_ = tangent;
   return ready;
 }

@@ -50,6 +50,8 @@ class NewtonSystem {
 
  private:
   bool needs_matrix(double gamma) const;
+  /// A body that was touched where the matrix was taken, whose contact would hold it now, is not.
+  bool has_parted() const;
   /// Part of the correction w that stays within Dynamics::trusted_motion().
   double step_fraction(double gamma) const;
   /// w is far below the tolerance, and what touches in balance.
@@ -76,6 +78,7 @@ class NewtonSystem {
   Eigen::VectorXd weighted_, forces_, trial_;            // of the line search
   double gamma_ = 0;                                     // of the matrix that is factored; 0: none
   std::uint64_t pattern_ = 0;                            // of that matrix
+  std::vector<double> touching_;                         // force on bodies then [N]
   fem::Tangent tangent_ = fem::Tangent::Consistent;      // of that matrix
   fem::Tangent first_ = fem::Tangent::Consistent;        // to try in this step
   bool used_consistent_ = false;                         // in this step

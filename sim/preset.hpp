@@ -10,7 +10,7 @@ namespace articular::sim {
 /// the step and the tolerance.
 struct Preset {
   Integrator integrator;
-  Scenario::Response contact_response = Scenario::Response::Pointwise;
+  Scenario::Response contact_response = Scenario::Response::Averaged;
   /// What came out in mandible/opening-study.toml: largest error of the incisors' path, and that of
   /// the mean force on the joint.
   std::string promise;

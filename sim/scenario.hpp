@@ -319,7 +319,7 @@ struct Scenario {
   bool contact = true;  // `contact = false`: nothing touches
   /// Of a dynamic analysis: depths count point by point, everywhere or at samples of each triangle,
   /// or as averages at nodes, which is what a static one does.
-  enum class Response { Pointwise, Sampled, Averaged } contact_response = Response::Pointwise;
+  enum class Response { Pointwise, Sampled, Averaged } contact_response = Response::Averaged;
   bool settling = true;  // bodies that overlap at the start are pushed apart first
   std::vector<ContactPair> contacts;
   std::vector<Probe> probes;

@@ -332,13 +332,15 @@ void Stepper::account(State& after) {
 /// twice that, or as much was made by then, be it gone again, what follows means nothing. The work
 /// of a driven motion that strikes something within a step is known to about itself.
 void Stepper::stop_where_energy_is_made(const State& state) const {
-  constexpr double kMost = 2;                // the ledger's sums are trapezoids
+  constexpr double kMost = 2;                // the ledger's sums are trapezoids,
+  constexpr double kOfLedger = 0.01;         // each known to about this part
   constexpr double kFarFromTolerance = 1e4;  // a hundred times its velocity
   const EnergyLedger& ledger = state.energy;
   const double kinetic = dynamics_->kinetic_energy();
   const double given = ledger.start - dynamics_->gravity_energy() + std::abs(ledger.muscle_work) +
                        std::abs(ledger.load_work) + std::abs(ledger.motion_work);
-  const double floor = kFarFromTolerance * energy_of_tolerance(model_);
+  const double floor =
+      kFarFromTolerance * energy_of_tolerance(model_) + kOfLedger * turned_over(state);
   const double source = std::max(given, 0.0);
   std::string what;
   if (kinetic > kMost * source + floor)

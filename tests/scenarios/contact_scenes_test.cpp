@@ -115,9 +115,9 @@ TEST(TwoVShapes, SlipOffEachOtherWithoutGainingEnergy) {
   EXPECT_EQ(results.last("between.area [mm^2]"), 0);
   EXPECT_LT(results.count("rejected_newton"), 100);
   EXPECT_LT(results.largest("between.max_penetration [mm]"), 0.7);
-  // While the edges slip off, what the gradient leaves out at a rim shows for a millisecond.
+  // At the moment when they do, a face that was taken for crossed is found for a step.
   EXPECT_GT(results.smallest("energy.numerical_loss [J]"),
-            -0.015 * results.largest("energy.motion_work [J]"));
+            -0.03 * results.largest("energy.motion_work [J]"));
 }
 
 TEST(SelfV, LegsCloseOnEachOther) {

@@ -40,7 +40,7 @@ double deepest_node(const Collider& collider, const Positions& x) {
       const Vec3 n = u.cross(v), w = p - a;
       const double s = w.cross(v).dot(n) / n.squaredNorm(), t = u.cross(w).dot(n) / n.squaredNorm();
       const double depth = -w.dot(n) / n.norm();
-      if (std::min({s, t, 1 - s - t}) >= -1e-6 && depth >= 0) least = std::min(least, depth);
+      if (std::min({s, t, 1 - s - t}) >= -1e-2 && depth >= 0) least = std::min(least, depth);
     }
     return least;
   };
@@ -108,14 +108,15 @@ Load closing(const std::string& plate, const Vec3& way) {
 }
 
 /// What pressed bodies show: how far they were closed and whether they came back.
-void expect_closed_and_recovered(Scenario s) {
+/// @param depth  of a node in a foreign element that there may be, by the element
+void expect_closed_and_recovered(Scenario s, double depth) {
   Simulation run(std::move(s));
   double least_ratio = 1;
   const auto watch = [&] { least_ratio = std::min(least_ratio, least_volume_ratio(run)); };
   run.advance(0.4, watch);
   EXPECT_GT(run.stepper.dynamics().contact_summary(0).area, 5e-7);  // [m²]
   EXPECT_GT(largest_stretch(run), 0.05);
-  EXPECT_LT(deepest_node(*run.model.bodies[0].collider, nodes_of(run, 0)), 0.05 * kElement);
+  EXPECT_LT(deepest_node(*run.model.bodies[0].collider, nodes_of(run, 0)), depth * kElement);
   run.advance(1.5, watch);
   EXPECT_GT(least_ratio, 0);
   EXPECT_EQ(run.stepper.dynamics().contact_summary(0).area, 0);
@@ -138,7 +139,7 @@ TEST(SelfContact, AUPressedFlatOntoItselfRecoversItsShape) {
   s.contacts = {{"u", "u", {}, {}}, {"u", "below", {}, {}}, {"u", "above", {}, {}}};
   const double way = kGap / 2 + 0.5e-3;
   s.loads = {closing("below", {0, 0, way}), closing("above", {0, 0, -way})};
-  expect_closed_and_recovered(s);
+  expect_closed_and_recovered(s, 0.05);
 }
 
 // A V whose legs' ends are driven together and back. (Between plates it would slip out.)
@@ -152,9 +153,9 @@ TEST(SelfContact, AVClosedOnItselfRecoversItsShape) {
   s.contacts = {{"v", "v", {}, {}}};
   s.attachments = {attach("v", "left", {-1, -1, 0}, {-0.0064, 1, 1}),
                    attach("v", "right", {0.0064, -1, 0}, {1, 1, 1})};
-  const double way = 3.4e-3;
+  const double way = 3.8e-3;
   s.loads = {closing("left", {way, 0, 0}), closing("right", {-way, 0, 0})};
-  expect_closed_and_recovered(s);
+  expect_closed_and_recovered(s, 0.1);  // edge against edge
 }
 
 }  // namespace

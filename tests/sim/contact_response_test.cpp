@@ -144,8 +144,9 @@ double error_of_tangent(SunkBlock& block) {
   SystemScale scale;
   scale.stiffness = 1;
   ContactStiffness stiffness(block.model);
+  FrictionCoupling friction;
   for (const ContactDirection* direction : block.response.directions())
-    stiffness.add(*direction, block.configuration, fem::Tangent::Consistent, scale, K);
+    stiffness.add(*direction, block.configuration, fem::Tangent::Consistent, scale, K, friction);
   double error = 0;
   for (int n = 0; n < 5; ++n) {
     const Eigen::VectorXd w = block.way(random);

@@ -95,6 +95,32 @@ TEST(ContactAtRest, ALightBlockPressesAHeavyOneWithItsWeight) {
   EXPECT_NEAR(run.stepper.dynamics().contact_summary(0).force.norm(), weight, 0.01 * weight);
 }
 
+// A matrix from before has the stiffness of a contact that has opened since then, which would hold
+// the block where it is.
+TEST(ContactAtRest, ABlockThatIsLiftedWithMoreThanItsWeightRises) {
+  constexpr double kSide = 0.01, kTime = 0.1, kStep = 1e-3;
+  const double weight = 1000 * kSide * kSide * kSide * kGravity;
+  for (const Scenario::Response response :
+       {Scenario::Response::Pointwise, Scenario::Response::Averaged}) {
+    Scenario s = contact_scene(1e-3);
+    s.contact_response = response;
+    s.bodies = {
+        box_body("block", Body::Kind::Rigid, Vec3::Constant(kSide)),
+        box_body("floor", Body::Kind::Fixed, {3 * kSide, 3 * kSide, kSide}, {0, 0, -kSide})};
+    Load lift;
+    lift.kind = Load::Kind::Force;
+    lift.anchor = anchor("block", Vec3::Zero());
+    lift.force = {0, 0, 2 * weight};
+    lift.profile = {{0, kTime}, {0, 1}};
+    s.loads = {gravity({0, 0, -kGravity}), lift};
+    Simulation run(s);
+    run.advance(kTime);
+    // From kTime/2 on: implicit Euler's sum of an acceleration that goes from 0 to g.
+    const double expected = 0.25 * kGravity * (kTime + 2 * kStep);
+    EXPECT_NEAR(run.now().velocities[0].linear.z(), expected, 1e-3 * expected);
+  }
+}
+
 // Flush sides of cubes that stand on each other face each other across a whole side: nothing came
 // in there. The bones have no elements smaller than themselves.
 TEST(ContactAtRest, RigidCubesOfOneCellStandOnEachOther) {

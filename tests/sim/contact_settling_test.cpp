@@ -105,6 +105,7 @@ TEST(Settling, WhatDoesNotOverlapDoesNotMove) {
 // A fixed ball, an element and a half deep in tissue that is held below: the tissue gives way and
 // keeps the stress; nothing is left inside the ball.
 TEST(Settling, TissueAroundABoneThatCannotGiveWayKeepsTheStress) {
+  constexpr double kElement = 4e-3;  // [m]
   Scenario s = contact_scene(1e-3);
   s.bodies = {stand("floor"),
               box_body("base", Body::Kind::Tissue, {0.04, 0.04, 0.02}, {0, 0, -0.01}, {10, 10, 5}),
@@ -114,17 +115,22 @@ TEST(Settling, TissueAroundABoneThatCannotGiveWayKeepsTheStress) {
   ball.name = "ball";
   ball.kind = Body::Kind::Fixed;
   ball.sphere = SphereGeometry{0.01, 3e-3, {0, 0, 0.004}};
-  Settled settled(s);
-  ASSERT_EQ(settled.settling.overlaps.size(), 1U);
-  EXPECT_NEAR(settled.settling.overlaps[0].before, 6e-3, 0.3e-3);
-  EXPECT_LT(settled.settling.overlaps[0].after, 0.15 * 0.004);
-  EXPECT_GT(settled.run.stepper.dynamics().contact_summary(0).force.norm(), 0.1);
-  EXPECT_GT(least_volume_ratio(settled.run), 0.2);
-  // Balanced: a step in time hardly moves it.
-  const Eigen::VectorXd before = settled.run.state.y;
-  settled.run.advance(5e-3);
-  const int positions = settled.run.model.layout.velocities();
-  EXPECT_LT((settled.run.state.y - before).head(positions).lpNorm<Eigen::Infinity>(), 2e-5);
+  // Balanced: a step in time hardly moves it; with averages, which let facets sink in where points
+  // of them were out, by a part of an element.
+  for (const auto& [response, way] : {std::pair(Scenario::Response::Pointwise, 5e-3 * kElement),
+                                      std::pair(Scenario::Response::Averaged, 0.1 * kElement)}) {
+    s.contact_response = response;
+    Settled settled(s);
+    ASSERT_EQ(settled.settling.overlaps.size(), 1U);
+    EXPECT_NEAR(settled.settling.overlaps[0].before, 6e-3, 0.3e-3);
+    EXPECT_LT(settled.settling.overlaps[0].after, 0.15 * kElement);
+    EXPECT_GT(settled.run.stepper.dynamics().contact_summary(0).force.norm(), 0.1);
+    EXPECT_GT(least_volume_ratio(settled.run), 0.2);
+    const Eigen::VectorXd before = settled.run.state.y;
+    settled.run.advance(5e-3);
+    const int positions = settled.run.model.layout.velocities();
+    EXPECT_LT((settled.run.state.y - before).head(positions).lpNorm<Eigen::Infinity>(), way);
+  }
 }
 
 // Nearer to the upper side than to the lower one.

@@ -122,6 +122,7 @@ TEST(Contact, TheCentreOfPressureOfATiltedPlateIsWhereTheMomentVanishes) {
   s.bodies[0].material = linear(1e5 * kStiffness * kSide, 0);
   s.loads[0].motion.rotation = {Vec3::Zero(), tilt * Vec3::UnitY()};
   s.loads[0].motion.about = {0, 0, kSide / 2};
+  s.contact_response = Scenario::Response::Pointwise;  // linear from edge to edge
   Simulation run(s);
   press_to_rest(run);
   const Probes probes(run);
@@ -248,7 +249,7 @@ TEST(Contact, TheLegsOfAClosingVMeetAndDoNotPassThroughEachOther) {
   run.advance(0.2);
   EXPECT_GT(run.state.counts.reported_pairs, 0);
   const ContactSummary contact = run.stepper.dynamics().contact_summary(0);
-  EXPECT_GT(contact.area, 1e-6);  // [m²]
+  EXPECT_GT(contact.area, 5e-7);  // [m²]
   EXPECT_LT(run.state.max_penetration, 0.25 * element);
   EXPECT_LT(Vec3(run.stepper.contact_forces()[0].rowwise().sum()).norm(), 1e-14);  // on itself
   // By symmetry the plane x = 0 parts the legs.

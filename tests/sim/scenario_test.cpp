@@ -557,11 +557,13 @@ TEST(ShippedScenarios, LeaveContactAsItIs) {
 using Presets = ScenarioTest;
 
 TEST_F(Presets, SetSchemeStepAndTolerance) {
-  EXPECT_EQ(read("accuracy = \"fast\"\n" + kStart).integrator.step, 2e-3);
+  const Scenario fast = read("accuracy = \"fast\"\n" + kStart);
+  EXPECT_EQ(fast.integrator.step, 2e-3);
+  EXPECT_EQ(fast.contact_response, Scenario::Response::Pointwise);
   const Scenario balanced = read("accuracy = \"balanced\"\n" + kStart);
   EXPECT_EQ(balanced.integrator.step, 1e-3);
   EXPECT_EQ(balanced.integrator.scheme, Integrator::Scheme::ImplicitEuler);
-  EXPECT_EQ(balanced.contact_response, Scenario::Response::Pointwise);
+  EXPECT_EQ(balanced.contact_response, Scenario::Response::Averaged);
   const Scenario accurate = read("accuracy = \"accurate\"\n" + kStart);
   EXPECT_EQ(accurate.integrator.step, 1e-3);
   EXPECT_EQ(accurate.integrator.scheme, Integrator::Scheme::TrBdf2);
