@@ -223,11 +223,13 @@ Scenario stack(double friction, double damping) {
 }
 
 /// Forces of a scene at its start, with contacts found there.
+/// @param jitter  of velocities [m/s]
 struct Forces {
-  explicit Forces(const Model& model) : dynamics(model), search(model), y(initial_state(model)) {
+  explicit Forces(const Model& model, double jitter = 0.01)
+      : dynamics(model), search(model), y(initial_state(model)) {
     Random random(2);
     const int first = model.layout.velocities(), n = 3 * model.layout.num_unknown_blocks();
-    y.segment(first, n) += 0.01 * random.vector(n);
+    y.segment(first, n) += jitter * random.vector(n);
     Configuration start;
     read_state(model, y.data(), 0, start);
     search.find(start, 1e-4);
@@ -279,24 +281,30 @@ Eigen::VectorXd coupled(const Dynamics& dynamics, const Eigen::VectorXd& w) {
   return y;
 }
 
+/// Minus the derivative of the unknown blocks' forces by the state along w, from its entry `first`
+/// on.
+Eigen::VectorXd resistance(Forces& now, int first, const Eigen::VectorXd& w, double difference) {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(w.size());
+  for (const double sign : {1.0, -1.0}) {
+    Eigen::VectorXd y = now.y;
+    y.segment(first, w.size()) += sign * difference * w;
+    now.dynamics.evaluate(y.data(), 0);
+    change -= sign / (2 * difference) * now.dynamics.forces().head(w.size());
+  }
+  return change;
+}
+
 // With both, friction also follows the damped pressure.
 TEST(ContactDrag, MatrixAndCouplingAreTheDerivativeOfTheForcesByVelocity) {
   const Model model = build_model(stack(0.5, 1e3));
   Forces now(model);
-  const int n = 3 * model.layout.num_unknown_blocks(), first = model.layout.velocities();
+  const int n = 3 * model.layout.num_unknown_blocks();
   Random random(3);
   const Eigen::VectorXd w = random.vector(n);
   const Eigen::VectorXd by_matrix =
       times(now.dynamics.matrix({0, 1, 0}, fem::Tangent::Consistent), w);
   const Eigen::VectorXd by_both = by_matrix + coupled(now.dynamics, w);
-  constexpr double kDifference = 1e-5;  // [m/s]
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(n);
-  for (const double sign : {1.0, -1.0}) {
-    Eigen::VectorXd y = now.y;
-    y.segment(first, n) += sign * kDifference * w;
-    now.dynamics.evaluate(y.data(), 0);
-    change -= sign / (2 * kDifference) * now.dynamics.forces().head(n);
-  }
+  const Eigen::VectorXd change = resistance(now, model.layout.velocities(), w, 1e-5);
   EXPECT_LT((change - by_both).norm(), 1e-6 * by_both.norm());
   EXPECT_GT((change - by_matrix).norm(), 1e-3 * by_matrix.norm());
 }
@@ -316,27 +324,13 @@ TEST(ContactDrag, CouplingIsTheDerivativeOfFrictionByTheDepth) {
     s.contacts[0].friction = 0.5;
     s.contacts[0].slip_velocity = 0.03;
     const Model model = build_model(s);
-    Dynamics dynamics(model);
-    ContactSearch search(model);
-    Eigen::VectorXd y = initial_state(model);
-    Configuration start;
-    read_state(model, y.data(), 0, start);
-    search.find(start, 1e-4);
-    dynamics.set_candidates(search.candidates());
-    dynamics.evaluate(y.data(), 0);
+    Forces now(model, 0);
     const int n = 3 * model.layout.num_unknown_blocks();
     const Eigen::VectorXd down = Vec3(0, 0, -1).replicate(n / 3, 1);
     const Eigen::VectorXd by_matrix =
-        times(dynamics.matrix({0, 0, 1}, fem::Tangent::Consistent), down);
-    const Eigen::VectorXd friction = coupled(dynamics, down);
-    constexpr double kDifference = 1e-7;  // [m]
-    Eigen::VectorXd change = Eigen::VectorXd::Zero(n);
-    for (const double sign : {1.0, -1.0}) {
-      Eigen::VectorXd there = y;
-      there.head(n) += sign * kDifference * down;
-      dynamics.evaluate(there.data(), 0);
-      change -= sign / (2 * kDifference) * dynamics.forces().head(n);
-    }
+        times(now.dynamics.matrix({0, 0, 1}, fem::Tangent::Consistent), down);
+    const Eigen::VectorXd friction = coupled(now.dynamics, down);
+    const Eigen::VectorXd change = resistance(now, 0, down, 1e-7);
     // Along the table; with the depth, friction also gets a longer lever.
     const auto sideways = [n](const Eigen::VectorXd& f) {
       return f.reshaped(3, n / 3).topRows<2>();
@@ -351,7 +345,7 @@ TEST(ContactDrag, MatrixAndProductAreTheDerivativeOfTheForcesByVelocity) {
   for (const auto& [friction, damping] : {std::pair(0.5, 0.0), std::pair(0.0, 1e3)}) {
     const Model model = build_model(stack(friction, damping));
     Forces now(model);
-    const int n = 3 * model.layout.num_unknown_blocks(), first = model.layout.velocities();
+    const int n = 3 * model.layout.num_unknown_blocks();
     Random random(3);
     const Eigen::VectorXd w = random.vector(n);
     const fem::BlockMatrix& A = now.dynamics.matrix({0, 1, 0}, fem::Tangent::Consistent);
@@ -362,14 +356,7 @@ TEST(ContactDrag, MatrixAndProductAreTheDerivativeOfTheForcesByVelocity) {
     EXPECT_GT(by_matrix.norm(), 0);
     EXPECT_LT((product.head(n) - by_matrix).norm(), 1e-12 * by_matrix.norm());
 
-    constexpr double kDifference = 1e-5;  // [m/s]
-    Eigen::VectorXd change = Eigen::VectorXd::Zero(n);
-    for (const double sign : {1.0, -1.0}) {
-      Eigen::VectorXd y = now.y;
-      y.segment(first, n) += sign * kDifference * w;
-      now.dynamics.evaluate(y.data(), 0);
-      change -= sign / (2 * kDifference) * now.dynamics.forces().head(n);
-    }
+    const Eigen::VectorXd change = resistance(now, model.layout.velocities(), w, 1e-5);
     EXPECT_LT((change - by_matrix).norm(), 1e-6 * by_matrix.norm()) << friction;
   }
 }
