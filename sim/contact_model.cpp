@@ -18,12 +18,12 @@ namespace {
 /// afar a stiff iteration is thrown back and forth. In time, where that ends by how far things
 /// still move, it takes the accurate preset's tolerance: what is left of motion is noise of the
 /// forces; by other tolerances a tenth of it is enough. Explicit steps are as long as the stiffness
-/// lets them.
+/// lets them. Two bones, which give way nowhere, have nothing of it.
 constexpr double kSoftFactor = 10, kFirmFactor = 100, kStiffFactor = 1000;
 
-double stiffness_factor(const Scenario& scenario) {
+double stiffness_factor(const Scenario& scenario, bool averaged) {
   if (scenario.analysis == Scenario::Analysis::Static) return kStiffFactor;
-  if (scenario.contact_response != Scenario::Response::Averaged) return kSoftFactor;
+  if (!averaged) return kSoftFactor;
   if (scenario.accuracy == Scenario::Accuracy::Accurate) return kStiffFactor;
   const bool is_explicit = scenario.integrator.scheme == Integrator::Scheme::Explicit;
   return is_explicit ? kSoftFactor : kFirmFactor;
@@ -66,10 +66,14 @@ void add_contact(int a, int b, const ContactPair& pair, Model& model) {
   contact.b = b;
   const bool is_static = model.scenario.analysis == Scenario::Analysis::Static;
   const Scenario::Response response = model.scenario.contact_response;
-  contact.averaged = is_static || response == Scenario::Response::Averaged;
+  // In time two bones count depths point by point: there is no tissue whose facets averages let
+  // give way, and where edges slip off each other stiff contact would make energy.
+  const bool has_tissue = model.bodies[static_cast<std::size_t>(a)].tissue >= 0 ||
+                          model.bodies[static_cast<std::size_t>(b)].tissue >= 0;
+  contact.averaged = is_static || (has_tissue && response == Scenario::Response::Averaged);
   if (!is_static && response == Scenario::Response::Sampled) contact.samples = triangle_samples();
   contact.share = a == b ? 0.5 : 1;
-  const double factor = stiffness_factor(model.scenario);
+  const double factor = stiffness_factor(model.scenario, contact.averaged);
   const double layers = A->layer_compliance + B->layer_compliance;
   contact.mean_stiffness =
       pair.stiffness.value_or(1 / ((A->mean_compliance + B->mean_compliance) / factor + layers));
