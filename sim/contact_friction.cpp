@@ -185,16 +185,15 @@ void update_grips(const SurfaceLaw& law, const Collider& triangles, const Collid
                   const Configuration& configuration, const Eigen::VectorXd& change,
                   ContactDirection& direction) {
   const Rates rates = rates_of(direction, triangles, faces, configuration, change);
-  const Positions normals = normals_of(direction, triangles);
   Positions next = Positions::Zero(3, std::ssize(triangles.sheet_node));
   for (const int sheet : direction.sheets) {
     if (!(direction.pressure[sheet] > 0)) continue;
-    const Vec3 normal = normals.col(sheet).normalized();
+    const NodalDrag& drag = direction.drag[static_cast<std::size_t>(sheet)];
+    const Vec3 normal = drag.along.cross(drag.across);
     std::optional<Vec3> grip = grip_of(direction, sheet);
     if (grip) grip = tangential(*grip, normal);
-    next.col(sheet) =
-        next_grip(law, direction.drag[static_cast<std::size_t>(sheet)].slip,
-                  tangential(rates.slip.col(sheet) / direction.area[sheet], normal), grip);
+    const Vec3 slip = rates.slip.col(sheet) / direction.area[sheet];
+    next.col(sheet) = next_grip(law, drag.slip, tangential(slip, normal), grip);
   }
   direction.grip = std::move(next);
 }

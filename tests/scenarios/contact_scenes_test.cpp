@@ -110,14 +110,19 @@ TEST(TwoVShapes, PushEachOtherAsideWithEqualAndOppositeForces) {
 // Where edges slip off each other, opposing faces must not be taken for crossed ones at a depth of
 // millimetres: that would make energy out of nothing.
 TEST(TwoVShapes, SlipOffEachOtherWithoutGainingEnergy) {
-  const ScenarioResults results = run_scenario("v-shapes/two.toml");
-  expect_contact_was_searched(results);
-  EXPECT_EQ(results.last("between.area [mm^2]"), 0);
-  EXPECT_LT(results.count("rejected_newton"), 100);
-  EXPECT_LT(results.largest("between.max_penetration [mm]"), 0.7);
-  // At the moment when they do, a face that was taken for crossed is found for a step.
-  EXPECT_GT(results.smallest("energy.numerical_loss [J]"),
-            -0.03 * results.largest("energy.motion_work [J]"));
+  // At the moment when they do, a face that was taken for crossed is found for a step: of stiffer
+  // contact, that is more energy.
+  for (const auto& [response, part] :
+       {std::pair("pointwise", 0.015), std::pair("averaged", 0.03)}) {
+    const ScenarioResults results =
+        run_scenario("v-shapes/two.toml", {std::string("contact_response=") + response});
+    expect_contact_was_searched(results);
+    EXPECT_EQ(results.last("between.area [mm^2]"), 0);
+    EXPECT_LT(results.count("rejected_newton"), 100);
+    EXPECT_LT(results.largest("between.max_penetration [mm]"), 0.7);
+    EXPECT_GT(results.smallest("energy.numerical_loss [J]"),
+              -part * results.largest("energy.motion_work [J]"));
+  }
 }
 
 TEST(SelfV, LegsCloseOnEachOther) {

@@ -283,7 +283,8 @@ Eigen::VectorXd coupled(const Dynamics& dynamics, const Eigen::VectorXd& w) {
 
 /// Minus the derivative of the unknown blocks' forces by the state along w, from its entry `first`
 /// on.
-Eigen::VectorXd resistance(Forces& now, int first, const Eigen::VectorXd& w, double difference) {
+Eigen::VectorXd minus_derivative(Forces& now, int first, const Eigen::VectorXd& w,
+                                 double difference) {
   Eigen::VectorXd change = Eigen::VectorXd::Zero(w.size());
   for (const double sign : {1.0, -1.0}) {
     Eigen::VectorXd y = now.y;
@@ -304,7 +305,7 @@ TEST(ContactDrag, MatrixAndCouplingAreTheDerivativeOfTheForcesByVelocity) {
   const Eigen::VectorXd by_matrix =
       times(now.dynamics.matrix({0, 1, 0}, fem::Tangent::Consistent), w);
   const Eigen::VectorXd by_both = by_matrix + coupled(now.dynamics, w);
-  const Eigen::VectorXd change = resistance(now, model.layout.velocities(), w, 1e-5);
+  const Eigen::VectorXd change = minus_derivative(now, model.layout.velocities(), w, 1e-5);
   EXPECT_LT((change - by_both).norm(), 1e-6 * by_both.norm());
   EXPECT_GT((change - by_matrix).norm(), 1e-3 * by_matrix.norm());
 }
@@ -330,7 +331,7 @@ TEST(ContactDrag, CouplingIsTheDerivativeOfFrictionByTheDepth) {
     const Eigen::VectorXd by_matrix =
         times(now.dynamics.matrix({0, 0, 1}, fem::Tangent::Consistent), down);
     const Eigen::VectorXd friction = coupled(now.dynamics, down);
-    const Eigen::VectorXd change = resistance(now, 0, down, 1e-7);
+    const Eigen::VectorXd change = minus_derivative(now, 0, down, 1e-7);
     // Along the table; with the depth, friction also gets a longer lever.
     const auto sideways = [n](const Eigen::VectorXd& f) {
       return f.reshaped(3, n / 3).topRows<2>();
@@ -356,7 +357,7 @@ TEST(ContactDrag, MatrixAndProductAreTheDerivativeOfTheForcesByVelocity) {
     EXPECT_GT(by_matrix.norm(), 0);
     EXPECT_LT((product.head(n) - by_matrix).norm(), 1e-12 * by_matrix.norm());
 
-    const Eigen::VectorXd change = resistance(now, model.layout.velocities(), w, 1e-5);
+    const Eigen::VectorXd change = minus_derivative(now, model.layout.velocities(), w, 1e-5);
     EXPECT_LT((change - by_matrix).norm(), 1e-6 * by_matrix.norm()) << friction;
   }
 }

@@ -102,7 +102,7 @@ TEST(ContactAtRest, ABlockThatIsLiftedWithMoreThanItsWeightRises) {
   const double weight = 1000 * kSide * kSide * kSide * kGravity;
   for (const Scenario::Response response :
        {Scenario::Response::Pointwise, Scenario::Response::Averaged}) {
-    Scenario s = contact_scene(1e-3);
+    Scenario s = contact_scene(kStep);
     s.contact_response = response;
     s.bodies = {
         box_body("block", Body::Kind::Rigid, Vec3::Constant(kSide)),

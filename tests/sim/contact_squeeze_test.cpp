@@ -114,7 +114,8 @@ TEST(Squeeze, DepthsMayBeAveraged) {
 }
 
 // A disc of 1 mm between condyle and fossa of a jaw, at a strong bite. Its edges, too, are pressed,
-// in a gap that widens outwards: a frictionless one slips out at the least push.
+// in a gap that widens outwards: a frictionless one slips out at the least push, unless facets hold
+// it, which pointwise depths feel.
 TEST(Squeeze, ADiscBetweenCondyleAndFossaCarries500N) {
   constexpr double kThickness = 1e-3, kFossa = 12e-3, kCondyle = 10e-3, kForce = 500;
   const TemporaryFolder folder;
@@ -135,10 +136,9 @@ TEST(Squeeze, ADiscBetweenCondyleAndFossaCarries500N) {
   press.profile = {{0, 0.05}, {0, 1}};
   s.loads = {press};
   s.contacts = {{"sheet", "dish", {}, {}}, {"sheet", "condyle", {}, {}}};
-  for (ContactPair& pair : s.contacts) pair.friction = 0.02;
-  for (const Scenario::Response response :
-       {Scenario::Response::Pointwise, Scenario::Response::Averaged}) {
-    s.contact_response = response;
+  for (const bool averaged : {false, true}) {
+    s.contact_response = averaged ? Scenario::Response::Averaged : Scenario::Response::Pointwise;
+    for (ContactPair& pair : s.contacts) pair.friction = averaged ? 0.02 : 0;
     Simulation run(s);
     double least_ratio = 1;
     run.advance(0.1, [&] { least_ratio = std::min(least_ratio, least_volume_ratio(run)); });
@@ -147,10 +147,11 @@ TEST(Squeeze, ADiscBetweenCondyleAndFossaCarries500N) {
     EXPECT_LT((on_fossa + Vec3(0, 0, kForce)).norm(), 1e-3 * kForce);
     EXPECT_LT(run.force_on(bone_of(run, "condyle")).norm(), 1e-3 * kForce);
     EXPECT_LE(run.state.counts.rejected_newton, 10);
-    // At rest but for what friction creeps.
+    // At rest: what still moves would take this long for a hundredth of an element. But friction
+    // creeps.
     const double element = kThickness / 2;
     const double speed = run.now().v.colwise().norm().maxCoeff();
-    EXPECT_LT(speed * 0.1, 0.05 * element);
+    EXPECT_LT(speed * 0.1, (averaged ? 0.05 : 0.01) * element);
   }
 }
 
