@@ -51,46 +51,57 @@ Vec3 nodal_pressures(const ContactDirection& direction, const ContactDirection::
   return p;
 }
 
-Vec3 turning_depths(const ContactDirection& direction, const ContactDirection::Patch& entry,
-                    const Eigen::Matrix3Xi& sheets) {
-  if (entry.patch.turning == 0) return Vec3::Zero();
-  Vec3 depths = depth_integrals(entry.patch);
-  const Vec3 measures = entry.measure_slope.cwiseProduct(nodal_areas(entry.patch));
-  for (int i = 0; i < 3; ++i) depths[i] -= direction.depth[sheets(i, entry.triangle)] * measures[i];
-  return depths;
+PatchSum mean_depths(const ContactDirection& direction, const ContactDirection::Patch& entry,
+                     const Eigen::Matrix3Xi& sheets, const Vec3& p) {
+  PatchSum sum{p};
+  for (int i = 0; i < 3; ++i)
+    sum.m[i] = p[i] * direction.depth[sheets(i, entry.triangle)] * entry.measure_slope[i];
+  return sum;
 }
 
-double turning_energy(const ContactDirection& direction, const ContactDirection::Patch& entry,
+PatchSum energy_sum(const ContactDirection& direction, const ContactDirection::Patch& entry,
+                    const Eigen::Matrix3Xi& sheets) {
+  if (direction.point_stiffness > 0) return point_energy(entry.patch, direction.point_stiffness);
+  Vec3 p;
+  for (int i = 0; i < 3; ++i) p[i] = direction.penalty(sheets(i, entry.triangle));
+  PatchSum sum = mean_depths(direction, entry, sheets, p);
+  for (int i = 0; i < 3; ++i)
+    sum.m[i] -=
+        p[i] * p[i] / (2 * direction.stiffness(sheets(i, entry.triangle))) * entry.measure_slope[i];
+  return sum;
+}
+
+namespace {
+
+PatchSum damping_sum(const ContactDirection& direction, const ContactDirection::Patch& entry,
+                     const Eigen::Matrix3Xi& sheets) {
+  Vec3 p;
+  for (int i = 0; i < 3; ++i)
+    p[i] = direction.drag[static_cast<std::size_t>(sheets(i, entry.triangle))].pressure;
+  return mean_depths(direction, entry, sheets, p);
+}
+
+}  // namespace
+
+PatchSum pressure_sum(const ContactDirection& direction, const ContactDirection::Patch& entry,
                       const Eigen::Matrix3Xi& sheets) {
-  if (entry.patch.turning == 0) return 0;
-  if (direction.point_stiffness > 0) return patch_energy(entry.patch, direction.point_stiffness);
-  const Vec3 depths = turning_depths(direction, entry, sheets);
-  const Vec3 measures = entry.measure_slope.cwiseProduct(nodal_areas(entry.patch));
-  double energy = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int sheet = sheets(i, entry.triangle);
-    const double p = direction.penalty(sheet);
-    energy += p * depths[i] + p * p / (2 * direction.stiffness(sheet)) * measures[i];
-  }
-  return energy;
+  PatchSum sum = energy_sum(direction, entry, sheets);
+  if (direction.drag.empty()) return sum;
+  const PatchSum damping = damping_sum(direction, entry, sheets);
+  sum.p += damping.p;
+  sum.m += damping.m;
+  return sum;
 }
 
 Vec18 forces_on_nodes(const ContactDirection& direction, const ContactDirection::Patch& entry,
                       const Eigen::Matrix3Xi& sheets) {
-  double turning = turning_energy(direction, entry, sheets);
-  if (!direction.drag.empty()) {
-    const Vec3 depths = turning_depths(direction, entry, sheets);
-    for (int i = 0; i < 3; ++i)
-      turning +=
-          direction.drag[static_cast<std::size_t>(sheets(i, entry.triangle))].pressure * depths[i];
-  }
-  const Vec18 forces =
-      -patch_gradient(entry.patch, nodal_pressures(direction, entry, sheets), turning);
+  const Vec18 forces = -patch_gradient(entry.patch, energy_sum(direction, entry, sheets));
   if (direction.drag.empty()) return forces;
   Mat3 t;
   for (int i = 0; i < 3; ++i)
     t.col(i) = direction.drag[static_cast<std::size_t>(sheets(i, entry.triangle))].traction;
-  return forces + slip_gradient(entry.patch, t);
+  return forces - patch_gradient(entry.patch, damping_sum(direction, entry, sheets)) +
+         slip_gradient(entry.patch, t);
 }
 
 }  // namespace articular::sim

@@ -70,12 +70,15 @@ Mat3 corners_of(const Configuration& configuration, const Collider& collider, in
 Vec3 nodal_pressures(const ContactDirection& direction, const ContactDirection::Patch& entry,
                      const Eigen::Matrix3Xi& sheets);
 
-/// What turns with a patch's weight (Φ of patch_gradient()): of A_a g_a at the triangle's nodes,
-/// A_a δg_a = δG_a − g_a δA_a [m³],
-Vec3 turning_depths(const ContactDirection& direction, const ContactDirection::Patch& entry,
+/// A patch's part of Σ p_a A_a δg_a, A_a δg_a = δG_a − g_a δA_a, for p at the nodes of its
+/// triangle.
+PatchSum mean_depths(const ContactDirection& direction, const ContactDirection::Patch& entry,
+                     const Eigen::Matrix3Xi& sheets, const Vec3& p);
+/// That of the energy's change; an average's is E_a = A_a p_a²/2k_a with p_a = λ_a + k_a g_a.
+PatchSum energy_sum(const ContactDirection& direction, const ContactDirection::Patch& entry,
                     const Eigen::Matrix3Xi& sheets);
-/// and of the energy [J]; that of an average is E_a = A_a p_a²/2k_a with p_a = λ_a + k_a g_a.
-double turning_energy(const ContactDirection& direction, const ContactDirection::Patch& entry,
+/// The same with the pressure of damping.
+PatchSum pressure_sum(const ContactDirection& direction, const ContactDirection::Patch& entry,
                       const Eigen::Matrix3Xi& sheets);
 
 /// Forces on a patch's six nodes [N].

@@ -30,11 +30,12 @@ Rates rates_of(const ContactDirection& direction, const Collider& triangles, con
     for (Eigen::Index k = 0; k < 6; ++k)
       v.col(k) = velocity_of(*nodes[static_cast<std::size_t>(k)]);
     const Mat3 slip = slip_integrals(entry.patch, v);
-    const Vec3 turning = turning_depths(direction, entry, triangles.sheets);
     for (int i = 0; i < 3; ++i) {
       const int sheet = triangles.sheets(i, entry.triangle);
       rates.closing[sheet] +=
-          patch_gradient(entry.patch, Vec3::Unit(i), turning[i]).dot(v.reshaped());
+          patch_gradient(entry.patch,
+                         mean_depths(direction, entry, triangles.sheets, Vec3::Unit(i)))
+              .dot(v.reshaped());
       rates.slip.col(sheet) += slip.col(i);
     }
   }
@@ -172,8 +173,9 @@ void add_drag_product(const ContactDirection& direction, const Collider& triangl
       t.col(i) = drag.drag_along * drag.along.dot(slip) * drag.along +
                  drag.drag_across * drag.across.dot(slip) * drag.across;
     }
-    const double turning = p.dot(turning_depths(direction, entry, triangles.sheets));
-    const Vec18 product = patch_gradient(entry.patch, p, turning) + slip_gradient(entry.patch, t);
+    const Vec18 product =
+        patch_gradient(entry.patch, mean_depths(direction, entry, triangles.sheets, p)) +
+        slip_gradient(entry.patch, t);
     const auto nodes = nodes_of(triangles, faces, entry.triangle, entry.face);
     for (Eigen::Index k = 0; k < 6; ++k)
       add_force(configuration, *nodes[static_cast<std::size_t>(k)],

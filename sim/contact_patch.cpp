@@ -9,7 +9,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr int kOwnSide = -1, kDepthSide = 3;  // 0 to 2: β_m = 0
+constexpr int kOwnSide = -1;  // others: PatchEdge::m
 
 /// A convex polygon in barycentric coordinates of the triangle, one corner a column (N0 N1 N2).
 /// A triangle cut by four half planes has at most seven corners; where round-off makes the levels
@@ -67,24 +67,31 @@ double integrate(const Polygon& polygon, Mat3& Q) {
   return total;
 }
 
-/// The polygon's edges on β_m = 0, in units of the triangle's area.
-void find_edges(const Polygon& polygon, ContactPatch& patch) {
-  for (int k = 0; k < polygon.count && patch.num_edges < 3; ++k) {
+/// χ of an edge at the nodes of the triangle.
+Vec3 level_at_nodes(const ContactPatch& patch, int m, double open) {
+  if (m == PatchEdge::kOpen) return patch.depth.array() + open;
+  return patch.beta.row(m);
+}
+
+/// The polygon's edges inside the triangle, in units of its area.
+void find_edges(const Polygon& polygon, double open, unsigned rims, ContactPatch& patch) {
+  for (int k = 0; k < polygon.count && patch.num_edges < 4; ++k) {
     const int m = polygon.side[static_cast<std::size_t>(k)];
-    if (m == kOwnSide || m == kDepthSide) continue;
+    if (m == kOwnSide || (m == PatchEdge::kOpen && open == 0)) continue;  // there φ = p d = 0
     const Vec3& a = polygon.corner[static_cast<std::size_t>(k)];
     const Vec3& b = polygon.corner[static_cast<std::size_t>(k + 1 == polygon.count ? 0 : k + 1)];
-    // 1/|∇β_m| is the distance of a point from the edge by its β_m: of the corner farthest off.
+    // 1/|∇χ| is the distance of a point from the edge by its χ: of the corner farthest off.
     Eigen::Index far = 0;
-    const double beta = patch.beta.row(m).cwiseAbs().maxCoeff(&far);
-    if (!(beta > 0)) continue;
+    const double level = level_at_nodes(patch, m, open).cwiseAbs().maxCoeff(&far);
+    if (!(level > 0)) continue;
     const Vec3 along = b - a, off = Vec3::Unit(far) - a;
-    const double length = 2 * std::abs(along[1] * off[2] - along[2] * off[1]) / beta;
-    patch.edge[static_cast<std::size_t>(patch.num_edges++)] = {m, a, b, length};
+    const double length = 2 * std::abs(along[1] * off[2] - along[2] * off[1]) / level;
+    const bool is_end = m == PatchEdge::kOpen || (rims >> m & 1) != 0;
+    patch.edge[static_cast<std::size_t>(patch.num_edges++)] = {m, is_end, a, b, length};
   }
 }
 
-/// ∫ p N Nᵀ dl / |∇β_m| along an edge, for p affine: cubic, so that Simpson's rule is exact.
+/// ∮ p N Nᵀ dl / |∇χ| along an edge, for p affine: cubic, so that Simpson's rule is exact.
 Mat3 edge_integral(const PatchEdge& edge, const Vec3& p) {
   const Vec3 &a = edge.a, &b = edge.b, middle = 0.5 * (a + b);
   return edge.length / 6 *
@@ -94,7 +101,7 @@ Mat3 edge_integral(const PatchEdge& edge, const Vec3& p) {
 
 /// Q, depth_max and the edges of what lies opposite the face and less than `open` in front of it,
 /// in units of the triangle's area, of which it is the part that is returned.
-double cover_exactly(double open, ContactPatch& patch) {
+double cover_exactly(double open, unsigned rims, ContactPatch& patch) {
   std::array<Polygon, 5> rooms;
   rooms[0].count = 3;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -106,12 +113,13 @@ double cover_exactly(double open, ContactPatch& patch) {
     shared = &clipped(patch.beta.row(m), m, *shared, rooms[static_cast<std::size_t>(m + 1)]);
     if (shared->count < 3) return 0;
   }
-  const Polygon& polygon = clipped(patch.depth.array() + open, kDepthSide, *shared, rooms[4]);
+  const Polygon& polygon =
+      clipped(level_at_nodes(patch, PatchEdge::kOpen, open), PatchEdge::kOpen, *shared, rooms[4]);
   if (polygon.count < 3) return 0;
   for (int i = 0; i < polygon.count; ++i)
     patch.depth_max =
         std::max(patch.depth_max, patch.depth.dot(polygon.corner[static_cast<std::size_t>(i)]));
-  find_edges(polygon, patch);
+  find_edges(polygon, open, rims, patch);
   return integrate(polygon, patch.Q);
 }
 
@@ -180,7 +188,7 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
 
   patch.num_edges = 0;
   patch.depth_max = -range.open;
-  const double fraction = samples.empty() ? cover_exactly(range.open, patch)
+  const double fraction = samples.empty() ? cover_exactly(range.open, f.rims, patch)
                                           : cover_by_samples(range.open, samples, patch);
   if (!(fraction > 0)) return false;
   if (patch.depth_max + range.allowance > range.reach) return false;
@@ -206,29 +214,25 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
   return true;
 }
 
-// δd at N: Σ_i (N_i c + d e_i n)·δx_i − Σ_m β_m c·δf_m, from d = c·(x − Σ β_m f_m) with the
-// triangle's normal turning by δn = −Σ ∇N_i (n·δx_i); d is the height, which an allowance does not
-// change. With it w changes by
-// δ(n_F·n) = −Σ (n_F·∇N_i) n·δx_i − Σ (n·∇β_m) n_F·δf_m.
-
-Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p, double potential) {
-  const Vec3 q = patch.Q * p;
-  const double tilting = q.dot(patch.height);
-  const Vec3 reaction = patch.beta * q;
-  const double turning = patch.turning * potential * patch.cosine;
-  Vec18 g;
-  for (int i = 0; i < 3; ++i) {
-    g.segment<3>(3 * i) = q[i] * patch.c + (tilting - turning) * patch.e[i] * patch.normal;
-    g.segment<3>(9 + 3 * i) = -(reaction[i] + turning * patch.face_e[i]) * patch.c;
-  }
-  return g;
+bool has_end(const ContactPatch& patch) {
+  return std::any_of(patch.edge.begin(), patch.edge.begin() + patch.num_edges,
+                     [](const PatchEdge& edge) { return edge.is_end; });
 }
 
 // With u = Σ N_i u_i, u_i = δx_i − d_i δn − Σ β_mi δf_m, how far the point of the triangle moves
-// from the point of the face opposite: δd = c·u, δβ_m = ĝ_m·u (ĝ_m: face_g). A second time, as the
-// straight moves of the nodes go on,
+// from the point of the face opposite: δd = c·u, δβ_m = ĝ_m·u (ĝ_m: face_g). The triangle's normal
+// turns by δn = −Σ ∇N_i (n·δx_i); d is the height, which an allowance does not change. With
+// φ = share p d − m, the sum w ∫ φ dA over what is χ ≥ 0 changes by
 //
-//   δ²d = −2 δd c·δn − 2 Σ δβ_m c·δf_m − d c·δ²n,   −c·δ²n = |δn|² + 2 Σ e_j δn·δx_j.
+//   w ∫ p δd dA + w ∮ φ δχ dl/|∇χ| + δw/w (w ∫ φ dA),
+//   δ(n_F·n) = −Σ (n_F·∇N_i) n·δx_i − Σ (n·∇β_m) n_F·δf_m.
+//
+// A second time, as the straight moves of the nodes go on,
+//
+//   δ²d = −2 δd c·δn − 2 Σ δβ_m c·δf_m − d c·δ²n,   −c·δ²n = |δn|² + 2 Σ e_j δn·δx_j,
+//
+// and at an edge ∮ (2 p δd δχ − ∂φ/∂χ δχ² + φ δ²χ) dl/|∇χ|, with what its ends sweep. Where two
+// faces meet, those of both add to ∮ p δd δχ (dl/|∇χ| of each). Where χ = d + open, ∂φ/∂χ is p.
 
 namespace {
 
@@ -248,20 +252,53 @@ Mat18x3 opposite(const ContactPatch& patch, const Vec3& direction) {
   return rows;
 }
 
-/// opposite(patch, direction) * q.
-Vec18 opposite(const ContactPatch& patch, const Vec3& direction, const Vec3& q) {
+/// sum += opposite(patch, direction) * q.
+template <class Sum>
+void add_opposite(const ContactPatch& patch, const Vec3& direction, const Vec3& q, Sum&& sum) {
   const double height = q.dot(patch.height);
   const Vec3 reaction = patch.beta * q;
-  Vec18 sum;
   for (int j = 0; j < 3; ++j) {
-    sum.segment<3>(3 * j) =
+    sum.template segment<3>(3 * j) +=
         q[j] * direction + (height * direction.dot(patch.g.col(j))) * patch.normal;
-    sum.segment<3>(9 + 3 * j) = -reaction[j] * direction;
+    sum.template segment<3>(9 + 3 * j) -= reaction[j] * direction;
   }
-  return sum;
+}
+
+/// That of χ is direction·u.
+Vec3 motion(const ContactPatch& patch, const PatchEdge& edge) {
+  if (edge.m == PatchEdge::kOpen) return patch.c;
+  return patch.face_g.col(edge.m);
+}
+
+/// w ∫ p δd dA + w ∮ φ δχ dl/|∇χ|
+Vec18 unturned_gradient(const ContactPatch& patch, const PatchSum& sum) {
+  Vec18 g = Vec18::Zero();
+  add_opposite(patch, patch.c, patch.Q * sum.p, g);
+  for (int k = 0; k < patch.num_edges; ++k) {
+    const PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
+    if (!edge.is_end) continue;
+    const Vec3 &a = edge.a, &b = edge.b, middle = 0.5 * (a + b);
+    const auto phi = [&](const Vec3& N) {
+      return sum.share * sum.p.dot(N) * patch.depth.dot(N) - sum.m.dot(N);
+    };
+    const Vec3 q = edge.length / 6 * (phi(a) * a + 4 * phi(middle) * middle + phi(b) * b);
+    add_opposite(patch, motion(patch, edge), q, g);
+  }
+  return g;
 }
 
 }  // namespace
+
+Vec18 patch_gradient(const ContactPatch& patch, const PatchSum& sum) {
+  Vec18 g = unturned_gradient(patch, sum);
+  if (patch.turning == 0) return g;
+  const double turning = patch.turning * value(patch, sum) * patch.cosine;
+  for (int i = 0; i < 3; ++i) {
+    g.segment<3>(3 * i) -= turning * patch.e[i] * patch.normal;
+    g.segment<3>(9 + 3 * i) -= turning * patch.face_e[i] * patch.c;
+  }
+  return g;
+}
 
 // Lazy products: matrices of this size are too small for Eigen's general one to pay.
 
@@ -274,22 +311,21 @@ PatchStiffness patch_stiffness(const ContactPatch& patch, double k) {
   return stiffness;
 }
 
-void add_curvature(const ContactPatch& patch, const Vec3& p, double potential,
-                   PatchStiffness& stiffness) {
+void add_curvature(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness) {
   Mat18x10 &left = stiffness.left, &right = stiffness.right;
-  const Vec3 q = patch.Q * p;
-  const double turning = patch.turning * potential;
+  const Vec3 q = patch.Q * sum.p;
+  const double turning = patch.turning != 0 ? patch.turning * value(patch, sum) : 0;
   // Beside δd = c·u: the turning of the normal, −c·δn, and the sweep of the edges.
   for (int j = 0; j < 3; ++j)
     left.block<3, 3>(3 * j, 0) += (patch.e[j] * patch.normal) * q.transpose();
   for (int k = 0; k < patch.num_edges; ++k) {
     const PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
-    const Mat3 half = 0.5 * edge_integral(edge, p);
-    left.leftCols<3>() += opposite(patch, patch.face_g.col(edge.m)).lazyProduct(half);
+    const Mat3 part = (edge.is_end ? 1 : 0.5) * edge_integral(edge, sum.p);
+    left.leftCols<3>() += opposite(patch, motion(patch, edge)).lazyProduct(part);
   }
   // −δβ_m c·δf_m
   for (int m = 0; m < 3; ++m) {
-    left.col(3 + m) = opposite(patch, patch.face_g.col(m), q);
+    add_opposite(patch, patch.face_g.col(m), q, left.col(3 + m));
     right.block<3, 1>(9 + 3 * m, 3 + m) = -patch.c;
   }
   // −½ d c·δ²n and ½ Φ w'/w n_F·δ²n, beside n·δx_j
@@ -319,9 +355,31 @@ void add_curvature(const ContactPatch& patch, const Vec3& p, double potential,
     cosine.segment<3>(3 * i) = -(patch.cosine * patch.e[i]) * patch.normal;
     cosine.segment<3>(9 + 3 * i) = -(patch.cosine * patch.face_e[i]) * patch.c;
   }
-  left.col(9) =
-      patch.turning * patch_gradient(patch, p, 0) + 0.5 * patch.bending * potential * cosine;
+  left.col(9) = patch.turning * unturned_gradient(patch, sum) +
+                0.5 * patch.bending * value(patch, sum) * cosine;
   right.col(9) = cosine;
+}
+
+/// −∮ ∂φ/∂χ δχ² dl/|∇χ| by two points of Gauss, exact: ∂φ/∂χ along ∇χ.
+bool rim_stiffness(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness) {
+  constexpr double kGauss = 0.21132486540518712;  // (1 − 1/√3)/2
+  int columns = 0;
+  for (int k = 0; k < patch.num_edges; ++k) {
+    const PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
+    if (!edge.is_end) continue;
+    if (columns == 0) stiffness = {};
+    const Vec3 across = patch.g * level_at_nodes(patch, edge.m, 0);
+    for (const double t : {kGauss, 1 - kGauss}) {
+      const Vec3 N = (1 - t) * edge.a + t * edge.b;
+      const Vec3 slope =
+          patch.g * (sum.share * (patch.depth.dot(N) * sum.p + sum.p.dot(N) * patch.depth) - sum.m);
+      const double of_chi = slope.dot(across) / across.squaredNorm();
+      add_opposite(patch, motion(patch, edge), N, stiffness.right.col(columns));
+      stiffness.left.col(columns) = -0.25 * of_chi * edge.length * stiffness.right.col(columns);
+      ++columns;
+    }
+  }
+  return columns > 0;
 }
 
 }  // namespace articular::sim

@@ -24,18 +24,23 @@
 ///
 /// Nodes of the face move G_a with the weights β_m(N) of the point opposite, so that forces derived
 /// from G_a are equal and opposite and make no net moment. Everything is integrated exactly, or
-/// summed over sample points of the triangle, those that lie opposite the face. Where the polygon
-/// ends at the rim of a sheet, the motion of that edge is left out of the gradients.
+/// summed over sample points of the triangle, those that lie opposite the face. Gradients have the
+/// motion of the edges at which the polygon ends: where surfaces slip off each other that keeps
+/// energy.
 namespace articular::sim {
 
 using Vec18 = Eigen::Matrix<double, 18, 1>;
 using Mat18x10 = Eigen::Matrix<double, 18, 10>;
 
-/// An edge of the polygon on β_m = 0: ∫ f dl / |∇β_m| along it is `length` times the mean of f.
+/// Where the polygon ends inside the triangle: at an edge of the face, χ = β_m = 0, or where depths
+/// begin to count, χ = d + open = 0. ∮ f dl / |∇χ| along it is `length` times the mean of f. At an
+/// edge where the next face takes over what this one loses its motion changes no sum.
 struct PatchEdge {
-  int m = 0;
+  static constexpr int kOpen = 3;
+  int m = 0;                                // or kOpen
+  bool is_end = false;                      // φ does not go on beyond: at a rim, kOpen
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // its ends, in barycentric coordinates of s
-  double length = 0;                        // times w [m²]
+  double length = 0;                        // times w [m²; by a depth: m]
 };
 
 struct ContactPatch {
@@ -54,7 +59,7 @@ struct ContactPatch {
   Vec3 face_e = Vec3::Zero();  // n·∇β_m on the face [1/m]
   Mat3 g = Mat3::Zero();       // ∇N_i, one a column [1/m]
   Mat3 face_g = Mat3::Zero();  // ∇β_m for motion that keeps the depth, one a column [1/m]
-  std::array<PatchEdge, 3> edge;
+  std::array<PatchEdge, 4> edge;
   int num_edges = 0;
 };
 
@@ -74,6 +79,7 @@ struct FlatTriangle {
   Mat3 x = Mat3::Zero();       // corners, one a column, counter-clockwise from outside [m]
   Vec3 normal = Vec3::Zero();  // unit, outward
   double twice_area = 0;       // [m²]
+  unsigned rims = 7;           // bit m: its sheet ends at the edge opposite corner m
 };
 FlatTriangle flat_triangle(const Mat3& x);
 
@@ -90,18 +96,31 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
                    const DepthRange& range, ContactPatch& patch,
                    std::span<const SamplePoint> samples = {});
 
+/// Whether the polygon ends inside the triangle.
+bool has_end(const ContactPatch& patch);
+
 /// W_a [m²] and G_a [m³] of the triangle's nodes.
 inline Vec3 nodal_areas(const ContactPatch& patch) { return patch.Q.rowwise().sum(); }
 inline Vec3 depth_integrals(const ContactPatch& patch) { return patch.Q * patch.depth; }
 
-/// w ∫ p δd dA + Φ δw/w by (x0 x1 x2 f0 f1 f2): with Φ = Σ p_a G_a the gradient of that sum for
-/// numbers p that stay as they are; with p = k d and Φ = E that of E = ½ k w ∫ d² dA.
-/// @param p  at the nodes of the triangle, linear between them
-Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p, double potential);
-/// ½ k w ∫ d² dA
-inline double patch_energy(const ContactPatch& patch, double k) {
-  return 0.5 * k * patch.depth.dot(depth_integrals(patch));
+/// Σ_a share p_a G_a − m_a W_a, by numbers at the nodes of the triangle that stay as they are,
+/// share 1; or the energy ½ k w ∫ d² dA: p = k d, share ½.
+struct PatchSum {
+  Vec3 p = Vec3::Zero(), m = Vec3::Zero();
+  double share = 1;
+};
+inline PatchSum point_energy(const ContactPatch& patch, double k) {
+  return {k * patch.depth, Vec3::Zero(), 0.5};
 }
+inline double value(const ContactPatch& patch, const PatchSum& sum) {
+  return sum.share * sum.p.dot(depth_integrals(patch)) - sum.m.dot(nodal_areas(patch));
+}
+inline PatchSum scaled(const PatchSum& sum, double factor) {
+  return {factor * sum.p, factor * sum.m, sum.share};
+}
+
+/// Of the sum, by (x0 x1 x2 f0 f1 f2).
+Vec18 patch_gradient(const ContactPatch& patch, const PatchSum& sum);
 
 /// A stiffness of the six nodes by its factors: left·rightᵀ + right·leftᵀ.
 struct PatchStiffness {
@@ -111,13 +130,16 @@ struct PatchStiffness {
 /// k w ∫ ∇d ∇dᵀ dA, ∇d by the six nodes: positive semidefinite.
 PatchStiffness patch_stiffness(const ContactPatch& patch, double k);
 
-/// Adds the second derivative of Σ p_a G_a for numbers p that stay as they are: of the depth, and
-/// of what the face's edges sweep as they move over the triangle, made symmetric: summed over the
-/// two faces at an edge that is exact; and of w as triangle and face turn. Indefinite. Left out:
-/// the gradient's missing part at a rim.
-/// @param potential   what turns with w, see patch_gradient(); 0: without the turning of w
+/// Adds the second derivative of the sum, but for what patch_stiffness() has of an energy: of the
+/// depth; of what the polygon's edges sweep as they move over the triangle, made symmetric: summed
+/// over the two faces at an edge that is exact; and of w as triangle and face turn. Indefinite.
+/// Left out: p d δ²χ and the like along an edge, the part (depth / size of the face) of what is
+/// there, which cancels but at a rim.
 /// @param stiffness  made by patch_stiffness()
-void add_curvature(const ContactPatch& patch, const Vec3& p, double potential,
-                   PatchStiffness& stiffness);
+void add_curvature(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness);
+
+/// What add_curvature() leaves to be added at rims.
+/// @return false where there are none
+bool rim_stiffness(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness);
 
 }  // namespace articular::sim

@@ -88,9 +88,22 @@ const FlatTriangle& ContactResponse::face_now(const Configuration& configuration
   if (met_[f] != now_) {
     met_[f] = now_;
     faces_[f] = flat_triangle(corners_of(configuration, faces, face));
+    faces_[f].rims = faces.rims[f];
   }
   return faces_[f];
 }
+
+namespace {
+
+/// Where faces stand oblique to a triangle their weights differ: no face takes over from the next
+/// what an edge sweeps.
+void end_at_edges(std::span<ContactDirection::Patch> patches) {
+  for (ContactDirection::Patch& entry : patches)
+    for (int k = 0; k < entry.patch.num_edges; ++k)
+      entry.patch.edge[static_cast<std::size_t>(k)].is_end = true;
+}
+
+}  // namespace
 
 /// Patches of a direction, and what they sum to at sheets: W, A and (in place of g) G.
 void ContactResponse::find_patches(const CandidateList& list, const Configuration& configuration,
@@ -139,8 +152,12 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
       direction.area[sheet] += covered[i];
       direction.depth[sheet] += integrals[i];
     }
-    for (std::size_t e = first_patch; e < direction.num_patches; ++e)
-      direction.stored[e].measure_slope = measure_slope;
+    const std::span<ContactDirection::Patch> of_triangle(direction.stored.data() + first_patch,
+                                                         direction.num_patches - first_patch);
+    for (ContactDirection::Patch& entry : of_triangle) entry.measure_slope = measure_slope;
+    if (std::any_of(of_triangle.begin(), of_triangle.end(),
+                    [](const auto& entry) { return entry.patch.turning != 0; }))
+      end_at_edges(of_triangle);
   }
 }
 

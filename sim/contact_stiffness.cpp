@@ -20,12 +20,16 @@ void ContactStiffness::add(const ContactDirection& direction, const Configuratio
   for (const ContactDirection::Patch& entry : direction.patches()) {
     if (!carries(direction, entry.triangle, sheets)) continue;
     PatchStiffness stiffness = patch_stiffness(entry.patch, k);
-    if (tangent == fem::Tangent::Consistent)
-      add_curvature(entry.patch, scale.stiffness * nodal_pressures(direction, entry, sheets),
-                    scale.stiffness * turning_energy(direction, entry, sheets), stiffness);
-    add_product(model_, configuration,
-                nodes_of(side.triangles, side.faces, entry.triangle, entry.face), stiffness.left,
-                stiffness.right, A);
+    const auto nodes = nodes_of(side.triangles, side.faces, entry.triangle, entry.face);
+    if (tangent != fem::Tangent::Consistent) {
+      add_product(model_, configuration, nodes, stiffness.left, stiffness.right, A);
+      continue;
+    }
+    const PatchSum sum = scaled(pressure_sum(direction, entry, sheets), scale.stiffness);
+    add_curvature(entry.patch, sum, stiffness);
+    add_product(model_, configuration, nodes, stiffness.left, stiffness.right, A);
+    if (rim_stiffness(entry.patch, sum, stiffness))
+      add_product(model_, configuration, nodes, stiffness.left, stiffness.right, A);
   }
   if (!(direction.point_stiffness > 0))
     add_measure_stiffness(direction, configuration, scale.stiffness, A);
@@ -41,14 +45,14 @@ void ContactStiffness::add_measure_stiffness(const ContactDirection& direction,
   for (std::size_t first = 0, end = 0; first < patches.size(); first = end) {
     const ContactDirection::Patch& entry = patches[first];
     Vec3 covered = Vec3::Zero();
-    bool turns = false;
+    bool changes = false;
     group_.clear();
     for (; end < patches.size() && patches[end].triangle == entry.triangle; ++end) {
       covered += nodal_areas(patches[end].patch);
-      turns = turns || patches[end].patch.turning != 0;
+      changes = changes || patches[end].patch.turning != 0 || has_end(patches[end].patch);
       group_.push_back(static_cast<int>(end));
     }
-    if (!turns) continue;
+    if (!changes) continue;
     for (int i = 0; i < 3; ++i) {
       const int sheet = sheets(i, entry.triangle);
       const double p = direction.penalty(sheet);
@@ -58,7 +62,7 @@ void ContactStiffness::add_measure_stiffness(const ContactDirection& direction,
           direction, group_, configuration,
           -scale * energy * entry.measure_slope[i] / (2 * covered[i]),
           [i](const ContactDirection::Patch& other) {
-            return patch_gradient(other.patch, Vec3::Zero(), nodal_areas(other.patch)[i]);
+            return patch_gradient(other.patch, {Vec3::Zero(), -Vec3::Unit(i)});
           },
           A);
     }
@@ -164,9 +168,8 @@ void ContactStiffness::add_node_stiffness(const ContactDirection& direction,
       return local;
     };
     const auto of_depth = [&](const ContactDirection::Patch& entry) {
-      const Eigen::Index local = place(entry);
-      const Vec3 turning = turning_depths(direction, entry, sheets);
-      return patch_gradient(entry.patch, Vec3::Unit(local), turning[local]);
+      return patch_gradient(entry.patch,
+                            mean_depths(direction, entry, sheets, Vec3::Unit(place(entry))));
     };
     const double penalty = scale.stiffness * direction.stiffness(a) / direction.measure[a];
     if (direction.drag.empty()) {

@@ -63,7 +63,7 @@ void add_to_summary(const Model& model, const ContactDirection& direction,
       }
     }
     sum.max_point_depth = std::max(sum.max_point_depth, entry.patch.depth_max);
-    sum.energy += patch_energy(entry.patch, direction.point_stiffness);
+    sum.energy += value(entry.patch, point_energy(entry.patch, direction.point_stiffness));
     const Vec3 q = entry.patch.Q * nodal_pressures(direction, entry, sheets);
     sum.normal_force += q.sum();
     sum.center += x * q;

@@ -51,6 +51,7 @@ struct Collider {
   std::vector<double> face_area;          // at the start [m²]
   Eigen::Matrix3Xi sheets;                // of the corners of each face, and
   std::vector<int> sheet_node;            // the node of each: see smooth_sheets.hpp
+  std::vector<unsigned> rims;             // of each face, FlatTriangle::rims
   std::vector<int> nearby_begin, nearby;  // per tetrahedron: faces around it
   std::vector<char> is_inner;             // per tetrahedron: no node of it is on the surface
   Eigen::VectorXd compliance;             // of an element at the surface, h/M, at each node [m/Pa]

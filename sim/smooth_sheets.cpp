@@ -36,6 +36,20 @@ std::vector<Edge> sorted_edges(const Eigen::Matrix3Xi& faces) {
   return edges;
 }
 
+/// The two sides of each edge at which the surface goes on without a crease.
+std::vector<std::array<Edge, 2>> smooth_edges(const Positions& X, const Eigen::Matrix3Xi& faces,
+                                              double crease) {
+  const Positions normals = unit_normals(X, faces);
+  const std::vector<Edge> edges = sorted_edges(faces);
+  std::vector<std::array<Edge, 2>> smooth;
+  for (std::size_t e = 1; e < edges.size(); ++e) {
+    const Edge &p = edges[e - 1], &q = edges[e];
+    if (p.low == q.low && p.high == q.high && normals.col(p.face).dot(normals.col(q.face)) > crease)
+      smooth.push_back({p, q});
+  }
+  return smooth;
+}
+
 /// Sets of corners that grow together; each is known by its least one.
 class Sets {
  public:
@@ -59,20 +73,14 @@ class Sets {
 
 std::vector<int> number_sheets(const Positions& X, const Eigen::Matrix3Xi& faces, double crease,
                                Eigen::Matrix3Xi& sheets) {
-  const Positions normals = unit_normals(X, faces);
-  const std::vector<Edge> edges = sorted_edges(faces);
   Sets corners(3 * faces.cols());
-  for (std::size_t e = 1; e < edges.size(); ++e) {
-    const Edge &p = edges[e - 1], &q = edges[e];
-    if (p.low != q.low || p.high != q.high) continue;
-    if (!(normals.col(p.face).dot(normals.col(q.face)) > crease)) continue;
+  for (const auto& [p, q] : smooth_edges(X, faces, crease))
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) {
         const int of_p = (p.corner + i) % 3, of_q = (q.corner + j) % 3;
         if (faces(of_p, p.face) == faces(of_q, q.face))
           corners.join(3 * p.face + of_p, 3 * q.face + of_q);
       }
-  }
   std::vector<int> node_of(static_cast<std::size_t>(X.cols()));
   std::iota(node_of.begin(), node_of.end(), 0);
   std::vector<char> has_first(node_of.size(), 0);
@@ -91,6 +99,15 @@ std::vector<int> number_sheets(const Positions& X, const Eigen::Matrix3Xi& faces
     }
   }
   return node_of;
+}
+
+std::vector<unsigned> rims_of_sheets(const Positions& X, const Eigen::Matrix3Xi& faces,
+                                     double crease) {
+  std::vector<unsigned> rims(static_cast<std::size_t>(faces.cols()), 7);
+  for (const auto& sides : smooth_edges(X, faces, crease))
+    for (const Edge& side : sides)
+      rims[static_cast<std::size_t>(side.face)] &= ~(1U << ((side.corner + 2) % 3));
+  return rims;
 }
 
 }  // namespace articular::sim

@@ -17,4 +17,8 @@ namespace articular::sim {
 std::vector<int> number_sheets(const Positions& X, const Eigen::Matrix3Xi& faces, double crease,
                                Eigen::Matrix3Xi& sheets);
 
+/// Of each face, bit k: its sheet ends at the edge opposite corner k.
+std::vector<unsigned> rims_of_sheets(const Positions& X, const Eigen::Matrix3Xi& faces,
+                                     double crease);
+
 }  // namespace articular::sim

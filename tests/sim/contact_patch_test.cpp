@@ -54,7 +54,7 @@ Vec3 depth_integrals_of(const Pair& pair) {
 
 /// Of Σ p_a G_a for numbers p that stay as they are.
 Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p) {
-  return sim::patch_gradient(patch, p, p.dot(depth_integrals(patch)));
+  return sim::patch_gradient(patch, PatchSum{p});
 }
 
 double energy(const Pair& pair) { return energy_of(depth_integrals_of(pair)); }
@@ -73,13 +73,12 @@ Mat18 product(const PatchStiffness& stiffness) {
   return half + half.transpose();
 }
 Mat18 patch_hessian(const ContactPatch& patch) { return product(patch_stiffness(patch, 1)); }
-Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p, double potential) {
+Mat18 patch_curvature(const ContactPatch& patch, const PatchSum& sum) {
   PatchStiffness stiffness = patch_stiffness(patch, 0);
-  add_curvature(patch, p, potential, stiffness);
-  return product(stiffness);
-}
-Mat18 patch_curvature(const ContactPatch& patch, const Vec3& p) {
-  return patch_curvature(patch, p, p.dot(depth_integrals(patch)));
+  add_curvature(patch, sum, stiffness);
+  const Mat18 H = product(stiffness);
+  if (!rim_stiffness(patch, sum, stiffness)) return H;
+  return H + product(stiffness);
 }
 
 /// ∇G_a, one a column.
@@ -92,7 +91,7 @@ Eigen::Matrix<double, 18, 3> node_gradients(const ContactPatch& patch) {
 Mat18 tangent(const ContactPatch& patch) {
   const auto n = node_gradients(patch);
   return kStiffness / kNodeArea *
-         (n * n.transpose() + patch_curvature(patch, depth_integrals(patch)));
+         (n * n.transpose() + patch_curvature(patch, {depth_integrals(patch)}));
 }
 
 double& entry(Pair& pair, int i) { return i < 9 ? pair.s.reshaped()[i] : pair.f.reshaped()[i - 9]; }
@@ -176,15 +175,17 @@ Positions sheet_gradient(const Positions& x) {
   return g;
 }
 
-SheetMatrix sheet_tangent(const Positions& x) {
+/// @param rims  of the faces; of a sheet that goes on all around, 0
+SheetMatrix sheet_tangent(const Positions& x, unsigned rims) {
   const Vec3 p = kStiffness / kNodeArea * sheet_depth_integrals(x);
   SheetMatrix H = SheetMatrix::Zero();
   Eigen::Matrix<double, 3 * kSheetNodes, 3> gradients = decltype(gradients)::Zero();
   for_each_sheet_face(x, [&](const Pair& pair, const std::array<int, 6>& nodes) {
     ContactPatch patch;
-    if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kRange, patch))
-      return;
-    const Mat18 part = patch_curvature(patch, p);
+    FlatTriangle f = flat_triangle(pair.f);
+    f.rims = rims;
+    if (!contact_patch(flat_triangle(pair.s), f, kRestArea, kRange, patch)) return;
+    const Mat18 part = patch_curvature(patch, {p});
     const auto n = node_gradients(patch);
     for (int i = 0; i < 6; ++i) {
       const int row = 3 * nodes[static_cast<std::size_t>(i)];
@@ -222,7 +223,9 @@ TEST(ContactPatch, UnderAnUnevenSheetTheSummedTangentIsTheDerivativeOfTheSummedG
   Random random(9);
   for (int n = 0; n < 20; ++n) {
     const Positions x = uneven_sheet(random);
-    const SheetMatrix H = sheet_tangent(x);
+    const SheetMatrix H = sheet_tangent(x, 0);
+    // With what is added at rims too, as two faces at an edge have it with opposite signs.
+    EXPECT_LT((sheet_tangent(x, 7) - H).norm(), 1e-12 * H.norm());
     double best = std::numeric_limits<double>::infinity();
     for (const double h : {1e-4, 1e-5, 1e-6}) {
       SheetMatrix numeric;
@@ -237,6 +240,82 @@ TEST(ContactPatch, UnderAnUnevenSheetTheSummedTangentIsTheDerivativeOfTheSummedG
     }
     EXPECT_LT(best, 1e-7);
   }
+}
+
+/// Depths count a little in front of the face, so that polygons end there as well as at rims.
+constexpr DepthRange kNear{0.1, 10};
+
+/// Of Σ p_a G_a − m_a W_a.
+struct PartialSum {
+  Pair pair;
+  Vec3 p, m;
+  bool find(ContactPatch& patch) const {
+    return contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kNear, patch);
+  }
+  double value() const {
+    ContactPatch patch;
+    return find(patch) ? sim::value(patch, {p, m}) : 0;
+  }
+  Vec18 gradient() const {
+    ContactPatch patch;
+    return find(patch) ? sim::patch_gradient(patch, {p, m}) : Vec18::Zero();
+  }
+  PartialSum moved(int i, double h) const {
+    PartialSum there = *this;
+    entry(there.pair, i) += h;
+    return there;
+  }
+};
+
+TEST(ContactPatch, AtRimsAndWhereDepthsBeginToCountTheGradientIsTheDerivativeOfTheSum) {
+  Random random(11);
+  int at_rims = 0, open = 0, corners_pass = 0;
+  for (int n = 0; n < 300; ++n) {
+    const PartialSum sum{partial_pair(random), random.vec3(), random.vec3()};
+    ContactPatch patch;
+    if (!sum.find(patch) || patch.area < 0.05 * kRestArea) continue;
+    for (int k = 0; k < patch.num_edges; ++k)
+      ++(patch.edge[static_cast<std::size_t>(k)].m == PatchEdge::kOpen ? open : at_rims);
+    const Vec18 g = sum.gradient();
+    double best = std::numeric_limits<double>::infinity();
+    for (const double h : {1e-5, 1e-6}) {
+      Vec18 numeric;
+      for (int i = 0; i < 18; ++i)
+        numeric[i] = (sum.moved(i, h).value() - sum.moved(i, -h).value()) / (2 * h);
+      best = std::min(best, (numeric - g).norm() / g.norm());
+    }
+    corners_pass += best > 1e-6 ? 1 : 0;  // within h of a corner that comes or goes
+    EXPECT_LT(best, 1e-3);
+  }
+  EXPECT_GT(at_rims, 100);
+  EXPECT_GT(open, 30);
+  EXPECT_LT(corners_pass, 3);
+}
+
+// What is left out goes with φ at the edge: m = p (d + s β) makes it 0 there.
+TEST(ContactPatch, AtARimWhereTheSumVanishesTheTangentIsTheDerivativeOfTheGradient) {
+  Random random(12);
+  int at_rims = 0;
+  for (int n = 0; n < 50; ++n) {
+    Pair pair = covered_pair(random);
+    pair.s.row(1).array() -= 20.4;  // over the edge that is at y = -20
+    PartialSum sum{pair, Vec3::Constant(kStiffness), Vec3::Zero()};
+    ContactPatch patch;
+    if (!sum.find(patch) || patch.turning != 0) continue;
+    if (patch.num_edges != 1 || patch.edge[0].m == PatchEdge::kOpen) continue;
+    ++at_rims;
+    sum.m = kStiffness * (patch.depth + 7 * patch.beta.row(patch.edge[0].m).transpose());
+    const Mat18 H = patch_curvature(patch, {sum.p, sum.m});
+    double best = std::numeric_limits<double>::infinity();
+    for (const double h : {1e-4, 1e-5}) {
+      Mat18 numeric;
+      for (int i = 0; i < 18; ++i)
+        numeric.col(i) = (sum.moved(i, h).gradient() - sum.moved(i, -h).gradient()) / (2 * h);
+      best = std::min(best, (numeric - H).norm() / H.norm());
+    }
+    EXPECT_LT(best, 1e-7);
+  }
+  EXPECT_GT(at_rims, 20);
 }
 
 TEST(ContactPatch, ForcesAreEqualAndOppositeWithoutNetMoment) {
@@ -316,7 +395,7 @@ double point_energy(const Pair& pair) {
   if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kBehind<kPercent>,
                      patch))
     return 0;
-  return patch_energy(patch, kStiffness);
+  return value(patch, sim::point_energy(patch, kStiffness));
 }
 
 template <int kPercent>
@@ -325,7 +404,7 @@ Vec18 point_gradient(const Pair& pair) {
   if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kBehind<kPercent>,
                      patch))
     return Vec18::Zero();
-  return sim::patch_gradient(patch, kStiffness * patch.depth, patch_energy(patch, kStiffness));
+  return sim::patch_gradient(patch, sim::point_energy(patch, kStiffness));
 }
 
 template <int kPercent>
@@ -342,7 +421,8 @@ void expect_derivatives_to_where_the_triangle_comes_out() {
     if (patch.area < 0.1 || patch.turning != 0) continue;
     crossing += patch.area < 0.99 * kRestArea ? 1 : 0;
     const Vec18 g = point_gradient<kPercent>(pair);
-    const Mat18 H = kStiffness * (patch_hessian(patch) + patch_curvature(patch, patch.depth));
+    const Mat18 H =
+        kStiffness * (patch_hessian(patch) + patch_curvature(patch, sim::point_energy(patch, 1)));
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(patch_hessian(patch))
                   .eigenvalues()
                   .minCoeff(),
@@ -386,10 +466,9 @@ TEST(ContactPatch, PointwiseGradientAndTangentHaveTheTurningOfTheWeight) {
       continue;
     if (patch.turning == 0 || patch.area < 0.1 || (patch.depth.array() < 0.01).any()) continue;
     ++turning;
-    const double energy = patch_energy(patch, kStiffness);
     const Vec18 g = point_gradient<0>(pair);
     const Mat18 H = kStiffness * patch_hessian(patch) +
-                    patch_curvature(patch, kStiffness * patch.depth, energy);
+                    patch_curvature(patch, sim::point_energy(patch, kStiffness));
     double gradient_best = std::numeric_limits<double>::infinity(), tangent_best = gradient_best;
     for (const double h : {1e-4, 1e-5, 1e-6}) {
       Vec18 numeric;
@@ -480,7 +559,7 @@ TEST(ContactPatch, NearlyFlatTrianglesGiveFiniteForces) {
     ContactPatch patch;
     if (!contact_patch(flat_triangle(s), flat_triangle(large_face()), 1, kRange, patch)) continue;
     EXPECT_TRUE(patch_gradient(patch, Vec3::Ones()).allFinite()) << width;
-    EXPECT_TRUE(patch_curvature(patch, Vec3::Ones()).allFinite()) << width;
+    EXPECT_TRUE(patch_curvature(patch, {Vec3::Ones()}).allFinite()) << width;
   }
 }
 

@@ -72,7 +72,7 @@ double energy(const Mat3& s) {
   ContactPatch patch;
   return contact_patch(flat_triangle(s), flat_triangle(large_face()), kRestArea, kBehind, patch,
                        triangle_samples())
-             ? patch_energy(patch, 1)
+             ? value(patch, point_energy(patch, 1))
              : 0;
 }
 
@@ -88,7 +88,7 @@ TEST(SampledPatch, TheGradientIsTheDerivativeOfTheEnergy) {
                        triangle_samples()))
       continue;
     crossing += patch.area < 0.99 * kRestArea ? 1 : 0;
-    const Vec18 g = patch_gradient(patch, patch.depth, patch_energy(patch, 1));
+    const Vec18 g = patch_gradient(patch, point_energy(patch, 1));
     for (int i = 0; i < 9; ++i) {
       constexpr double h = 1e-5;
       Mat3 plus = s, minus = s;

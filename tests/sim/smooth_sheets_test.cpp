@@ -46,6 +46,23 @@ TEST(SmoothSheets, ABoxHasThreeAtACornerTwoAtAnEdgeAndOneElsewhere) {
   }
 }
 
+TEST(SmoothSheets, ABoxEndsItsSheetsAtItsEdges) {
+  const MeshData box = box_mesh({{0.03, 0.03, 0.03}, {3, 3, 3}, Vec3::Zero()});
+  const Sheets s(box);
+  const std::vector<unsigned> rims = rims_of_sheets(box.X, s.faces, kCrease);
+  int count = 0;
+  for (Eigen::Index f = 0; f < s.faces.cols(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = box.X.col(s.faces((k + 1) % 3, f)), b = box.X.col(s.faces((k + 2) % 3, f));
+      const Vec3 middle = 0.5 * (a + b);
+      const bool on_edge = (middle.array().abs() > 0.015 - 1e-9).count() == 2;
+      const bool is_rim = (rims[static_cast<std::size_t>(f)] >> k & 1) != 0;
+      EXPECT_EQ(is_rim, on_edge);
+      count += is_rim ? 1 : 0;
+    }
+  EXPECT_EQ(count, 12 * 3 * 2);
+}
+
 TEST(SmoothSheets, ABallHasNoCreases) {
   const Sheets s(sphere_mesh({0.01, 4e-3, Vec3::Zero()}));
   for (const auto& [node, sheets] : s.at_node) EXPECT_EQ(sheets.size(), 1U);
