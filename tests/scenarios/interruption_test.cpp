@@ -40,10 +40,10 @@ TEST(Program, ALongLoadStepShowsItsIterationsAndIsInterrupted) {
       "echo 'echo $$ > pid; exec \"" ARTICULAR_PROGRAM "\" run \"" ARTICULAR_SOURCE_DIR
       "/scenarios/knee/axial-load.toml\" --out knee' > start; touch terminal; "
       "script -qefc 'sh start' terminal > /dev/null & pid=$!; "
-      "while ! grep -q 'iteration 2, residual' terminal && kill -0 $pid; do sleep 0.05; done; "
+      "while ! grep -q 'iteration [0-9]*, residual' terminal && kill -0 $pid; do sleep 0.05; done; "
       "kill -INT $(cat pid); wait $pid");
   EXPECT_EQ(stopped.exit_code, 130);
-  EXPECT_NE(content(folder / "terminal").find("load step to t = 100.0 ms: iteration 2, residual"),
+  EXPECT_NE(content(folder / "terminal").find("load step to t = 100.0 ms: iteration "),
             std::string::npos);
   EXPECT_NE(content(folder / "knee/summary.json").find("\"interrupted\""), std::string::npos);
   // Column names and the row of the start.
