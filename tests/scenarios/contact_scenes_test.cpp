@@ -108,12 +108,9 @@ TEST(TwoVShapes, PushEachOtherAsideWithEqualAndOppositeForces) {
 }
 
 // Where edges slip off each other, opposing faces must not be taken for crossed ones at a depth of
-// millimetres: that would make energy out of nothing.
+// millimetres, and forces need the motion of the rims: else that would make energy out of nothing.
 TEST(TwoVShapes, SlipOffEachOtherWithoutGainingEnergy) {
-  // At the moment when they do, a face that was taken for crossed is found for a step: of stiffer
-  // contact, that is more energy.
-  for (const auto& [response, part] :
-       {std::pair("pointwise", 0.015), std::pair("averaged", 0.03)}) {
+  for (const char* response : {"pointwise", "averaged"}) {
     const ScenarioResults results =
         run_scenario("v-shapes/two.toml", {std::string("contact_response=") + response});
     expect_contact_was_searched(results);
@@ -121,7 +118,7 @@ TEST(TwoVShapes, SlipOffEachOtherWithoutGainingEnergy) {
     EXPECT_LT(results.count("rejected_newton"), 100);
     EXPECT_LT(results.largest("between.max_penetration [mm]"), 0.7);
     EXPECT_GT(results.smallest("energy.numerical_loss [J]"),
-              -part * results.largest("energy.motion_work [J]"));
+              -1e-3 * results.largest("energy.motion_work [J]"));
   }
 }
 
