@@ -231,8 +231,8 @@ bool has_end(const ContactPatch& patch) {
 //
 //   δ²d = −2 δd c·δn − 2 Σ δβ_m c·δf_m − d c·δ²n,   −c·δ²n = |δn|² + 2 Σ e_j δn·δx_j,
 //
-// and at an edge ∮ (2 p δd δχ − ∂φ/∂χ δχ² + φ δ²χ) dl/|∇χ|, with what its ends sweep. Where two
-// faces meet, those of both add to ∮ p δd δχ (dl/|∇χ| of each). Where χ = d + open, ∂φ/∂χ is p.
+// and at an edge ∮ (2 p δd δχ − ∂φ/∂χ δχ² + φ δ²χ) dl/|∇χ|, ∂φ/∂χ taken along ∇χ, with what its
+// ends sweep. Where one face takes over from another, both together have ∮ p δd δχ dl/|∇χ| of each.
 
 namespace {
 
@@ -360,8 +360,8 @@ void add_curvature(const ContactPatch& patch, const PatchSum& sum, PatchStiffnes
   right.col(9) = cosine;
 }
 
-/// −∮ ∂φ/∂χ δχ² dl/|∇χ| by two points of Gauss, exact: ∂φ/∂χ along ∇χ.
-bool rim_stiffness(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness) {
+/// −∮ ∂φ/∂χ δχ² dl/|∇χ|, by two points of Gauss exactly.
+bool end_stiffness(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness) {
   constexpr double kGauss = 0.21132486540518712;  // (1 − 1/√3)/2
   int columns = 0;
   for (int k = 0; k < patch.num_edges; ++k) {

@@ -133,13 +133,13 @@ PatchStiffness patch_stiffness(const ContactPatch& patch, double k);
 /// Adds the second derivative of the sum, but for what patch_stiffness() has of an energy: of the
 /// depth; of what the polygon's edges sweep as they move over the triangle, made symmetric: summed
 /// over the two faces at an edge that is exact; and of w as triangle and face turn. Indefinite.
-/// Left out: p d δ²χ and the like along an edge, the part (depth / size of the face) of what is
-/// there, which cancels but at a rim.
+/// Left out where the polygon ends: p d δ²χ and the like, by depth / size of the face less than
+/// what is there.
 /// @param stiffness  made by patch_stiffness()
 void add_curvature(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness);
 
-/// What add_curvature() leaves to be added at rims.
-/// @return false where there are none
-bool rim_stiffness(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness);
+/// What is to be added where the polygon ends.
+/// @return false where it does not end
+bool end_stiffness(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness);
 
 }  // namespace articular::sim

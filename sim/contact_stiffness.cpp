@@ -28,7 +28,7 @@ void ContactStiffness::add(const ContactDirection& direction, const Configuratio
     const PatchSum sum = scaled(pressure_sum(direction, entry, sheets), scale.stiffness);
     add_curvature(entry.patch, sum, stiffness);
     add_product(model_, configuration, nodes, stiffness.left, stiffness.right, A);
-    if (rim_stiffness(entry.patch, sum, stiffness))
+    if (end_stiffness(entry.patch, sum, stiffness))
       add_product(model_, configuration, nodes, stiffness.left, stiffness.right, A);
   }
   if (!(direction.point_stiffness > 0))

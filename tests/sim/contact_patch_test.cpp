@@ -77,7 +77,7 @@ Mat18 patch_curvature(const ContactPatch& patch, const PatchSum& sum) {
   PatchStiffness stiffness = patch_stiffness(patch, 0);
   add_curvature(patch, sum, stiffness);
   const Mat18 H = product(stiffness);
-  if (!rim_stiffness(patch, sum, stiffness)) return H;
+  if (!end_stiffness(patch, sum, stiffness)) return H;
   return H + product(stiffness);
 }
 
