@@ -32,9 +32,14 @@ std::string cubes(int n, bool rigid) {
   return text;
 }
 
+/// Averages creep where many sharp edges of tissue slip off each other: tests/benchmarks/README.md.
+bool counts_pointwise(int n, bool rigid) { return !rigid && n > 2; }
+
 Finding study(const Bench& bench, int n, bool rigid, double limit) {
+  const std::string response =
+      counts_pointwise(n, rigid) ? "contact_response = \"pointwise\"\n" : "";
   const std::string scene =
-      general(0.2, 1e-3) + cubes(n, rigid) +
+      response + general(0.2, 1e-3) + cubes(n, rigid) +
       box("floor", "fixed",
           {.size = {0.3, 0.3, 0.01}, .cells = {10, 10, 1}, .center = {0, 0, -0.005}}) +
       gravity(9.81) + energy_probe();
@@ -56,9 +61,9 @@ std::vector<Extreme> heaps() {
   for (const bool rigid : {true, false})
     for (const int n : {2, 5, 10})
       rows.push_back({.name = "bodies in one heap",
-                      .range = fmt::format("{} {}", n * n * n, rigid ? "rigid" : "of tissue"),
-                      // Contacts that open and close by turns: tests/benchmarks/README.md.
-                      .expected = !rigid && n > 2 ? Outcome::Failed : Outcome::Right,
+                      .range = fmt::format("{} {}{}", n * n * n, rigid ? "rigid" : "of tissue",
+                                           counts_pointwise(n, rigid) ? ", pointwise" : ""),
+                      .expected = counts_pointwise(n, rigid) ? Outcome::Degraded : Outcome::Right,
                       .quick = n == 2,
                       .study = [=](const Bench& bench) {
                         return study(bench, n, rigid, n == 10 ? 3600 : 300);
