@@ -160,6 +160,7 @@ void complete_collider(Collider& collider, const std::vector<char>& is_outer) {
   // Faces that are farther from parallel don't face the same one.
   collider.sheet_node = number_sheets(collider.X, faces, kFacingNone, collider.sheets);
   collider.rims = rims_of_sheets(collider.X, faces, kFacingNone);
+  collider.rim_height = heights_over_convex_rims(collider.X, faces, kFacingNone);
 
   // Mean height of the elements that have a face on the surface, over that face.
   collider.height.setZero(num_nodes);

@@ -6,88 +6,40 @@
 #include <array>
 #include <cmath>
 
+#include "sim/triangle_polygon.hpp"
+
 namespace articular::sim {
 namespace {
 
-constexpr int kOwnSide = -1;  // others: PatchEdge::m
-
-/// A convex polygon in barycentric coordinates of the triangle, one corner a column (N0 N1 N2).
-/// A triangle cut by four half planes has at most seven corners; where round-off makes the levels
-/// of corners on a cut change sign more often than twice, each cut adds half as many: 3, 4, 6,
-/// 9, 13.
-struct Polygon {
-  std::array<Vec3, 13> corner;
-  std::array<int, 13>
-      side;  // which cut the edge from a corner to the next lies on, kOwnSide if none
+/// What bounds a part: there each χ >= 0.
+struct Cuts {
+  std::array<PatchEdge, TrianglePolygon::kMaxCuts> edge;  // without their places
   int count = 0;
+  void add(int m, bool is_end, const Vec3& level, const Vec3& motion) {
+    PatchEdge& cut = edge[static_cast<std::size_t>(count++)];
+    cut.m = m;
+    cut.is_end = is_end;
+    cut.level = level;
+    cut.motion = motion;
+  }
 };
 
-/// The part of a polygon where the affine function with the values `at_nodes` at the triangle's
-/// nodes is >= 0: in `room`, or, where that is all of it, the polygon itself.
-const Polygon& clipped(const Vec3& at_nodes, int side, const Polygon& polygon, Polygon& room) {
-  std::array<double, 13> level;
-  bool all_inside = true;
-  for (int i = 0; i < polygon.count; ++i) {
-    level[static_cast<std::size_t>(i)] = at_nodes.dot(polygon.corner[static_cast<std::size_t>(i)]);
-    all_inside = all_inside && level[static_cast<std::size_t>(i)] >= 0;
-  }
-  if (all_inside) return polygon;
-  room.count = 0;
-  const auto keep = [&](const Vec3& N, int edge) {
-    room.corner[static_cast<std::size_t>(room.count)] = N;
-    room.side[static_cast<std::size_t>(room.count++)] = edge;
-  };
-  for (int i = 0; i < polygon.count; ++i) {
-    const auto a = static_cast<std::size_t>(i);
-    const auto b = static_cast<std::size_t>(i + 1 == polygon.count ? 0 : i + 1);
-    const double la = level[a], lb = level[b];
-    if (la >= 0) keep(polygon.corner[a], polygon.side[a]);
-    if ((la >= 0) != (lb >= 0))
-      keep(polygon.corner[a] + la / (la - lb) * (polygon.corner[b] - polygon.corner[a]),
-           la >= 0 ? side : polygon.side[a]);
-  }
-  return room;
-}
-
-/// ∫ N Nᵀ over the polygon in units of the triangle's area: a fan of triangles, each
-/// a/12 (Σ v vᵀ + (Σv)(Σv)ᵀ). @return its area
-double integrate(const Polygon& polygon, Mat3& Q) {
-  double total = 0;
-  Q.setZero();
-  const Vec3& v0 = polygon.corner[0];
-  for (std::size_t i = 1; i + 1 < static_cast<std::size_t>(polygon.count); ++i) {
-    const Vec3 &v1 = polygon.corner[i], &v2 = polygon.corner[i + 1];
-    // Twice the area in (N1, N2), which is 1 for the whole triangle.
-    const double area = (v1[1] - v0[1]) * (v2[2] - v0[2]) - (v1[2] - v0[2]) * (v2[1] - v0[1]);
-    const Vec3 sum = v0 + v1 + v2;
-    Q += area / 12 *
-         (v0 * v0.transpose() + v1 * v1.transpose() + v2 * v2.transpose() + sum * sum.transpose());
-    total += area;
-  }
-  return total;
-}
-
-/// χ of an edge at the nodes of the triangle.
-Vec3 level_at_nodes(const ContactPatch& patch, int m, double open) {
-  if (m == PatchEdge::kOpen) return patch.depth.array() + open;
-  return patch.beta.row(m);
-}
-
 /// The polygon's edges inside the triangle, in units of its area.
-void find_edges(const Polygon& polygon, double open, unsigned rims, ContactPatch& patch) {
-  for (int k = 0; k < polygon.count && patch.num_edges < 4; ++k) {
-    const int m = polygon.side[static_cast<std::size_t>(k)];
-    if (m == kOwnSide || (m == PatchEdge::kOpen && open == 0)) continue;  // there φ = p d = 0
-    const Vec3& a = polygon.corner[static_cast<std::size_t>(k)];
-    const Vec3& b = polygon.corner[static_cast<std::size_t>(k + 1 == polygon.count ? 0 : k + 1)];
+void find_edges(const TrianglePolygon& polygon, const Cuts& cuts, ContactPatch& patch) {
+  for (int k = 0; k < polygon.count && patch.num_edges < std::ssize(patch.edge); ++k) {
+    const int side = polygon.side[static_cast<std::size_t>(k)];
+    if (side == TrianglePolygon::kOwnSide) continue;
+    PatchEdge edge = cuts.edge[static_cast<std::size_t>(side)];
+    if (edge.m == PatchEdge::kOpen && !edge.is_end) continue;  // there φ = p d = 0
+    edge.a = polygon.corner[static_cast<std::size_t>(k)];
+    edge.b = polygon.corner[static_cast<std::size_t>(k + 1 == polygon.count ? 0 : k + 1)];
     // 1/|∇χ| is the distance of a point from the edge by its χ: of the corner farthest off.
     Eigen::Index far = 0;
-    const double level = level_at_nodes(patch, m, open).cwiseAbs().maxCoeff(&far);
+    const double level = edge.level.cwiseAbs().maxCoeff(&far);
     if (!(level > 0)) continue;
-    const Vec3 along = b - a, off = Vec3::Unit(far) - a;
-    const double length = 2 * std::abs(along[1] * off[2] - along[2] * off[1]) / level;
-    const bool is_end = m == PatchEdge::kOpen || (rims >> m & 1) != 0;
-    patch.edge[static_cast<std::size_t>(patch.num_edges++)] = {m, is_end, a, b, length};
+    const Vec3 along = edge.b - edge.a, off = Vec3::Unit(far) - edge.a;
+    edge.length = 2 * std::abs(along[1] * off[2] - along[2] * off[1]) / level;
+    patch.edge[static_cast<std::size_t>(patch.num_edges++)] = edge;
   }
 }
 
@@ -99,38 +51,35 @@ Mat3 edge_integral(const PatchEdge& edge, const Vec3& p) {
           4 * p.dot(middle) * middle * middle.transpose());
 }
 
-/// Q, depth_max and the edges of what lies opposite the face and less than `open` in front of it,
-/// in units of the triangle's area, of which it is the part that is returned.
-double cover_exactly(double open, unsigned rims, ContactPatch& patch) {
-  std::array<Polygon, 5> rooms;
-  rooms[0].count = 3;
-  for (std::size_t i = 0; i < 3; ++i) {
-    rooms[0].corner[i] = Vec3::Unit(static_cast<Eigen::Index>(i));
-    rooms[0].side[i] = kOwnSide;
+/// Q, depth_max and the edges of the part within the cuts, in units of the triangle's area.
+/// @return how much of it that is
+double cover_exactly(const Cuts& cuts, ContactPatch& patch) {
+  const TrianglePolygon whole = whole_triangle();
+  std::array<TrianglePolygon, 2> rooms;
+  const TrianglePolygon* part = &whole;
+  for (int i = 0; i < cuts.count; ++i) {
+    part = &clipped(cuts.edge[static_cast<std::size_t>(i)].level, i, *part,
+                    rooms[part == rooms.data() ? 1 : 0]);
+    if (part->count < 3) return 0;
   }
-  const Polygon* shared = rooms.data();
-  for (int m = 0; m < 3; ++m) {
-    shared = &clipped(patch.beta.row(m), m, *shared, rooms[static_cast<std::size_t>(m + 1)]);
-    if (shared->count < 3) return 0;
-  }
-  const Polygon& polygon =
-      clipped(level_at_nodes(patch, PatchEdge::kOpen, open), PatchEdge::kOpen, *shared, rooms[4]);
-  if (polygon.count < 3) return 0;
-  for (int i = 0; i < polygon.count; ++i)
+  for (int i = 0; i < part->count; ++i)
     patch.depth_max =
-        std::max(patch.depth_max, patch.depth.dot(polygon.corner[static_cast<std::size_t>(i)]));
-  find_edges(polygon, open, rims, patch);
-  return integrate(polygon, patch.Q);
+        std::max(patch.depth_max, patch.depth.dot(part->corner[static_cast<std::size_t>(i)]));
+  find_edges(*part, cuts, patch);
+  return integrate(*part, patch.Q);
 }
 
-/// The same by the sample points there; without edges: points stay where they are.
-double cover_by_samples(double open, std::span<const SamplePoint> samples, ContactPatch& patch) {
+/// The same by the samples there; without edges: points stay where they are.
+double cover_by_samples(const Cuts& cuts, std::span<const SamplePoint> samples,
+                        ContactPatch& patch) {
+  const std::span<const PatchEdge> edges(cuts.edge.data(), static_cast<std::size_t>(cuts.count));
   patch.Q.setZero();
   double total = 0;
   for (const SamplePoint& sample : samples) {
-    const double depth = patch.depth.dot(sample.N);
-    if (!(depth > -open && (patch.beta * sample.N).minCoeff() >= 0)) continue;
-    patch.depth_max = std::max(patch.depth_max, depth);
+    if (std::any_of(edges.begin(), edges.end(),
+                    [&](const PatchEdge& edge) { return edge.level.dot(sample.N) < 0; }))
+      continue;
+    patch.depth_max = std::max(patch.depth_max, patch.depth.dot(sample.N));
     patch.Q += sample.part * sample.N * sample.N.transpose();
     total += sample.part;
   }
@@ -150,6 +99,40 @@ Facing facing_weight(double opposing) {
   return {t * t * (3 - 2 * t), 6 * t * (1 - t) / kRange, 6 * (1 - 2 * t) / (kRange * kRange)};
 }
 
+/// β, and what of the gradients of χ goes with the face. @return false where nothing is opposite
+bool find_opposite(const FlatTriangle& s, const FlatTriangle& f, ContactPatch& patch) {
+  // Weights of the face's nodes at each node of s: signed areas of the projected triangles (the
+  // projected face turns the other way round, its area is negative).
+  for (int m = 0; m < 3; ++m) {
+    const Vec3 edge = f.x.col((m + 2) % 3) - f.x.col((m + 1) % 3);
+    const Vec3 across = s.normal.cross(edge) / (f.twice_area * patch.cosine);
+    patch.beta.row(m) = across.transpose() * (s.x.colwise() - f.x.col((m + 1) % 3));
+    if (!(patch.beta.row(m).maxCoeff() > 0)) return false;
+    const Vec3 in_face = f.normal.cross(edge) / f.twice_area;
+    patch.face_e[m] = in_face.dot(s.normal);
+    patch.face_g.col(m) = in_face - patch.face_e[m] * patch.c;
+  }
+  return true;
+}
+
+/// @param behind  what lies so far behind the face [m]
+Cuts cuts_of_part(const FlatTriangle& f, const Vec3& behind, double open,
+                  const ContactPatch& patch) {
+  Cuts cuts;
+  for (int m = 0; m < 3; ++m)
+    cuts.add(m, (f.rims >> m & 1) != 0, patch.beta.row(m), patch.face_g.col(m));
+  if (patch.nearest == ContactPatch::kFace)
+    cuts.add(PatchEdge::kOpen, open > 0, behind.array() + open, patch.c);
+  else
+    cuts.add(PatchEdge::kNextPart, false, behind - patch.depth, patch.c - patch.inward);
+  for (int m = 0; m < 3; ++m)
+    if (m != patch.nearest && f.rim_height[m] > 0)
+      cuts.add(PatchEdge::kNextPart, false,
+               f.rim_height[m] * patch.beta.row(m).transpose() - patch.depth,
+               f.rim_height[m] * patch.face_g.col(m) - patch.inward);
+  return cuts;
+}
+
 }  // namespace
 
 FlatTriangle flat_triangle(const Mat3& x) {
@@ -165,31 +148,33 @@ FlatTriangle flat_triangle(const Mat3& x) {
 
 bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_area,
                    const DepthRange& range, ContactPatch& patch,
-                   std::span<const SamplePoint> samples) {
-  const Vec3 &n = s.normal, &n_F = f.normal;
-  const double cosine = n_F.dot(n);
-  const Facing facing = facing_weight(-cosine);
+                   std::span<const SamplePoint> samples, int nearest) {
+  const bool is_rim = nearest != ContactPatch::kFace;
+  if (is_rim && f.rim_height[nearest] == 0) return false;
+  const Vec3& n = s.normal;
+  patch.cosine = f.normal.dot(n);
+  const Facing facing = facing_weight(-patch.cosine);
   if (!(facing.weight > 0)) return false;
 
-  patch.c = n_F / cosine;
+  patch.c = f.normal / patch.cosine;
   patch.height = patch.c.transpose() * (s.x.colwise() - f.x.col(0));
-  patch.depth = patch.height.array() - range.allowance;
-  if (!(patch.depth.maxCoeff() > -range.open && patch.height.minCoeff() <= range.reach))
+  const Vec3 behind = patch.height.array() - range.allowance;
+  if (!(behind.maxCoeff() > (is_rim ? 0 : -range.open) && patch.height.minCoeff() <= range.reach))
     return false;
+  if (!find_opposite(s, f, patch)) return false;
 
-  // Weights of the face's nodes at each node of s: signed areas of the projected triangles (the
-  // projected face turns the other way round, its area is negative).
-  for (int m = 0; m < 3; ++m) {
-    const Vec3 edge = f.x.col((m + 2) % 3) - f.x.col((m + 1) % 3);
-    const Vec3 across = n.cross(edge) / (f.twice_area * cosine);
-    patch.beta.row(m) = across.transpose() * (s.x.colwise() - f.x.col((m + 1) % 3));
-    if (!(patch.beta.row(m).maxCoeff() > 0)) return false;
+  patch.nearest = nearest;
+  patch.depth = behind;
+  patch.inward = patch.c;
+  if (is_rim) {
+    patch.depth = f.rim_height[nearest] * patch.beta.row(nearest);
+    patch.inward = f.rim_height[nearest] * patch.face_g.col(nearest);
   }
-
+  const Cuts cuts = cuts_of_part(f, behind, range.open, patch);
   patch.num_edges = 0;
   patch.depth_max = -range.open;
-  const double fraction = samples.empty() ? cover_exactly(range.open, f.rims, patch)
-                                          : cover_by_samples(range.open, samples, patch);
+  const double fraction =
+      samples.empty() ? cover_exactly(cuts, patch) : cover_by_samples(cuts, samples, patch);
   if (!(fraction > 0)) return false;
   if (patch.depth_max + range.allowance > range.reach) return false;
 
@@ -198,7 +183,6 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
   patch.Q *= facing.weight * rest_area;
   patch.area = facing.weight * fraction * rest_area;
   patch.normal = n;
-  patch.cosine = cosine;
   patch.turning = -facing.slope / facing.weight;
   patch.bending = facing.bend / facing.weight;
   // In-plane gradients of the barycentric coordinates.
@@ -206,11 +190,6 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
   const Vec3 g1 = s2.cross(n) / s.twice_area, g2 = n.cross(s1) / s.twice_area;
   patch.g << -g1 - g2, g1, g2;
   patch.e = patch.g.transpose() * patch.c;
-  for (int m = 0; m < 3; ++m) {
-    const Vec3 in_face = n_F.cross(f.x.col((m + 2) % 3) - f.x.col((m + 1) % 3)) / f.twice_area;
-    patch.face_e[m] = in_face.dot(n);
-    patch.face_g.col(m) = in_face - patch.face_e[m] * patch.c;
-  }
   return true;
 }
 
@@ -220,8 +199,9 @@ bool has_end(const ContactPatch& patch) {
 }
 
 // With u = Σ N_i u_i, u_i = δx_i − d_i δn − Σ β_mi δf_m, how far the point of the triangle moves
-// from the point of the face opposite: δd = c·u, δβ_m = ĝ_m·u (ĝ_m: face_g). The triangle's normal
-// turns by δn = −Σ ∇N_i (n·δx_i); d is the height, which an allowance does not change. With
+// from the point of the face opposite: δd = c·u, δβ_m = ĝ_m·u (ĝ_m: face_g); beside a rim δd = h_m
+// ĝ_m·u. The triangle's normal turns by δn = −Σ ∇N_i (n·δx_i); its d_i are heights, which an
+// allowance does not change. With
 // φ = share p d − m, the sum w ∫ φ dA over what is χ ≥ 0 changes by
 //
 //   w ∫ p δd dA + w ∮ φ δχ dl/|∇χ| + δw/w (w ∫ φ dA),
@@ -264,16 +244,10 @@ void add_opposite(const ContactPatch& patch, const Vec3& direction, const Vec3& 
   }
 }
 
-/// That of χ is direction·u.
-Vec3 motion(const ContactPatch& patch, const PatchEdge& edge) {
-  if (edge.m == PatchEdge::kOpen) return patch.c;
-  return patch.face_g.col(edge.m);
-}
-
 /// w ∫ p δd dA + w ∮ φ δχ dl/|∇χ|
 Vec18 unturned_gradient(const ContactPatch& patch, const PatchSum& sum) {
   Vec18 g = Vec18::Zero();
-  add_opposite(patch, patch.c, patch.Q * sum.p, g);
+  add_opposite(patch, patch.inward, patch.Q * sum.p, g);
   for (int k = 0; k < patch.num_edges; ++k) {
     const PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
     if (!edge.is_end) continue;
@@ -282,7 +256,7 @@ Vec18 unturned_gradient(const ContactPatch& patch, const PatchSum& sum) {
       return sum.share * sum.p.dot(N) * patch.depth.dot(N) - sum.m.dot(N);
     };
     const Vec3 q = edge.length / 6 * (phi(a) * a + 4 * phi(middle) * middle + phi(b) * b);
-    add_opposite(patch, motion(patch, edge), q, g);
+    add_opposite(patch, edge.motion, q, g);
   }
   return g;
 }
@@ -304,7 +278,7 @@ Vec18 patch_gradient(const ContactPatch& patch, const PatchSum& sum) {
 
 PatchStiffness patch_stiffness(const ContactPatch& patch, double k) {
   PatchStiffness stiffness;
-  const Mat18x3 a = opposite(patch, patch.c);
+  const Mat18x3 a = opposite(patch, patch.inward);
   const Mat3 half = 0.5 * k * patch.Q;
   stiffness.left.leftCols<3>() = a.lazyProduct(half);
   stiffness.right.leftCols<3>() = a;
@@ -313,7 +287,9 @@ PatchStiffness patch_stiffness(const ContactPatch& patch, double k) {
 
 void add_curvature(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness) {
   Mat18x10 &left = stiffness.left, &right = stiffness.right;
-  const Vec3 q = patch.Q * sum.p;
+  // Beside a rim δ²d is left out.
+  Vec3 q = Vec3::Zero();
+  if (patch.nearest == ContactPatch::kFace) q = patch.Q * sum.p;
   const double turning = patch.turning != 0 ? patch.turning * value(patch, sum) : 0;
   // Beside δd = c·u: the turning of the normal, −c·δn, and the sweep of the edges.
   for (int j = 0; j < 3; ++j)
@@ -321,7 +297,7 @@ void add_curvature(const ContactPatch& patch, const PatchSum& sum, PatchStiffnes
   for (int k = 0; k < patch.num_edges; ++k) {
     const PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
     const Mat3 part = (edge.is_end ? 1 : 0.5) * edge_integral(edge, sum.p);
-    left.leftCols<3>() += opposite(patch, motion(patch, edge)).lazyProduct(part);
+    left.leftCols<3>() += opposite(patch, edge.motion).lazyProduct(part);
   }
   // −δβ_m c·δf_m
   for (int m = 0; m < 3; ++m) {
@@ -368,13 +344,13 @@ bool end_stiffness(const ContactPatch& patch, const PatchSum& sum, PatchStiffnes
     const PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
     if (!edge.is_end) continue;
     if (columns == 0) stiffness = {};
-    const Vec3 across = patch.g * level_at_nodes(patch, edge.m, 0);
+    const Vec3 across = patch.g * edge.level;
     for (const double t : {kGauss, 1 - kGauss}) {
       const Vec3 N = (1 - t) * edge.a + t * edge.b;
       const Vec3 slope =
           patch.g * (sum.share * (patch.depth.dot(N) * sum.p + sum.p.dot(N) * patch.depth) - sum.m);
       const double of_chi = slope.dot(across) / across.squaredNorm();
-      add_opposite(patch, motion(patch, edge), N, stiffness.right.col(columns));
+      add_opposite(patch, edge.motion, N, stiffness.right.col(columns));
       stiffness.left.col(columns) = -0.25 * of_chi * edge.length * stiffness.right.col(columns);
       ++columns;
     }

@@ -18,6 +18,12 @@
 /// Sums of G_a over the patches around a node give its mean depth (contact_response.hpp). Bodies
 /// that overlap from the start may be allowed a part of it: an allowance [m] is taken from d.
 ///
+/// A point that passed a sharp edge of the other body may be nearer to that edge than it is deep:
+/// it came in beside the face, not through it. There the depth is the distance from the edge, h_m
+/// β_m(N) with the face's height h_m over it at rest, so that d is the smaller one: else edges that
+/// touch would push each other aside with a finite force at once. Each part of the polygon, nearest
+/// to the face or to one of its edges, is a patch of its own.
+///
 /// w(n_F·n) is 1 for faces that oppose the triangle and falls smoothly to 0 where they stand
 /// oblique to it: along an oblique normal a shallow overlap reads deep, and a hard limit would make
 /// forces jump.
@@ -32,24 +38,30 @@ namespace articular::sim {
 using Vec18 = Eigen::Matrix<double, 18, 1>;
 using Mat18x10 = Eigen::Matrix<double, 18, 10>;
 
-/// Where the polygon ends inside the triangle: at an edge of the face, χ = β_m = 0, or where depths
-/// begin to count, χ = d + open = 0. ∮ f dl / |∇χ| along it is `length` times the mean of f. At an
-/// edge where the next face takes over what this one loses its motion changes no sum.
+/// Where the polygon ends inside the triangle: at an edge of the face, χ = β_m = 0, where depths
+/// begin to count, χ = d + open = 0, or where another part of it begins, χ the depth there less the
+/// one here. ∮ f dl / |∇χ| along it is `length` times the mean of f. At an edge where the next
+/// patch takes over what this one loses its motion changes no sum.
 struct PatchEdge {
-  static constexpr int kOpen = 3;
-  int m = 0;                                // or kOpen
+  static constexpr int kOpen = 3, kNextPart = 4;
+  int m = 0;                                // or one of these
   bool is_end = false;                      // φ does not go on beyond: at a rim, kOpen
+  Vec3 level = Vec3::Zero();                // χ at the nodes of s
+  Vec3 motion = Vec3::Zero();               // δχ = motion·u, see contact_patch.cpp
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // its ends, in barycentric coordinates of s
   double length = 0;                        // times w [m²; by a depth: m]
 };
 
 struct ContactPatch {
+  static constexpr int kFace = 3;
+  int nearest = kFace;         // or the number of the face's edge
   double area = 0;             // [m²] rest area of the polygon, times w
   double depth_max = 0;        // [m]
   Mat3 Q = Mat3::Zero();       // w ∫ N Nᵀ dA [m²], or the sum that stands for it
   Mat3 beta = Mat3::Zero();    // beta(m, i): weight of face node m opposite node i of s
-  Vec3 depth = Vec3::Zero();   // at the nodes of s, without the allowance [m]
-  Vec3 height = Vec3::Zero();  // with it [m]
+  Vec3 depth = Vec3::Zero();   // d at the nodes of s, without the allowance [m]
+  Vec3 height = Vec3::Zero();  // behind the face, with the allowance [m]
+  Vec3 inward = Vec3::Zero();  // δd = inward·u, see contact_patch.cpp
   Vec3 c = Vec3::Zero();       // n_F / (n_F·n)
   Vec3 e = Vec3::Zero();       // e_i = c·∇N_i [1/m]
   Vec3 normal = Vec3::Zero();  // n, unit
@@ -59,7 +71,7 @@ struct ContactPatch {
   Vec3 face_e = Vec3::Zero();  // n·∇β_m on the face [1/m]
   Mat3 g = Mat3::Zero();       // ∇N_i, one a column [1/m]
   Mat3 face_g = Mat3::Zero();  // ∇β_m for motion that keeps the depth, one a column [1/m]
-  std::array<PatchEdge, 4> edge;
+  std::array<PatchEdge, 7> edge;
   int num_edges = 0;
 };
 
@@ -76,10 +88,11 @@ struct DepthRange {
 
 /// A triangle where it is now; without an area its normal is zero.
 struct FlatTriangle {
-  Mat3 x = Mat3::Zero();       // corners, one a column, counter-clockwise from outside [m]
-  Vec3 normal = Vec3::Zero();  // unit, outward
-  double twice_area = 0;       // [m²]
-  unsigned rims = 7;           // bit m: its sheet ends at the edge opposite corner m
+  Mat3 x = Mat3::Zero();           // corners, one a column, counter-clockwise from outside [m]
+  Vec3 normal = Vec3::Zero();      // unit, outward
+  double twice_area = 0;           // [m²]
+  unsigned rims = 7;               // bit m: its sheet ends at the edge opposite corner m
+  Vec3 rim_height = Vec3::Zero();  // h_m [m] at rims where the body is convex; else 0
 };
 FlatTriangle flat_triangle(const Mat3& x);
 
@@ -91,10 +104,11 @@ struct SamplePoint {
 
 /// @param rest_area  of the triangle s [m²]
 /// @param samples    of the triangle; none: exact
-/// @return false when nothing of s is opposite f within the range
+/// @param nearest    which part of the polygon, ContactPatch::nearest
+/// @return false when nothing of s is opposite f within the range and part
 bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_area,
                    const DepthRange& range, ContactPatch& patch,
-                   std::span<const SamplePoint> samples = {});
+                   std::span<const SamplePoint> samples = {}, int nearest = ContactPatch::kFace);
 
 /// Whether the polygon ends inside the triangle.
 bool has_end(const ContactPatch& patch);
@@ -102,6 +116,10 @@ bool has_end(const ContactPatch& patch);
 /// W_a [m²] and G_a [m³] of the triangle's nodes.
 inline Vec3 nodal_areas(const ContactPatch& patch) { return patch.Q.rowwise().sum(); }
 inline Vec3 depth_integrals(const ContactPatch& patch) { return patch.Q * patch.depth; }
+/// By the triangle's nodes [N] of pressures there; beside a rim they act along the face.
+inline Vec3 normal_forces(const ContactPatch& patch, const Vec3& p) {
+  return (patch.nearest == ContactPatch::kFace ? 1 : 0) * (patch.Q * p);
+}
 
 /// Σ_a share p_a G_a − m_a W_a, by numbers at the nodes of the triangle that stay as they are,
 /// share 1; or the energy ½ k w ∫ d² dA: p = k d, share ½.
@@ -133,8 +151,8 @@ PatchStiffness patch_stiffness(const ContactPatch& patch, double k);
 /// Adds the second derivative of the sum, but for what patch_stiffness() has of an energy: of the
 /// depth; of what the polygon's edges sweep as they move over the triangle, made symmetric: summed
 /// over the two faces at an edge that is exact; and of w as triangle and face turn. Indefinite.
-/// Left out where the polygon ends: p d δ²χ and the like, by depth / size of the face less than
-/// what is there.
+/// Left out are p d δ²χ and the like where the polygon ends, and what bends depths beside edges of
+/// the face: by depth / size of the face less than what is there.
 /// @param stiffness  made by patch_stiffness()
 void add_curvature(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness);
 

@@ -89,18 +89,25 @@ const FlatTriangle& ContactResponse::face_now(const Configuration& configuration
     met_[f] = now_;
     faces_[f] = flat_triangle(corners_of(configuration, faces, face));
     faces_[f].rims = faces.rims[f];
+    faces_[f].rim_height = faces.rim_height.col(face);
   }
   return faces_[f];
 }
 
 namespace {
 
-/// Where faces stand oblique to a triangle their weights differ: no face takes over from the next
-/// what an edge sweeps.
+/// A triangle's patches. Where faces stand oblique to it their weights differ, and beside rims the
+/// depths: no face takes over from the next what an edge sweeps.
 void end_at_edges(std::span<ContactDirection::Patch> patches) {
+  if (std::none_of(patches.begin(), patches.end(), [](const ContactDirection::Patch& entry) {
+        return entry.patch.turning != 0 || entry.patch.nearest != ContactPatch::kFace;
+      }))
+    return;
   for (ContactDirection::Patch& entry : patches)
-    for (int k = 0; k < entry.patch.num_edges; ++k)
-      entry.patch.edge[static_cast<std::size_t>(k)].is_end = true;
+    for (int k = 0; k < entry.patch.num_edges; ++k) {
+      PatchEdge& edge = entry.patch.edge[static_cast<std::size_t>(k)];
+      edge.is_end = edge.m != PatchEdge::kNextPart;
+    }
 }
 
 }  // namespace
@@ -130,16 +137,17 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
     for (; first < pairs.size() && pairs[first].triangle == triangle; ++first) {
       const int face = pairs[first].face;
       range.reach = pairs[first].reach;
-      if (direction.num_patches == direction.stored.size()) direction.stored.emplace_back();
-      ContactDirection::Patch& entry = direction.stored[direction.num_patches];
-      if (!contact_patch(s, face_now(configuration, side.faces, face), rest_area, range,
-                         entry.patch, samples))
-        continue;
-      ++direction.num_patches;
-      entry.triangle = triangle;
-      entry.face = face;
-      covered += nodal_areas(entry.patch);
-      integrals += depth_integrals(entry.patch);
+      const FlatTriangle& f = face_now(configuration, side.faces, face);
+      for (int nearest = 0; nearest <= ContactPatch::kFace; ++nearest) {
+        if (direction.num_patches == direction.stored.size()) direction.stored.emplace_back();
+        ContactDirection::Patch& entry = direction.stored[direction.num_patches];
+        if (!contact_patch(s, f, rest_area, range, entry.patch, samples, nearest)) continue;
+        ++direction.num_patches;
+        entry.triangle = triangle;
+        entry.face = face;
+        covered += nodal_areas(entry.patch);
+        integrals += depth_integrals(entry.patch);
+      }
     }
     Vec3 measure_slope = Vec3::Zero();
     for (int i = 0; i < 3; ++i) {
@@ -155,9 +163,7 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
     const std::span<ContactDirection::Patch> of_triangle(direction.stored.data() + first_patch,
                                                          direction.num_patches - first_patch);
     for (ContactDirection::Patch& entry : of_triangle) entry.measure_slope = measure_slope;
-    if (std::any_of(of_triangle.begin(), of_triangle.end(),
-                    [](const auto& entry) { return entry.patch.turning != 0; }))
-      end_at_edges(of_triangle);
+    end_at_edges(of_triangle);
   }
 }
 

@@ -64,7 +64,7 @@ void add_to_summary(const Model& model, const ContactDirection& direction,
     }
     sum.max_point_depth = std::max(sum.max_point_depth, entry.patch.depth_max);
     sum.energy += value(entry.patch, point_energy(entry.patch, direction.point_stiffness));
-    const Vec3 q = entry.patch.Q * nodal_pressures(direction, entry, sheets);
+    const Vec3 q = normal_forces(entry.patch, nodal_pressures(direction, entry, sheets));
     sum.normal_force += q.sum();
     sum.center += x * q;
     through_triangle[entry.triangle] += q.sum();
@@ -180,7 +180,8 @@ void add_nodes(const ContactDirection::Patch& entry, const Vec3& p, double share
 
 void add_faces(const ContactDirection::Patch& entry, const Vec3& p, SurfaceSums& of_triangles,
                SurfaceSums& of_faces) {
-  const double force = (entry.patch.Q * p).sum(), gap = -depth_integrals(entry.patch).sum();
+  const double force = normal_forces(entry.patch, p).sum(),
+               gap = -depth_integrals(entry.patch).sum();
   const auto add = [&](int face, double normal_force, SurfaceSums& sums) {
     sums.face_force[face] += normal_force;
     sums.face_gap[face] += gap;

@@ -52,6 +52,7 @@ struct Collider {
   Eigen::Matrix3Xi sheets;                // of the corners of each face, and
   std::vector<int> sheet_node;            // the node of each: see smooth_sheets.hpp
   std::vector<unsigned> rims;             // of each face, FlatTriangle::rims
+  Positions rim_height;                   // of each face, FlatTriangle::rim_height
   std::vector<int> nearby_begin, nearby;  // per tetrahedron: faces around it
   std::vector<char> is_inner;             // per tetrahedron: no node of it is on the surface
   Eigen::VectorXd compliance;             // of an element at the surface, h/M, at each node [m/Pa]

@@ -21,6 +21,7 @@ Positions unit_normals(const Positions& X, const Eigen::Matrix3Xi& faces) {
 struct Edge {
   int low, high;  // nodes
   int face, corner;
+  int opposite() const { return (corner + 2) % 3; }
 };
 
 std::vector<Edge> sorted_edges(const Eigen::Matrix3Xi& faces) {
@@ -36,18 +37,22 @@ std::vector<Edge> sorted_edges(const Eigen::Matrix3Xi& faces) {
   return edges;
 }
 
-/// The two sides of each edge at which the surface goes on without a crease.
-std::vector<std::array<Edge, 2>> smooth_edges(const Positions& X, const Eigen::Matrix3Xi& faces,
-                                              double crease) {
-  const Positions normals = unit_normals(X, faces);
+/// The two sides of an edge; of more faces there, of each that follows another.
+using EdgeSides = std::array<Edge, 2>;
+struct SharedEdges {
+  std::vector<EdgeSides> smooth, creases;
+};
+
+SharedEdges shared_edges(const Positions& normals, const Eigen::Matrix3Xi& faces, double crease) {
   const std::vector<Edge> edges = sorted_edges(faces);
-  std::vector<std::array<Edge, 2>> smooth;
+  SharedEdges shared;
   for (std::size_t e = 1; e < edges.size(); ++e) {
     const Edge &p = edges[e - 1], &q = edges[e];
-    if (p.low == q.low && p.high == q.high && normals.col(p.face).dot(normals.col(q.face)) > crease)
-      smooth.push_back({p, q});
+    if (p.low != q.low || p.high != q.high) continue;
+    const bool is_smooth = normals.col(p.face).dot(normals.col(q.face)) > crease;
+    (is_smooth ? shared.smooth : shared.creases).push_back({p, q});
   }
-  return smooth;
+  return shared;
 }
 
 /// Sets of corners that grow together; each is known by its least one.
@@ -74,7 +79,7 @@ class Sets {
 std::vector<int> number_sheets(const Positions& X, const Eigen::Matrix3Xi& faces, double crease,
                                Eigen::Matrix3Xi& sheets) {
   Sets corners(3 * faces.cols());
-  for (const auto& [p, q] : smooth_edges(X, faces, crease))
+  for (const auto& [p, q] : shared_edges(unit_normals(X, faces), faces, crease).smooth)
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) {
         const int of_p = (p.corner + i) % 3, of_q = (q.corner + j) % 3;
@@ -104,10 +109,26 @@ std::vector<int> number_sheets(const Positions& X, const Eigen::Matrix3Xi& faces
 std::vector<unsigned> rims_of_sheets(const Positions& X, const Eigen::Matrix3Xi& faces,
                                      double crease) {
   std::vector<unsigned> rims(static_cast<std::size_t>(faces.cols()), 7);
-  for (const auto& sides : smooth_edges(X, faces, crease))
+  for (const EdgeSides& sides : shared_edges(unit_normals(X, faces), faces, crease).smooth)
     for (const Edge& side : sides)
-      rims[static_cast<std::size_t>(side.face)] &= ~(1U << ((side.corner + 2) % 3));
+      rims[static_cast<std::size_t>(side.face)] &= ~(1U << side.opposite());
   return rims;
+}
+
+Positions heights_over_convex_rims(const Positions& X, const Eigen::Matrix3Xi& faces,
+                                   double crease) {
+  Positions heights = Positions::Zero(3, faces.cols());
+  const Positions normals = unit_normals(X, faces);
+  for (const auto& [p, q] : shared_edges(normals, faces, crease).creases) {
+    const Vec3 a = X.col(p.low), along = (X.col(p.high) - a).normalized();
+    const auto up = [&](const Edge& side) {
+      return Vec3(X.col(faces(side.opposite(), side.face)) - a);
+    };
+    if (!(up(q).dot(normals.col(p.face)) < 0)) continue;
+    for (const Edge& side : {p, q})
+      heights(side.opposite(), side.face) = along.cross(up(side)).norm();
+  }
+  return heights;
 }
 
 }  // namespace articular::sim

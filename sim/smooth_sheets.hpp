@@ -21,4 +21,9 @@ std::vector<int> number_sheets(const Positions& X, const Eigen::Matrix3Xi& faces
 std::vector<unsigned> rims_of_sheets(const Positions& X, const Eigen::Matrix3Xi& faces,
                                      double crease);
 
+/// Of each face, by corner: its height over the edge opposite, where that is a rim and the body is
+/// convex there [m]; else 0.
+Positions heights_over_convex_rims(const Positions& X, const Eigen::Matrix3Xi& faces,
+                                   double crease);
+
 }  // namespace articular::sim

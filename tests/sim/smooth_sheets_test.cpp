@@ -63,6 +63,31 @@ TEST(SmoothSheets, ABoxEndsItsSheetsAtItsEdges) {
   EXPECT_EQ(count, 12 * 3 * 2);
 }
 
+// A box of which a quarter is cut out: along the inner edge the body is not convex.
+TEST(SmoothSheets, HeightsOverRimsAreThoseOfTheFacesButAtInnerEdges) {
+  const MeshData angle = carved({{0.04, 0.04, 0.02}, {4, 4, 2}, Vec3::Zero()},
+                                [](const Vec3& X) { return X.x() < 0 || X.y() < 0; });
+  const Sheets s(angle);
+  const std::vector<unsigned> rims = rims_of_sheets(angle.X, s.faces, kCrease);
+  const Positions heights = heights_over_convex_rims(angle.X, s.faces, kCrease);
+  int inner = 0, outer = 0;
+  for (Eigen::Index f = 0; f < s.faces.cols(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = angle.X.col(s.faces((k + 1) % 3, f)), b = angle.X.col(s.faces((k + 2) % 3, f));
+      if ((rims[static_cast<std::size_t>(f)] >> k & 1) == 0) {
+        EXPECT_EQ(heights(k, f), 0);
+      } else if ((0.5 * (a + b)).head<2>().isZero(1e-9)) {
+        ++inner;
+        EXPECT_EQ(heights(k, f), 0);
+      } else {
+        ++outer;
+        EXPECT_NEAR(heights(k, f), 0.01, 1e-12);  // of half a cell's square
+      }
+    }
+  EXPECT_EQ(inner, 2 * 2);
+  EXPECT_EQ(outer, 2 * (16 + 16 + 5 * 2));
+}
+
 TEST(SmoothSheets, ABallHasNoCreases) {
   const Sheets s(sphere_mesh({0.01, 4e-3, Vec3::Zero()}));
   for (const auto& [node, sheets] : s.at_node) EXPECT_EQ(sheets.size(), 1U);
