@@ -342,7 +342,7 @@ bool end_stiffness(const ContactPatch& patch, const PatchSum& sum, PatchStiffnes
   int columns = 0;
   for (int k = 0; k < patch.num_edges; ++k) {
     const PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
-    if (!edge.is_end) continue;
+    if (!edge.is_end || columns == stiffness.left.cols()) continue;
     if (columns == 0) stiffness = {};
     const Vec3 across = patch.g * edge.level;
     for (const double t : {kGauss, 1 - kGauss}) {
