@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "sim/patch_motion.hpp"
 #include "sim/triangle_polygon.hpp"
 
 namespace articular::sim {
@@ -26,11 +27,14 @@ struct Cuts {
 
 /// The polygon's edges inside the triangle, in units of its area.
 void find_edges(const TrianglePolygon& polygon, const Cuts& cuts, ContactPatch& patch) {
-  for (int k = 0; k < polygon.count && patch.num_edges < std::ssize(patch.edge); ++k) {
+  std::array<int, 42> edge_of_side;  // index into patch.edge; −1 − i: own side
+  for (int k = 0; k < polygon.count; ++k) {
     const int side = polygon.side[static_cast<std::size_t>(k)];
-    if (side == TrianglePolygon::kOwnSide) continue;
+    edge_of_side[static_cast<std::size_t>(k)] = side;
+    if (side < 0) continue;
+    edge_of_side[static_cast<std::size_t>(k)] = PatchEdge::kNone;
+    if (patch.num_edges == std::ssize(patch.edge)) continue;
     PatchEdge edge = cuts.edge[static_cast<std::size_t>(side)];
-    if (edge.m == PatchEdge::kOpen && !edge.is_end) continue;  // there φ = p d = 0
     edge.a = polygon.corner[static_cast<std::size_t>(k)];
     edge.b = polygon.corner[static_cast<std::size_t>(k + 1 == polygon.count ? 0 : k + 1)];
     // 1/|∇χ| is the distance of a point from the edge by its χ: of the corner farthest off.
@@ -39,7 +43,15 @@ void find_edges(const TrianglePolygon& polygon, const Cuts& cuts, ContactPatch& 
     if (!(level > 0)) continue;
     const Vec3 along = edge.b - edge.a, off = Vec3::Unit(far) - edge.a;
     edge.length = 2 * std::abs(along[1] * off[2] - along[2] * off[1]) / level;
+    edge.before = k == 0 ? polygon.count - 1 : k - 1;
+    edge.after = k + 1 == polygon.count ? 0 : k + 1;
+    edge_of_side[static_cast<std::size_t>(k)] = patch.num_edges;
     patch.edge[static_cast<std::size_t>(patch.num_edges++)] = edge;
+  }
+  for (int k = 0; k < patch.num_edges; ++k) {
+    PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
+    edge.before = edge_of_side[static_cast<std::size_t>(edge.before)];
+    edge.after = edge_of_side[static_cast<std::size_t>(edge.after)];
   }
 }
 
@@ -211,38 +223,10 @@ bool has_end(const ContactPatch& patch) {
 //
 //   δ²d = −2 δd c·δn − 2 Σ δβ_m c·δf_m − d c·δ²n,   −c·δ²n = |δn|² + 2 Σ e_j δn·δx_j,
 //
-// and at an edge ∮ (2 p δd δχ − ∂φ/∂χ δχ² + φ δ²χ) dl/|∇χ|, ∂φ/∂χ taken along ∇χ, with what its
-// ends sweep. Where one face takes over from another, both together have ∮ p δd δχ dl/|∇χ| of each.
+// and at an edge ∮ 2 p δd δχ dl/|∇χ| with what is in contact_patch_ends.cpp. Where one face takes
+// over from another, both together have ∮ p δd δχ dl/|∇χ| of each.
 
 namespace {
-
-using Mat18x3 = Eigen::Matrix<double, 18, 3>;
-
-/// direction·u_i for the three nodes of s, of the 18 displacements.
-Mat18x3 opposite(const ContactPatch& patch, const Vec3& direction) {
-  Mat18x3 rows;
-  const Vec3 tilt = patch.g.transpose() * direction;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      rows.block<3, 1>(3 * j, i) = patch.height[i] * tilt[j] * patch.normal;
-      rows.block<3, 1>(9 + 3 * j, i) = -patch.beta(j, i) * direction;
-    }
-    rows.block<3, 1>(3 * i, i) += direction;
-  }
-  return rows;
-}
-
-/// sum += opposite(patch, direction) * q.
-template <class Sum>
-void add_opposite(const ContactPatch& patch, const Vec3& direction, const Vec3& q, Sum&& sum) {
-  const double height = q.dot(patch.height);
-  const Vec3 reaction = patch.beta * q;
-  for (int j = 0; j < 3; ++j) {
-    sum.template segment<3>(3 * j) +=
-        q[j] * direction + (height * direction.dot(patch.g.col(j))) * patch.normal;
-    sum.template segment<3>(9 + 3 * j) -= reaction[j] * direction;
-  }
-}
 
 /// w ∫ p δd dA + w ∮ φ δχ dl/|∇χ|
 Vec18 unturned_gradient(const ContactPatch& patch, const PatchSum& sum) {
@@ -251,12 +235,7 @@ Vec18 unturned_gradient(const ContactPatch& patch, const PatchSum& sum) {
   for (int k = 0; k < patch.num_edges; ++k) {
     const PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
     if (!edge.is_end) continue;
-    const Vec3 &a = edge.a, &b = edge.b, middle = 0.5 * (a + b);
-    const auto phi = [&](const Vec3& N) {
-      return sum.share * sum.p.dot(N) * patch.depth.dot(N) - sum.m.dot(N);
-    };
-    const Vec3 q = edge.length / 6 * (phi(a) * a + 4 * phi(middle) * middle + phi(b) * b);
-    add_opposite(patch, edge.motion, q, g);
+    add_opposite(patch, edge.motion, edge_sum(patch, edge, sum), g);
   }
   return g;
 }
@@ -287,7 +266,7 @@ PatchStiffness patch_stiffness(const ContactPatch& patch, double k) {
 
 void add_curvature(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness) {
   Mat18x10 &left = stiffness.left, &right = stiffness.right;
-  // Beside a rim δ²d is left out.
+  // Beside a rim δ²d is in end_stiffness().
   Vec3 q = Vec3::Zero();
   if (patch.nearest == ContactPatch::kFace) q = patch.Q * sum.p;
   const double turning = patch.turning != 0 ? patch.turning * value(patch, sum) : 0;
@@ -334,28 +313,6 @@ void add_curvature(const ContactPatch& patch, const PatchSum& sum, PatchStiffnes
   left.col(9) = patch.turning * unturned_gradient(patch, sum) +
                 0.5 * patch.bending * value(patch, sum) * cosine;
   right.col(9) = cosine;
-}
-
-/// −∮ ∂φ/∂χ δχ² dl/|∇χ|, by two points of Gauss exactly.
-bool end_stiffness(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness) {
-  constexpr double kGauss = 0.21132486540518712;  // (1 − 1/√3)/2
-  int columns = 0;
-  for (int k = 0; k < patch.num_edges; ++k) {
-    const PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
-    if (!edge.is_end || columns == stiffness.left.cols()) continue;
-    if (columns == 0) stiffness = {};
-    const Vec3 across = patch.g * edge.level;
-    for (const double t : {kGauss, 1 - kGauss}) {
-      const Vec3 N = (1 - t) * edge.a + t * edge.b;
-      const Vec3 slope =
-          patch.g * (sum.share * (patch.depth.dot(N) * sum.p + sum.p.dot(N) * patch.depth) - sum.m);
-      const double of_chi = slope.dot(across) / across.squaredNorm();
-      add_opposite(patch, edge.motion, N, stiffness.right.col(columns));
-      stiffness.left.col(columns) = -0.25 * of_chi * edge.length * stiffness.right.col(columns);
-      ++columns;
-    }
-  }
-  return columns > 0;
 }
 
 }  // namespace articular::sim

@@ -36,6 +36,7 @@
 namespace articular::sim {
 
 using Vec18 = Eigen::Matrix<double, 18, 1>;
+using Mat18 = Eigen::Matrix<double, 18, 18>;
 using Mat18x10 = Eigen::Matrix<double, 18, 10>;
 
 /// Where the polygon ends inside the triangle: at an edge of the face, χ = β_m = 0, where depths
@@ -43,13 +44,14 @@ using Mat18x10 = Eigen::Matrix<double, 18, 10>;
 /// one here. ∮ f dl / |∇χ| along it is `length` times the mean of f. At an edge where the next
 /// patch takes over what this one loses its motion changes no sum.
 struct PatchEdge {
-  static constexpr int kOpen = 3, kNextPart = 4;
+  static constexpr int kOpen = 3, kNextPart = 4, kNone = 99;
   int m = 0;                                // or one of these
   bool is_end = false;                      // φ does not go on beyond: at a rim, kOpen
   Vec3 level = Vec3::Zero();                // χ at the nodes of s
   Vec3 motion = Vec3::Zero();               // δχ = motion·u, see contact_patch.cpp
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // its ends, in barycentric coordinates of s
   double length = 0;                        // times w [m²; by a depth: m]
+  int before = kNone, after = kNone;        // edges that it meets at a and b; −1 − i: N_i = 0
 };
 
 struct ContactPatch {
@@ -151,13 +153,11 @@ PatchStiffness patch_stiffness(const ContactPatch& patch, double k);
 /// Adds the second derivative of the sum, but for what patch_stiffness() has of an energy: of the
 /// depth; of what the polygon's edges sweep as they move over the triangle, made symmetric: summed
 /// over the two faces at an edge that is exact; and of w as triangle and face turn. Indefinite.
-/// Left out are p d δ²χ and the like where the polygon ends, and what bends depths beside edges of
-/// the face: by depth / size of the face less than what is there.
 /// @param stiffness  made by patch_stiffness()
 void add_curvature(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness);
 
-/// What is to be added where the polygon ends.
-/// @return false where it does not end
-bool end_stiffness(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness);
+/// What is to be added where the polygon ends, or bends depths beside an edge of the face.
+/// @return false where there is nothing
+bool end_stiffness(const ContactPatch& patch, const PatchSum& sum, Mat18& H);
 
 }  // namespace articular::sim

@@ -97,17 +97,17 @@ const FlatTriangle& ContactResponse::face_now(const Configuration& configuration
 namespace {
 
 /// A triangle's patches. Where faces stand oblique to it their weights differ, and beside rims the
-/// depths: no face takes over from the next what an edge sweeps.
+/// depths: no face takes over from the next what an edge sweeps. Nor, in the tangent, at the corner
+/// where such an edge meets an end.
 void end_at_edges(std::span<ContactDirection::Patch> patches) {
   if (std::none_of(patches.begin(), patches.end(), [](const ContactDirection::Patch& entry) {
-        return entry.patch.turning != 0 || entry.patch.nearest != ContactPatch::kFace;
+        return entry.patch.turning != 0 || entry.patch.nearest != ContactPatch::kFace ||
+               has_end(entry.patch);
       }))
     return;
   for (ContactDirection::Patch& entry : patches)
-    for (int k = 0; k < entry.patch.num_edges; ++k) {
-      PatchEdge& edge = entry.patch.edge[static_cast<std::size_t>(k)];
-      edge.is_end = edge.m != PatchEdge::kNextPart;
-    }
+    for (int k = 0; k < entry.patch.num_edges; ++k)
+      entry.patch.edge[static_cast<std::size_t>(k)].is_end = true;
 }
 
 }  // namespace

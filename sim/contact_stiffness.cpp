@@ -28,8 +28,14 @@ void ContactStiffness::add(const ContactDirection& direction, const Configuratio
     const PatchSum sum = scaled(pressure_sum(direction, entry, sheets), scale.stiffness);
     add_curvature(entry.patch, sum, stiffness);
     add_product(model_, configuration, nodes, stiffness.left, stiffness.right, A);
-    if (end_stiffness(entry.patch, sum, stiffness))
+    Mat18 H;
+    if (!end_stiffness(entry.patch, sum, H)) continue;
+    for (const int half : {0, 9}) {
+      stiffness = {};
+      stiffness.left.leftCols<9>() = 0.5 * H.middleCols<9>(half);
+      stiffness.right.leftCols<9>().middleRows<9>(half).setIdentity();
       add_product(model_, configuration, nodes, stiffness.left, stiffness.right, A);
+    }
   }
   if (!(direction.point_stiffness > 0))
     add_measure_stiffness(direction, configuration, scale.stiffness, A);

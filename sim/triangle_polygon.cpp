@@ -5,9 +5,9 @@ namespace articular::sim {
 TrianglePolygon whole_triangle() {
   TrianglePolygon polygon;
   polygon.count = 3;
-  for (std::size_t i = 0; i < 3; ++i) {
-    polygon.corner[i] = Vec3::Unit(static_cast<Eigen::Index>(i));
-    polygon.side[i] = TrianglePolygon::kOwnSide;
+  for (int i = 0; i < 3; ++i) {
+    polygon.corner[static_cast<std::size_t>(i)] = Vec3::Unit(i);
+    polygon.side[static_cast<std::size_t>(i)] = -1 - (i + 2) % 3;
   }
   return polygon;
 }

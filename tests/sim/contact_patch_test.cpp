@@ -76,8 +76,8 @@ Mat18 patch_hessian(const ContactPatch& patch) { return product(patch_stiffness(
 Mat18 patch_curvature(const ContactPatch& patch, const PatchSum& sum) {
   PatchStiffness stiffness = patch_stiffness(patch, 0);
   add_curvature(patch, sum, stiffness);
-  const Mat18 H = product(stiffness);
-  if (!end_stiffness(patch, sum, stiffness)) return H;
+  Mat18 H;
+  if (!end_stiffness(patch, sum, H)) H.setZero();
   return H + product(stiffness);
 }
 
@@ -256,8 +256,9 @@ struct PartialSum {
     f.rim_height = rim_height;
     for (int nearest = 0; nearest <= ContactPatch::kFace; ++nearest) {
       ContactPatch patch;
-      if (contact_patch(flat_triangle(pair.s), f, kRestArea, kNear, patch, {}, nearest))
-        found.push_back(patch);
+      if (!contact_patch(flat_triangle(pair.s), f, kRestArea, kNear, patch, {}, nearest)) continue;
+      for (PatchEdge& edge : patch.edge) edge.is_end = true;
+      found.push_back(patch);
     }
     return found;
   }
@@ -270,6 +271,11 @@ struct PartialSum {
     Vec18 sum = Vec18::Zero();
     for (const ContactPatch& patch : parts()) sum += sim::patch_gradient(patch, {p, m});
     return sum;
+  }
+  Mat18 tangent() const {
+    Mat18 H = Mat18::Zero();
+    for (const ContactPatch& patch : parts()) H += patch_curvature(patch, {p, m});
+    return H;
   }
   Vec18 numeric_gradient(double h) const {
     Vec18 g;
@@ -334,31 +340,31 @@ TEST(ContactPatch, BesideRimsTheGradientIsTheDerivativeOfTheSumOverAllParts) {
   EXPECT_LT(corners_pass, 3);
 }
 
-// What is left out goes with φ at the edge: m = p (d + s β) makes it 0 there.
-TEST(ContactPatch, AtARimWhereTheSumVanishesTheTangentIsTheDerivativeOfTheGradient) {
+// So for the tangent, with and without depths that count to rims.
+TEST(ContactPatch, AtItsEndsTheTangentIsTheDerivativeOfTheGradient) {
   Random random(12);
-  int at_rims = 0;
-  for (int n = 0; n < 50; ++n) {
-    Pair pair = covered_pair(random);
-    pair.s.row(1).array() -= 20.4;  // over the edge that is at y = -20
-    PartialSum sum{pair, Vec3::Constant(kStiffness), Vec3::Zero()};
+  int several = 0, single = 0, corners_pass = 0;
+  for (int n = 0; n < 200; ++n) {
+    PartialSum sum{partial_pair(random), random.vec3(), random.vec3()};
+    sum.pair.s.row(2).array() -= 0.2;
+    if (n % 2 == 0) sum.rim_height = Vec3(1.3, 0, 0.8);
     const std::vector<ContactPatch> parts = sum.parts();
-    if (parts.empty() || parts[0].turning != 0) continue;
-    const ContactPatch& patch = parts[0];
-    if (patch.num_edges != 1 || patch.edge[0].m == PatchEdge::kOpen) continue;
-    ++at_rims;
-    sum.m = kStiffness * (patch.depth + 7 * patch.beta.row(patch.edge[0].m).transpose());
-    const Mat18 H = patch_curvature(patch, {sum.p, sum.m});
+    if (!(nodal_areas_of(parts).sum() > 0.05 * kRestArea)) continue;
+    ++(parts.size() > 1 ? several : single);
+    const Mat18 H = sum.tangent();
     double best = std::numeric_limits<double>::infinity();
-    for (const double h : {1e-4, 1e-5}) {
+    for (const double h : {1e-4, 1e-5, 1e-6}) {
       Mat18 numeric;
       for (int i = 0; i < 18; ++i)
         numeric.col(i) = (sum.moved(i, h).gradient() - sum.moved(i, -h).gradient()) / (2 * h);
       best = std::min(best, (numeric - H).norm() / H.norm());
     }
-    EXPECT_LT(best, 1e-7);
+    corners_pass += best > 1e-6 ? 1 : 0;
+    EXPECT_LT(best, 1e-2);
   }
-  EXPECT_GT(at_rims, 20);
+  EXPECT_GT(several, 20);
+  EXPECT_GT(single, 30);
+  EXPECT_LT(corners_pass, 3);
 }
 
 TEST(ContactPatch, ForcesAreEqualAndOppositeWithoutNetMoment) {

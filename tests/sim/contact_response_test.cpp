@@ -205,12 +205,10 @@ TEST(AveragedContact, OverAnEdgeForcesAreTheDerivativeOfTheEnergy) {
   EXPECT_LT(error_of_forces(block), 1e-6);
 }
 
-// The tangent leaves out what goes with the square of depth by size of a face (here a third of
-// kSide).
-TEST(AveragedContact, OverAnEdgeTheTangentIsTheDerivativeOfTheForcesForSmallDepths) {
-  for (const double depth : {0.04, 0.01, 0.0025}) {
+TEST(AveragedContact, OverAnEdgeTheTangentIsTheDerivativeOfTheForces) {
+  for (const double depth : {0.05, 0.01}) {
     BlockOverAnEdge block(depth, 2 * depth);
-    EXPECT_LT(error_of_tangent(block), 60 * depth * depth);
+    EXPECT_LT(error_of_tangent(block), 1e-5);
   }
 }
 
