@@ -2,8 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "contact_scene.hpp"
 
@@ -126,9 +127,9 @@ double restitution(double step) {
   return (mean_velocity(run, 1) - mean_velocity(run, 0)).x() / kSpeed;
 }
 
-// The blocks chatter: contact opens and closes by the waves in them, and where their edges lie flush
-// these pass each other. What is left after the wave's own times are resolved comes and goes by half
-// a per cent, but does not drift.
+// The blocks chatter: contact opens and closes by the waves in them, and where their edges lie
+// flush these pass each other. What is left after the wave's own times are resolved comes and goes
+// by half a per cent, but does not drift.
 TEST(Collision, RestitutionConvergesWithTheStep) {
   std::vector<double> e;
   for (const double step : {0.125e-3, 0.0625e-3, 0.03125e-3, 0.015625e-3})
