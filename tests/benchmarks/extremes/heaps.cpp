@@ -32,15 +32,17 @@ std::string cubes(int n, bool rigid) {
   return text;
 }
 
-/// Averages make energy where cubes that fall over begin to face each other:
-/// tests/benchmarks/README.md.
-bool counts_pointwise(int n, bool rigid) { return !rigid && n > 2; }
+struct Heap {
+  int n;  // cubes along an edge
+  bool rigid, pointwise;
+  Outcome expected = Outcome::Right;
+};
 
-Finding study(const Bench& bench, int n, bool rigid, double limit) {
-  const std::string response =
-      counts_pointwise(n, rigid) ? "contact_response = \"pointwise\"\n" : "";
+Finding study(const Bench& bench, const Heap& heap) {
+  const std::string response = heap.pointwise ? "contact_response = \"pointwise\"\n" : "";
+  const double limit = heap.n == 10 ? 3600 : 300;  // [s]
   const std::string scene =
-      response + general(0.2, 1e-3) + cubes(n, rigid) +
+      response + general(0.2, 1e-3) + cubes(heap.n, heap.rigid) +
       box("floor", "fixed",
           {.size = {0.3, 0.3, 0.01}, .cells = {10, 10, 1}, .center = {0, 0, -0.005}}) +
       gravity(9.81) + energy_probe();
@@ -59,16 +61,18 @@ Finding study(const Bench& bench, int n, bool rigid, double limit) {
 
 std::vector<Extreme> heaps() {
   std::vector<Extreme> rows;
-  for (const bool rigid : {true, false})
-    for (const int n : {2, 5, 10})
-      rows.push_back({.name = "bodies in one heap",
-                      .range = fmt::format("{} {}{}", n * n * n, rigid ? "rigid" : "of tissue",
-                                           counts_pointwise(n, rigid) ? ", pointwise" : ""),
-                      .expected = Outcome::Right,
-                      .quick = n == 2,
-                      .study = [=](const Bench& bench) {
-                        return study(bench, n, rigid, n == 10 ? 3600 : 300);
-                      }});
+  for (const Heap& heap : {Heap{2, true, false}, Heap{5, true, false}, Heap{10, true, false},
+                           Heap{2, false, false}, Heap{5, false, true},
+                           // Averages make energy where cubes that fall over begin to face each
+                           // other: sim/README.md, Limits.
+                           Heap{5, false, false, Outcome::Degraded}, Heap{10, false, true}})
+    rows.push_back({.name = "bodies in one heap",
+                    .range = fmt::format("{} {}{}", heap.n * heap.n * heap.n,
+                                         heap.rigid ? "rigid" : "of tissue",
+                                         heap.pointwise ? ", pointwise" : ""),
+                    .expected = heap.expected,
+                    .quick = heap.n == 2,
+                    .study = [heap](const Bench& bench) { return study(bench, heap); }});
   return rows;
 }
 
