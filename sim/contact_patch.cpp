@@ -12,41 +12,51 @@
 namespace articular::sim {
 namespace {
 
-/// What bounds a part: there each χ >= 0.
+/// What bounds a part: there each χ >= 0. As PatchEdge has it.
+struct Cut {
+  int m;
+  bool is_end;
+  Vec3 level, motion;
+};
+
 struct Cuts {
-  std::array<PatchEdge, TrianglePolygon::kMaxCuts> edge;  // without their places
+  std::array<Cut, TrianglePolygon::kMaxCuts> cut;
   int count = 0;
   void add(int m, bool is_end, const Vec3& level, const Vec3& motion) {
-    PatchEdge& cut = edge[static_cast<std::size_t>(count++)];
-    cut.m = m;
-    cut.is_end = is_end;
-    cut.level = level;
-    cut.motion = motion;
+    cut[static_cast<std::size_t>(count++)] = {m, is_end, level, motion};
   }
+  std::span<const Cut> all() const { return {cut.data(), static_cast<std::size_t>(count)}; }
 };
 
 /// The polygon's edges inside the triangle, in units of its area.
 void find_edges(const TrianglePolygon& polygon, const Cuts& cuts, ContactPatch& patch) {
-  std::array<int, 42> edge_of_side;  // index into patch.edge; −1 − i: own side
+  std::array<int, TrianglePolygon::kMaxCorners>
+      edge_of_side;  // index into patch.edge; −1 − i: own side
   for (int k = 0; k < polygon.count; ++k) {
     const int side = polygon.side[static_cast<std::size_t>(k)];
     edge_of_side[static_cast<std::size_t>(k)] = side;
     if (side < 0) continue;
     edge_of_side[static_cast<std::size_t>(k)] = PatchEdge::kNone;
     if (patch.num_edges == std::ssize(patch.edge)) continue;
-    PatchEdge edge = cuts.edge[static_cast<std::size_t>(side)];
-    edge.a = polygon.corner[static_cast<std::size_t>(k)];
-    edge.b = polygon.corner[static_cast<std::size_t>(k + 1 == polygon.count ? 0 : k + 1)];
+    const Cut& cut = cuts.all()[static_cast<std::size_t>(side)];
     // 1/|∇χ| is the distance of a point from the edge by its χ: of the corner farthest off.
     Eigen::Index far = 0;
-    const double level = edge.level.cwiseAbs().maxCoeff(&far);
+    const double level = cut.level.cwiseAbs().maxCoeff(&far);
     if (!(level > 0)) continue;
+    const int before = k == 0 ? polygon.count - 1 : k - 1,
+              after = k + 1 == polygon.count ? 0 : k + 1;
+    PatchEdge& edge = patch.edge[static_cast<std::size_t>(patch.num_edges)];
+    edge.m = cut.m;
+    edge.is_end = cut.is_end;
+    edge.level = cut.level;
+    edge.motion = cut.motion;
+    edge.a = polygon.corner[static_cast<std::size_t>(k)];
+    edge.b = polygon.corner[static_cast<std::size_t>(after)];
     const Vec3 along = edge.b - edge.a, off = Vec3::Unit(far) - edge.a;
     edge.length = 2 * std::abs(along[1] * off[2] - along[2] * off[1]) / level;
-    edge.before = k == 0 ? polygon.count - 1 : k - 1;
-    edge.after = k + 1 == polygon.count ? 0 : k + 1;
-    edge_of_side[static_cast<std::size_t>(k)] = patch.num_edges;
-    patch.edge[static_cast<std::size_t>(patch.num_edges++)] = edge;
+    edge.before = before;
+    edge.after = after;
+    edge_of_side[static_cast<std::size_t>(k)] = patch.num_edges++;
   }
   for (int k = 0; k < patch.num_edges; ++k) {
     PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
@@ -70,7 +80,7 @@ double cover_exactly(const Cuts& cuts, ContactPatch& patch) {
   std::array<TrianglePolygon, 2> rooms;
   const TrianglePolygon* part = &whole;
   for (int i = 0; i < cuts.count; ++i) {
-    part = &clipped(cuts.edge[static_cast<std::size_t>(i)].level, i, *part,
+    part = &clipped(cuts.all()[static_cast<std::size_t>(i)].level, i, *part,
                     rooms[part == rooms.data() ? 1 : 0]);
     if (part->count < 3) return 0;
   }
@@ -84,12 +94,11 @@ double cover_exactly(const Cuts& cuts, ContactPatch& patch) {
 /// The same by the samples there; without edges: points stay where they are.
 double cover_by_samples(const Cuts& cuts, std::span<const SamplePoint> samples,
                         ContactPatch& patch) {
-  const std::span<const PatchEdge> edges(cuts.edge.data(), static_cast<std::size_t>(cuts.count));
   patch.Q.setZero();
   double total = 0;
   for (const SamplePoint& sample : samples) {
-    if (std::any_of(edges.begin(), edges.end(),
-                    [&](const PatchEdge& edge) { return edge.level.dot(sample.N) < 0; }))
+    if (std::any_of(cuts.all().begin(), cuts.all().end(),
+                    [&](const Cut& cut) { return cut.level.dot(sample.N) < 0; }))
       continue;
     patch.depth_max = std::max(patch.depth_max, patch.depth.dot(sample.N));
     patch.Q += sample.part * sample.N * sample.N.transpose();

@@ -14,7 +14,7 @@ TrianglePolygon whole_triangle() {
 
 const TrianglePolygon& clipped(const Vec3& at_nodes, int side, const TrianglePolygon& polygon,
                                TrianglePolygon& room) {
-  std::array<double, 42> level;
+  std::array<double, TrianglePolygon::kMaxCorners> level;
   bool all_inside = true;
   for (int i = 0; i < polygon.count; ++i) {
     level[static_cast<std::size_t>(i)] = at_nodes.dot(polygon.corner[static_cast<std::size_t>(i)]);

@@ -10,10 +10,10 @@ namespace articular::sim {
 /// most one corner more for each cut; where round-off makes the levels of corners on a cut change
 /// sign more often than twice, each cut adds half as many: 3, 4, 6, 9, 13, 19, 28, 42.
 struct TrianglePolygon {
-  static constexpr int kMaxCuts = 7;
-  std::array<Vec3, 42> corner;
-  std::array<int, 42>
-      side;  // the cut along which the edge to the next corner lies; −1 − i: N_i = 0
+  static constexpr std::size_t kMaxCuts = 7, kMaxCorners = 42;
+  std::array<Vec3, kMaxCorners> corner;
+  /// The cut along which the edge to the next corner lies; −1 − i: the own side N_i = 0.
+  std::array<int, kMaxCorners> side;
   int count = 0;
 };
 
