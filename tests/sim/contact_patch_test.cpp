@@ -359,7 +359,7 @@ TEST(ContactPatch, AtItsEndsTheTangentIsTheDerivativeOfTheGradient) {
         numeric.col(i) = (sum.moved(i, h).gradient() - sum.moved(i, -h).gradient()) / (2 * h);
       best = std::min(best, (numeric - H).norm() / H.norm());
     }
-    corners_pass += best > 1e-6 ? 1 : 0;
+    corners_pass += best > 1e-7 ? 1 : 0;
     EXPECT_LT(best, 1e-2);
   }
   EXPECT_GT(several, 20);
