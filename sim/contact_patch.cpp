@@ -16,14 +16,14 @@ namespace {
 struct Cut {
   int m;
   bool is_end;
-  Vec3 level, motion;
+  Vec3 level;
 };
 
 struct Cuts {
   std::array<Cut, TrianglePolygon::kMaxCuts> cut;
   int count = 0;
-  void add(int m, bool is_end, const Vec3& level, const Vec3& motion) {
-    cut[static_cast<std::size_t>(count++)] = {m, is_end, level, motion};
+  void add(int m, bool is_end, const Vec3& level) {
+    cut[static_cast<std::size_t>(count++)] = {m, is_end, level};
   }
   std::span<const Cut> all() const { return {cut.data(), static_cast<std::size_t>(count)}; }
 };
@@ -49,7 +49,6 @@ void find_edges(const TrianglePolygon& polygon, const Cuts& cuts, ContactPatch& 
     edge.m = cut.m;
     edge.is_end = cut.is_end;
     edge.level = cut.level;
-    edge.motion = cut.motion;
     edge.a = polygon.corner[static_cast<std::size_t>(k)];
     edge.b = polygon.corner[static_cast<std::size_t>(after)];
     const Vec3 along = edge.b - edge.a, off = Vec3::Unit(far) - edge.a;
@@ -120,7 +119,7 @@ Facing facing_weight(double opposing) {
   return {t * t * (3 - 2 * t), 6 * t * (1 - t) / kRange, 6 * (1 - 2 * t) / (kRange * kRange)};
 }
 
-/// β, and what of the gradients of χ goes with the face. @return false where nothing is opposite
+/// β. @return false where nothing is opposite
 bool find_opposite(const FlatTriangle& s, const FlatTriangle& f, ContactPatch& patch) {
   // Weights of the face's nodes at each node of s: signed areas of the projected triangles (the
   // projected face turns the other way round, its area is negative).
@@ -129,28 +128,54 @@ bool find_opposite(const FlatTriangle& s, const FlatTriangle& f, ContactPatch& p
     const Vec3 across = s.normal.cross(edge) / (f.twice_area * patch.cosine);
     patch.beta.row(m) = across.transpose() * (s.x.colwise() - f.x.col((m + 1) % 3));
     if (!(patch.beta.row(m).maxCoeff() > 0)) return false;
+  }
+  return true;
+}
+
+/// δ(depth) is this times u in the part nearest to the face or to one of its edges.
+Vec3 depth_motion(const FlatTriangle& f, const ContactPatch& patch, int nearest) {
+  if (nearest == ContactPatch::kFace) return patch.c;
+  return f.rim_height[nearest] * patch.face_g.col(nearest);
+}
+
+/// Gradients, of what the triangle and the face share.
+void find_motion(const FlatTriangle& s, const FlatTriangle& f, ContactPatch& patch) {
+  // In-plane gradients of the barycentric coordinates.
+  const Vec3 s1 = s.x.col(1) - s.x.col(0), s2 = s.x.col(2) - s.x.col(0);
+  const Vec3 g1 = s2.cross(s.normal) / s.twice_area, g2 = s.normal.cross(s1) / s.twice_area;
+  patch.g << -g1 - g2, g1, g2;
+  patch.e = patch.g.transpose() * patch.c;
+  for (int m = 0; m < 3; ++m) {
+    const Vec3 edge = f.x.col((m + 2) % 3) - f.x.col((m + 1) % 3);
     const Vec3 in_face = f.normal.cross(edge) / f.twice_area;
     patch.face_e[m] = in_face.dot(s.normal);
     patch.face_g.col(m) = in_face - patch.face_e[m] * patch.c;
   }
-  return true;
+  patch.inward = depth_motion(f, patch, patch.nearest);
+  for (int k = 0; k < patch.num_edges; ++k) {
+    PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
+    if (edge.m < PatchEdge::kOpen)
+      edge.motion = patch.face_g.col(edge.m);
+    else if (edge.m == PatchEdge::kOpen)
+      edge.motion = patch.c;
+    else
+      edge.motion = depth_motion(f, patch, edge.m - PatchEdge::kNextPart) - patch.inward;
+  }
 }
 
 /// @param behind  what lies so far behind the face [m]
 Cuts cuts_of_part(const FlatTriangle& f, const Vec3& behind, double open,
                   const ContactPatch& patch) {
   Cuts cuts;
-  for (int m = 0; m < 3; ++m)
-    cuts.add(m, (f.rims >> m & 1) != 0, patch.beta.row(m), patch.face_g.col(m));
+  for (int m = 0; m < 3; ++m) cuts.add(m, (f.rims >> m & 1) != 0, patch.beta.row(m));
   if (patch.nearest == ContactPatch::kFace)
-    cuts.add(PatchEdge::kOpen, open > 0, behind.array() + open, patch.c);
+    cuts.add(PatchEdge::kOpen, open > 0, behind.array() + open);
   else
-    cuts.add(PatchEdge::kNextPart, false, behind - patch.depth, patch.c - patch.inward);
+    cuts.add(PatchEdge::kNextPart + ContactPatch::kFace, false, behind - patch.depth);
   for (int m = 0; m < 3; ++m)
     if (m != patch.nearest && f.rim_height[m] > 0)
-      cuts.add(PatchEdge::kNextPart, false,
-               f.rim_height[m] * patch.beta.row(m).transpose() - patch.depth,
-               f.rim_height[m] * patch.face_g.col(m) - patch.inward);
+      cuts.add(PatchEdge::kNextPart + m, false,
+               f.rim_height[m] * patch.beta.row(m).transpose() - patch.depth);
   return cuts;
 }
 
@@ -186,11 +211,7 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
 
   patch.nearest = nearest;
   patch.depth = behind;
-  patch.inward = patch.c;
-  if (is_rim) {
-    patch.depth = f.rim_height[nearest] * patch.beta.row(nearest);
-    patch.inward = f.rim_height[nearest] * patch.face_g.col(nearest);
-  }
+  if (is_rim) patch.depth = f.rim_height[nearest] * patch.beta.row(nearest);
   const Cuts cuts = cuts_of_part(f, behind, range.open, patch);
   patch.num_edges = 0;
   patch.depth_max = -range.open;
@@ -206,11 +227,7 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
   patch.normal = n;
   patch.turning = -facing.slope / facing.weight;
   patch.bending = facing.bend / facing.weight;
-  // In-plane gradients of the barycentric coordinates.
-  const Vec3 s1 = s.x.col(1) - s.x.col(0), s2 = s.x.col(2) - s.x.col(0);
-  const Vec3 g1 = s2.cross(n) / s.twice_area, g2 = n.cross(s1) / s.twice_area;
-  patch.g << -g1 - g2, g1, g2;
-  patch.e = patch.g.transpose() * patch.c;
+  find_motion(s, f, patch);
   return true;
 }
 

@@ -45,7 +45,7 @@ using Mat18x10 = Eigen::Matrix<double, 18, 10>;
 /// patch takes over what this one loses its motion changes no sum.
 struct PatchEdge {
   static constexpr int kOpen = 3, kNextPart = 4, kNone = 99;
-  int m = 0;                                // or one of these
+  int m = 0;                                // or kOpen, or kNextPart + its `nearest`
   bool is_end = false;                      // φ does not go on beyond: at a rim, kOpen
   Vec3 level = Vec3::Zero();                // χ at the nodes of s
   Vec3 motion = Vec3::Zero();               // δχ = motion·u, see contact_patch.cpp
