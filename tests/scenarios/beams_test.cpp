@@ -6,8 +6,7 @@
 
 #include "tests/scenarios/scenario_results.hpp"
 
-namespace articular {
-namespace {
+namespace articular::beams_test {
 
 constexpr double kGravity = 9.81;  // [m/s²]
 
@@ -91,5 +90,4 @@ TEST(BendingBeam, WallCarriesTheMoment) {
   EXPECT_NEAR(results.last("wall.moment.z [N m]"), 0, 1e-6 * moment);
 }
 
-}  // namespace
-}  // namespace articular
+}  // namespace articular::beams_test

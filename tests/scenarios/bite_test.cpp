@@ -5,11 +5,10 @@
 #include <array>
 #include <string>
 
-#include "sim/muscle_table.hpp"
+#include "sim/scenario/muscle_table.hpp"
 #include "tests/scenarios/scenario_results.hpp"
 
-namespace articular {
-namespace {
+namespace articular::bite_test {
 
 using sim::Vec3;
 
@@ -138,5 +137,4 @@ TEST(JawAtRest, ABiteOfTheIncisorsFollowsTheRuleOfLevers) {
                 "bite");
 }
 
-}  // namespace
-}  // namespace articular
+}  // namespace articular::bite_test

@@ -5,8 +5,7 @@
 
 #include "tests/scenarios/scenario_results.hpp"
 
-namespace articular {
-namespace {
+namespace articular::choices_test {
 
 // Half a millimetre of opening, to see that discs of any kind carry the condyles, or bone does.
 TEST(JawChoices, AJawOpensOnTissueOnRigidDiscsAndOnBone) {
@@ -25,5 +24,4 @@ TEST(JawChoices, AJawOpensOnTissueOnRigidDiscsAndOnBone) {
   }
 }
 
-}  // namespace
-}  // namespace articular
+}  // namespace articular::choices_test

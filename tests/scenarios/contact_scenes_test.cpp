@@ -8,8 +8,7 @@
 
 #include "tests/scenarios/scenario_results.hpp"
 
-namespace articular {
-namespace {
+namespace articular::contact_scenes_test {
 
 void expect_contact_was_searched(const ScenarioResults& results) {
   EXPECT_EQ(results.summary().at("outcome"), "finished");
@@ -133,5 +132,4 @@ TEST(SelfV, LegsCloseOnEachOther) {
   EXPECT_NEAR(results.last("right hand.force.x [N]"), -force, 1e-4 * std::abs(force));
 }
 
-}  // namespace
-}  // namespace articular
+}  // namespace articular::contact_scenes_test

@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <functional>
 
+#include "sim/build/build_model.hpp"
 #include "tests/scenarios/scenario_results.hpp"
 
-namespace articular {
-namespace {
+namespace articular::jaw_test {
 
 /// Long steps: these runs are about where the jaw goes, not about its last tenth of a millimetre.
 const std::vector<std::string> kCoarse = {"integrator.step=4 ms"};
@@ -140,5 +140,4 @@ TEST(JawOpening, TheRealJawOpensOnItsRealDiscsAndClosesAgain) {
   EXPECT_LT(results.last("energy.ligament_loss [J]"), 0.01 * muscle_work(results, 0.48));
 }
 
-}  // namespace
-}  // namespace articular
+}  // namespace articular::jaw_test

@@ -5,14 +5,14 @@
 #include <cstdlib>
 #include <string>
 
-#include "sim/run.hpp"
-#include "tests/scenarios/program.hpp"
+#include "sim/build/build_model.hpp"
+#include "sim/run/run.hpp"
 #include "tests/scenarios/scenario_results.hpp"
-#include "tools/anatomy.hpp"
-#include "tools/anatomy_knee.hpp"
+#include "tests/tools/support/program.hpp"
+#include "tools/anatomy/anatomy.hpp"
+#include "tools/anatomy/anatomy_knee.hpp"
 
-namespace articular {
-namespace {
+namespace articular::knee_test {
 
 /// A scenario of scenarios/knee/ with elements of 4 mm.
 ScenarioResults coarse_knee(const std::string& file, const std::vector<std::string>& overrides) {
@@ -58,9 +58,9 @@ TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
   const double contact =
       sum_of(results, {"cartilage_medial.force.z [N]", "cartilage_lateral.force.z [N]",
                        "above_meniscus_medial.force.z [N]", "above_meniscus_lateral.force.z [N]"});
-  const double bone = sum_of(
+  const double rigid = sum_of(
       results, {"cartilage_of_femur_medial.force.z [N]", "cartilage_of_femur_lateral.force.z [N]"});
-  EXPECT_NEAR(contact, bone, 1e-3 * load);
+  EXPECT_NEAR(contact, rigid, 1e-3 * load);
   // All of it gets to the tibia, by its cartilage and the menisci's horns.
   const double tibia = sum_of(
       results, {"cartilage_of_tibia_medial.force.z [N]", "cartilage_of_tibia_lateral.force.z [N]",
@@ -161,5 +161,4 @@ TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
 }
 #endif
 
-}  // namespace
-}  // namespace articular
+}  // namespace articular::knee_test

@@ -6,8 +6,7 @@
 
 #include "tests/scenarios/scenario_results.hpp"
 
-namespace articular {
-namespace {
+namespace articular::preset_test {
 
 // A beam of tissue lets go of its support and swings: nothing but the time step matters.
 const std::string kSwing = R"(
@@ -116,5 +115,4 @@ TEST(Presets, AreOrderedInErrorWhereTissueIsPressed) {
   EXPECT_GT(accurate, 0);
 }
 
-}  // namespace
-}  // namespace articular
+}  // namespace articular::preset_test

@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/run.hpp"
-#include "tests/sim/temporary_folder.hpp"
+#include "sim/build/build_model.hpp"
+#include "sim/run/run.hpp"
+#include "tests/sim/support/temporary_folder.hpp"
 
 namespace articular {
 

@@ -5,8 +5,7 @@
 
 #include "tests/scenarios/scenario_results.hpp"
 
-namespace articular {
-namespace {
+namespace articular::tissue_scenes_test {
 
 // Timoshenko's beam of verification/bending_beam.toml, 1.9495 mm. On a mesh with four cells across
 // its depth, where plain elements are 16 % too stiff, smoothed ones are right within 2 %.
@@ -95,5 +94,4 @@ TEST(TissueScenes, CooksMembraneLocksWithPlainElementsAlone) {
   EXPECT_LT(raised("plain", "[8, 8, 2]"), 0.88 * fine);
 }
 
-}  // namespace
-}  // namespace articular
+}  // namespace articular::tissue_scenes_test

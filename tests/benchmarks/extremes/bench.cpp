@@ -3,11 +3,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "sim/checkpoint.hpp"
-#include "sim/scenario.hpp"
-#include "sim/stepper.hpp"
-#include "sim/worst.hpp"
-#include "tools/measured_program.hpp"
+#include "sim/build/build_model.hpp"
+#include "sim/output/checkpoint.hpp"
+#include "sim/scenario/scenario.hpp"
+#include "sim/step/run_extrema.hpp"
+#include "sim/step/stepper.hpp"
+#include "tools/process/measured_program.hpp"
 
 namespace articular::benchmarks {
 namespace {
@@ -61,7 +62,7 @@ ProgramRun Bench::run_from(
   change(model, state);
   stepper.restart(state);
   state.energy.start = stepper.stored_energy().total();
-  sim::note_worst(model, stepper.dynamics(), state);
+  sim::note_extrema(model, stepper.dynamics(), state);
   const fs::path checkpoint = folder_ / name / "checkpoint";
   fs::create_directories(checkpoint);
   sim::write_checkpoint(checkpoint / "state.bin", state, sim::fingerprint(model));

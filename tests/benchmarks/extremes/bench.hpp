@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/model.hpp"
-#include "sim/state.hpp"
+#include "sim/model/model.hpp"
+#include "sim/model/state.hpp"
 
 namespace articular::benchmarks {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "sim/mesh_io.hpp"
-#include "sim/shapes.hpp"
+#include "sim/mesh/mesh_io.hpp"
+#include "sim/mesh/shapes.hpp"
 #include "tests/benchmarks/extremes/judge.hpp"
 #include "tests/benchmarks/extremes/scene_text.hpp"
 #include "tests/scenarios/scenario_results.hpp"

@@ -19,7 +19,7 @@
 #include <sstream>
 #include <vector>
 
-#include "sim/frame_series.hpp"
+#include "sim/mesh/frame_series.hpp"
 
 namespace articular::benchmarks {
 namespace {

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/checkpoint.hpp"
-#include "sim/scenario.hpp"
+#include "sim/build/build_model.hpp"
+#include "sim/output/checkpoint.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "tests/benchmarks/extremes/scene_text.hpp"
 
 namespace articular::benchmarks {
@@ -19,10 +20,10 @@ struct Spin {
 };
 
 Spin spin_of(const sim::Model& model, const Eigen::VectorXd& y) {
-  const Eigen::Vector4d q = y.segment<4>(model.layout.bone_q(0));
+  const Eigen::Vector4d q = y.segment<4>(model.layout.rigid_q(0));
   const Eigen::Matrix3d R = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
   const Eigen::Vector3d omega = y.segment<3>(model.layout.velocities() + 3);
-  const Eigen::Vector3d L = R * model.bones[0].mass.inertia * R.transpose() * omega;
+  const Eigen::Vector3d L = R * model.rigid_bodies[0].mass.inertia * R.transpose() * omega;
   return {0.5 * omega.dot(L), L};
 }
 

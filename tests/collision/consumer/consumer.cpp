@@ -1,4 +1,4 @@
-#include <collision/block_collide.hpp>
+#include <collision/blocks/block_collide.hpp>
 using namespace articular::collision;
 
 int main() {

@@ -1,6 +1,8 @@
 #include <iostream>
-#include <sim/run.hpp>
-#include <sim/scenario.hpp>
+#include <sim/run/run.hpp>
+#include <sim/scenario/scenario.hpp>
+
+#include "sim/build/build_model.hpp"
 using namespace articular::sim;
 
 int main(int, char** argv) {  // consumer SCENARIO FOLDER

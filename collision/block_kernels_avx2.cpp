@@ -1,4 +1,0 @@
-#include "collision/simd_avx2.hpp"
-// The width of Vec comes first.
-#define ARTICULAR_INSTRUCTION_SET avx2
-#include "collision/block_kernels.inl.hpp"

@@ -1,4 +1,0 @@
-#include "collision/simd_baseline.hpp"
-// The width of Vec comes first.
-#define ARTICULAR_INSTRUCTION_SET baseline
-#include "collision/block_kernels.inl.hpp"

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <variant>
+
+#include "fem/material/blemker_muscle.hpp"
+#include "fem/material/corotated.hpp"
+#include "fem/material/linear.hpp"
+#include "fem/material/mooney_rivlin.hpp"
+#include "fem/material/neo_hookean.hpp"
+#include "fem/material/transversely_isotropic.hpp"
+#include "fem/material/veronda_westmann.hpp"
+#include "fem/material/yeoh.hpp"
+
+namespace articular::fem {
+
+/// Every law that elements can have; another one joins by its name here.
+using AnyLaw =
+    std::variant<Linear, Corotated, NeoHookean, MooneyRivlin<VolumeChange>,
+                 MooneyRivlin<LogVolumeChange>, Yeoh<VolumeChange>, Yeoh<LogVolumeChange>,
+                 VerondaWestmann<VolumeChange>, VerondaWestmann<LogVolumeChange>,
+                 TransverselyIsotropic<VolumeChange>, TransverselyIsotropic<LogVolumeChange>,
+                 BlemkerMuscle<VolumeChange>, BlemkerMuscle<LogVolumeChange>>;
+
+/// A name that headers can declare without the laws.
+struct AnyMaterial : AnyLaw {
+  using AnyLaw::AnyLaw;
+};
+
+/// @throws std::invalid_argument where a material with fibres has none, or one is no unit vector
+void check_fibres(const AnyMaterial& material, const FibreDirections& fibres,
+                  const Tetrahedra& tets);
+
+}  // namespace articular::fem

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "fem/material/fibre_shear.hpp"
+#include "fem/material/muscle_fibre.hpp"
+
+namespace articular::fem {
+
+/// Skeletal muscle in three dimensions [Blemker 2005]: tension along the fibres, passive and
+/// active (MuscleFibre), shear along and across them (FibreShear) and κ/2 Θ² (the paper has
+/// Θ = ln J):
+///
+///   Ψ = G1 B1² + G2 B2² + W(λ̄, a) + κ/2 Θ²  (+ c10 (Ī1 − 3))
+///
+/// c10 is an addition: it gives slack fibres (a passive muscle that is shortened) a stiffness.
+///
+/// [Blemker 2005] Blemker, Pinsky, Delp. A 3D model of muscle reveals the causes of nonuniform
+///                strains in the biceps brachii. J. Biomech. 38.
+template <DilatationMeasure Theta = LogVolumeChange>
+class BlemkerMuscle {
+ public:
+  using Dilatation = Theta;
+
+  struct Constants {
+    double G1 = 500, G2 = 500;  // shear along and across the fibre [Pa], > 0
+    double c10 = 0;             // isotropic ground substance [Pa], not negative
+    double kappa = 1e7;         // bulk modulus [Pa], > 0
+  };
+  /// @throws std::invalid_argument naming a constant that is out of range
+  BlemkerMuscle(const MuscleFibre& fibre, const Constants& constants)
+      : fibre_(fibre), c_(constants) {
+    checked_positive(c_.G1, "G1", "Pa");
+    checked_positive(c_.G2, "G2", "Pa");
+    checked_not_negative(c_.c10, "c10", "Pa");
+    checked_positive(c_.kappa, "bulk modulus", "Pa");
+  }
+
+  double bulk_modulus() const { return c_.kappa; }                     // [Pa]
+  double shear_modulus() const { return c_.G1 + c_.G2 + 2 * c_.c10; }  // [Pa], mean of two
+
+  using Local = SplitMaterial<Reinforced<FibreShear, MuscleFibre>, Theta>;
+  Local along(const Vec3& a0, double activation) const {
+    return {{FibreShear(c_.G1, c_.G2, c_.c10, a0), fibre_, a0, activation}, c_.kappa};
+  }
+
+ private:
+  MuscleFibre fibre_;
+  Constants c_;
+};
+static_assert(Fibred<BlemkerMuscle<>>);
+
+}  // namespace articular::fem

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cmath>
+
+#include "fem/material/fibre.hpp"
+
+namespace articular::fem {
+
+/// Passive and active tension of muscle fibres [Blemker 2005], at the length n = λ/λ_ofl relative
+/// to that of the largest active force (the isometric σ_max):
+///
+///   dW/dλ = σ_max/λ_ofl (f_p(n) + a f_a(n)),   Cauchy stress λ dW/dλ = σ_max (f_p + a f_a) n
+///   f_p = 0 up to n = 1, P1 (exp(P2 (n − 1)) − 1) up to n*, its tangent line beyond
+///   f_a = 9 (n − 0.4)² from 0.4 to 0.6, 1 − 4 (1 − n)² to 1.4, 9 (n − 1.6)² to 1.6, 0 elsewhere
+///
+/// As published f_a has corners at 0.6 and 1.4 (slopes 3.6 and 3.2), so that the stiffness jumps.
+/// The energy of the active part is counted from n = 0.4: never negative, not 0 at rest.
+///
+/// [Blemker 2005] Blemker, Pinsky, Delp. A 3D model of muscle reveals the causes of nonuniform
+///                strains in the biceps brachii. J. Biomech. 38.
+class MuscleFibre {
+ public:
+  struct Constants {
+    double max_stress = 0.3e6;   // σ_max [Pa], > 0
+    double p1 = 0.05, p2 = 6.6;  // P1, P2 [-], > 0
+    double toe_end = 1.4;        // n* [-], > 1
+    double optimal_stretch = 1;  // λ_ofl [-], >= 1: no passive tension at rest
+  };
+  /// @throws std::invalid_argument naming a constant that is out of range
+  explicit MuscleFibre(const Constants& c);
+
+  double energy(double stretch, double activation) const {
+    const double n = stretch / c_.optimal_stretch;
+    return c_.max_stress * (passive_integral(n) + activation * active_integral(n));
+  }
+  double tension(double stretch, double activation) const {
+    const double n = stretch / c_.optimal_stretch;
+    return c_.max_stress / c_.optimal_stretch * (passive(n) + activation * active(n));
+  }
+  double stiffness(double stretch, double activation) const {
+    const double n = stretch / c_.optimal_stretch, per_stretch = 1 / c_.optimal_stretch;
+    return c_.max_stress * per_stretch * per_stretch *
+           (passive_slope(n) + activation * active_slope(n));
+  }
+
+  /// f_a, its slope and its integral from 0
+  static double active(double n) {
+    if (n < 0.4 || n > 1.6) return 0;
+    if (n < 0.6) return 9 * (n - 0.4) * (n - 0.4);
+    return n < 1.4 ? 1 - 4 * (1 - n) * (1 - n) : 9 * (n - 1.6) * (n - 1.6);
+  }
+  static double active_slope(double n) {
+    if (n < 0.4 || n > 1.6) return 0;
+    if (n < 0.6) return 18 * (n - 0.4);
+    return n < 1.4 ? 8 * (1 - n) : 18 * (n - 1.6);
+  }
+  static double active_integral(double n) {
+    const auto cube = [](double v) { return v * v * v; };
+    constexpr double kFoot = 0.024;                  // 3 · 0.2³, of either foot
+    constexpr double kHump = 0.8 - 8.0 / 3 * 0.064;  // from 0.6 to 1.4
+    if (n < 0.4) return 0;
+    if (n < 0.6) return 3 * cube(n - 0.4);
+    if (n < 1.4) return kFoot + (n - 0.6) - 4.0 / 3 * (cube(n - 1) + 0.064);
+    return 2 * kFoot + kHump + (n < 1.6 ? 3 * cube(n - 1.6) : 0);
+  }
+
+ private:
+  double passive(double n) const {
+    if (n <= 1) return 0;
+    if (n < c_.toe_end) return c_.p1 * std::expm1(c_.p2 * (n - 1));
+    return c_.p1 * std::expm1(c_.p2 * (c_.toe_end - 1)) + end_slope_ * (n - c_.toe_end);
+  }
+  double passive_slope(double n) const {
+    if (n <= 1) return 0;
+    return n < c_.toe_end ? c_.p1 * c_.p2 * std::exp(c_.p2 * (n - 1)) : end_slope_;
+  }
+  double passive_integral(double n) const {
+    if (n <= 1) return 0;
+    const double toe = std::fmin(n, c_.toe_end) - 1, beyond = std::fmax(n - c_.toe_end, 0);
+    return c_.p1 * (std::expm1(c_.p2 * toe) / c_.p2 - toe) +
+           beyond * (c_.p1 * std::expm1(c_.p2 * toe) + 0.5 * end_slope_ * beyond);
+  }
+
+  Constants c_;
+  double end_slope_;  // of f_p at n* [-]
+};
+static_assert(FibreLaw<MuscleFibre>);
+
+}  // namespace articular::fem

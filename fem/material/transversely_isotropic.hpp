@@ -1,0 +1,44 @@
+#pragma once
+
+#include "fem/material/mooney_rivlin.hpp"
+#include "fem/material/toe_linear_fibre.hpp"
+
+namespace articular::fem {
+
+/// Ligament, tendon, meniscus [Weiss 1996]: fibres in a Mooney–Rivlin ground substance,
+///
+///   Ψ = c10 (Ī1 − 3) + c01 (Ī2 − 3) + W(λ̄) + κ/2 Θ²,
+///
+/// with the W of ToeLinearFibre. At small strain it is isotropic as long as the fibres are slack;
+/// taut ones add c3 c4 to the modulus along them: with a stretch ε along the fibre, no change of
+/// volume and free sides, σ = (6 (c10 + c01) + c3 c4) ε. Defined for J > 0.
+///
+/// [Weiss 1996] Weiss, Maker, Govindjee. Finite element implementation of incompressible,
+///              transversely isotropic hyperelasticity. Comput. Methods Appl. Mech. Eng. 135.
+template <DilatationMeasure Theta = VolumeChange>
+class TransverselyIsotropic {
+ public:
+  using Dilatation = Theta;
+
+  /// @param c10, c01  [Pa], not negative, sum > 0
+  /// @param kappa     bulk modulus [Pa], > 0
+  /// @throws std::invalid_argument naming a constant that is out of range
+  TransverselyIsotropic(double c10, double c01, const ToeLinearFibre& fibre, double kappa)
+      : ground_(c10, c01), fibre_(fibre), kappa_(checked_positive(kappa, "bulk modulus", "Pa")) {}
+
+  double bulk_modulus() const { return kappa_; }                    // [Pa]
+  double shear_modulus() const { return ground_.shear_modulus(); }  // [Pa]
+
+  using Local = SplitMaterial<Reinforced<IsochoricMooneyRivlin, ToeLinearFibre>, Theta>;
+  Local along(const Vec3& a0, double activation) const {
+    return {{ground_, fibre_, a0, activation}, kappa_};
+  }
+
+ private:
+  IsochoricMooneyRivlin ground_;
+  ToeLinearFibre fibre_;
+  double kappa_;  // [Pa]
+};
+static_assert(Fibred<TransverselyIsotropic<>>);
+
+}  // namespace articular::fem

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "fem/material/isochoric.hpp"
+#include "fem/material/material.hpp"
+
+namespace articular::fem {
+
+/// A Kelvin–Voigt dashpot in the rest frame, beside the elastic law:
+///
+///   S_v = 2η dev Ė + ζ tr(Ė) I,   Ė = sym(FᵀḞ), the rate of the Green–Lagrange strain
+///   P_v = F S_v
+///
+/// A rigid rotation, of any speed, neither makes stress nor changes it (Ė does not feel it), and
+/// the dissipation P_v : Ḟ = 2η |dev Ė|² + ζ tr²Ė is never negative [Simo 1998, ch. 10].
+///
+/// [Simo 1998] Simo, Hughes. Computational Inelasticity. Springer.
+class KelvinVoigt {
+ public:
+  /// @param eta   shear viscosity [Pa s], not negative
+  /// @param zeta  bulk viscosity [Pa s], not negative
+  /// @throws std::invalid_argument naming the one that is out of range
+  KelvinVoigt(double eta, double zeta)
+      : eta_(checked_not_negative(eta, "shear viscosity", "Pa s")),
+        lambda_(checked_not_negative(zeta, "bulk viscosity", "Pa s") - 2 * eta / 3) {}
+
+  /// P_v : Ḟ [W/m³]. @param rate  Ḟ [1/s]
+  double dissipation(const Mat3& F, const Mat3& rate) const {
+    return first_piola(F, rate).cwiseProduct(rate).sum();
+  }
+
+  Mat3 first_piola(const Mat3& F, const Mat3& rate) const { return F * second_piola(F, rate); }
+
+  /// ∂vec(P_v)/∂vec(Ḟ) [Pa s], symmetric, positive semidefinite; does not depend on Ḟ. In indices
+  /// η (F_ik F_lj + (FFᵀ)_il δ_jk) + λ F_ij F_lk at row ij and column lk.
+  Mat9 rate_tangent(const Mat3& F) const { return chained(F, F); }
+
+  /// ∂vec(P_v)/∂vec(F) [Pa] at a fixed Ḟ; not symmetric.
+  Mat9 tangent(const Mat3& F, const Mat3& rate) const {
+    return chained(F, rate) + on_columns(second_piola(F, rate));
+  }
+
+ private:
+  Mat3 second_piola(const Mat3& F, const Mat3& rate) const {
+    const Mat3 A = F.transpose() * rate;
+    return eta_ * (A + A.transpose()) + lambda_ * A.trace() * Mat3::Identity();
+  }
+
+  /// dA ↦ F (η (BᵀdA + dAᵀB) + λ (B : dA) I): the change of F S_v through Ė alone.
+  Mat9 chained(const Mat3& F, const Mat3& B) const {
+    const Mat3 FB = eta_ * F * B.transpose();
+    Mat9 result = lambda_ * F.reshaped() * B.reshaped().transpose();
+    for (int j = 0; j < 3; ++j) {
+      result.block<3, 3>(3 * j, 3 * j) += FB;
+      for (int k = 0; k < 3; ++k)
+        result.block<3, 3>(3 * j, 3 * k) += eta_ * F.col(k) * B.col(j).transpose();
+    }
+    return result;
+  }
+
+  double eta_, lambda_;  // [Pa s]; λ = ζ − 2η/3
+};
+
+// Rayleigh's damping D = α M + β K, made objective: K is that of the rest state and moves with the
+// element as a dashpot, so that a rotation is damped by α alone and the matrix is positive
+// semidefinite where the tangent K is not. About rest it is β K, and a mode of the circular
+// frequency ω decays with the damping ratio α/(2ω) + βω/2. α also slows a free flight.
+
+/// The dashpot of β K, β [s], for a material with these moduli [Pa] at rest: η = β μ, ζ = β κ.
+/// @throws std::invalid_argument for a negative β
+inline KelvinVoigt stiffness_damping(double beta, double shear_modulus, double bulk_modulus) {
+  checked_not_negative(beta, "stiffness damping", "s");
+  return {beta * shear_modulus, beta * bulk_modulus};
+}
+
+/// f += α m v [N], α [1/s]. @param lumped_mass  one entry a node [kg]
+inline void add_mass_damping(double alpha, const Eigen::VectorXd& lumped_mass, const Positions& v,
+                             Positions& f) {
+  f += alpha * v * lumped_mass.asDiagonal();
+}
+
+}  // namespace articular::fem

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+
+#include "fem/base/types.hpp"
+
+/// Directions of fibres at rest, one a tetrahedron.
+namespace articular::fem {
+
+/// The same direction everywhere. @throws std::invalid_argument unless it is finite and not 0
+FibreDirections constant_fibres(const Vec3& direction, Eigen::Index num_elements);
+
+/// From an array of a mesh: each column is normalised.
+/// @throws std::invalid_argument naming an element whose direction is 0 or not finite
+FibreDirections normalized_fibres(const Eigen::Matrix3Xd& directions);
+
+/// The potential φ with Δφ = 0 inside, φ = 0 on the nodes `from`, 1 on the nodes `to` and no flux
+/// through the rest of the surface, with linear tetrahedra; one entry a node. A node that belongs
+/// to no element has 0.
+/// @throws std::invalid_argument naming a node that is out of range or in both sets, or an element
+///         whose part of the mesh is not connected to both sets, or is not positive
+Eigen::VectorXd harmonic_potential(const Positions& X, const Tetrahedra& tets,
+                                   std::span<const int> from, std::span<const int> to);
+
+/// Fibres from one attachment to the other, along the gradient of the harmonic potential, which
+/// follows the shape of the tissue [Choi 2013]. The direction of an element is in error by O(h).
+/// @throws std::invalid_argument as harmonic_potential, or naming an element where the gradient
+///         vanishes (all of its nodes in one set, or a dead end)
+///
+/// [Choi 2013] Choi, Blemker. Skeletal muscle fascicle arrangements can be reconstructed using a
+///             Laplacian vector field simulation. PLoS ONE 8(10).
+FibreDirections harmonic_fibres(const Positions& X, const Tetrahedra& tets,
+                                std::span<const int> from, std::span<const int> to);
+
+}  // namespace articular::fem

@@ -1,0 +1,3 @@
+#define ARTICULAR_INSTRUCTION_SET baseline
+#include "fem/simd/point_kernels.inl.hpp"
+#include "fem/simd/stencil_kernels.inl.hpp"

@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <cassert>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "fem/solver/linear_solver.hpp"
+#include "fem/solver/preconditioned_iteration.hpp"
+#include "fem/sparse/signed_cholesky.hpp"
+
+namespace articular::fem {
+namespace {
+
+/// The upper half of [K G; Gᵀ −C/scale] by columns: those of the blocks of K first, then those of
+/// the pressures of one term after the other.
+class SaddlePointMatrix {
+ public:
+  bool has_pattern_of(const BlockMatrix& K, std::span<const PressureTerm> terms) const {
+    return K.pattern_id() == pattern_id_ &&
+           std::equal(terms.begin(), terms.end(), patterns_.begin(), patterns_.end(),
+                      [](const PressureTerm& term, const Pattern& pattern) {
+                        return std::ranges::equal(term.G->row_begin(), pattern.row_begin) &&
+                               std::ranges::equal(term.G->column(), pattern.column);
+                      });
+  }
+
+  void take_pattern(const BlockMatrix& K, std::span<const PressureTerm> terms) {
+    pattern_id_ = K.pattern_id();
+    matrix_ = {.begin = {0}, .row = {}, .value = {}};
+    signs_.assign(3 * static_cast<std::size_t>(K.num_blocks()), 1);
+    for (int i = 0; i < K.num_blocks(); ++i) {
+      for (int column = 0; column < 3; ++column) {
+        for (int s = K.row_begin()[i]; K.column()[s] < i; ++s) {
+          for (int q = 0; q < 3; ++q) matrix_.row.push_back(3 * K.column()[s] + q);
+        }
+        for (int q = 0; q <= column; ++q) matrix_.row.push_back(3 * i + q);
+        end_column();
+      }
+    }
+    patterns_.clear();
+    for (const PressureTerm& term : terms) {
+      patterns_.emplace_back(*term.G);
+      const SymmetricMatrix& C = term.pressure->compliance();
+      const int offset = static_cast<int>(signs_.size());
+      for (int c = 0; c < C.size(); ++c) {
+        for (const Entry& entry : patterns_.back().of_pressure[c]) {
+          for (int q = 0; q < 3; ++q) matrix_.row.push_back(3 * entry.node + q);
+        }
+        for (int k = C.begin[c]; k < C.begin[c + 1]; ++k) matrix_.row.push_back(offset + C.row[k]);
+        end_column();
+      }
+      signs_.insert(signs_.end(), static_cast<std::size_t>(C.size()), -1);
+    }
+    matrix_.value.resize(matrix_.row.size());
+  }
+
+  void take_values(const BlockMatrix& K, std::span<const PressureTerm> terms) {
+    double* value = matrix_.value.data();
+    for (int i = 0; i < K.num_blocks(); ++i) {
+      for (int p = 0; p < 3; ++p) {
+        int s = K.row_begin()[i];
+        for (; K.column()[s] < i; ++s) {
+          for (int q = 0; q < 3; ++q) *value++ = K.block(s)(p, q);
+        }
+        for (int q = 0; q <= p; ++q) *value++ = K.block(s)(p, q);
+      }
+    }
+    for (std::size_t t = 0; t < terms.size(); ++t) {
+      const SymmetricMatrix& C = terms[t].pressure->compliance();
+      for (int c = 0; c < C.size(); ++c) {
+        for (const Entry& entry : patterns_[t].of_pressure[c]) {
+          for (int q = 0; q < 3; ++q) *value++ = terms[t].G->block(entry.slot)[q];
+        }
+        for (int k = C.begin[c]; k < C.begin[c + 1]; ++k) *value++ = -C.value[k] / terms[t].scale;
+      }
+    }
+    assert(value == matrix_.value.data() + matrix_.value.size());
+  }
+
+  const SymmetricMatrix& matrix() const { return matrix_; }
+  const std::vector<int>& signs() const { return signs_; }
+
+ private:
+  struct Entry {
+    int node, slot;
+  };
+  /// That of one G, and its blocks by columns.
+  struct Pattern {
+    explicit Pattern(const PressureGradient& G)
+        : row_begin(G.row_begin().begin(), G.row_begin().end()),
+          column(G.column().begin(), G.column().end()),
+          of_pressure(static_cast<std::size_t>(G.num_pressures())) {
+      for (int i = 0; i < G.num_nodes(); ++i) {
+        for (int s = row_begin[i]; s < row_begin[i + 1]; ++s) {
+          of_pressure[column[s]].push_back({.node = i, .slot = s});
+        }
+      }
+    }
+    std::vector<int> row_begin, column;
+    std::vector<std::vector<Entry>> of_pressure;
+  };
+
+  void end_column() { matrix_.begin.push_back(static_cast<int>(matrix_.row.size())); }
+
+  std::uint64_t pattern_id_ = 0;
+  std::vector<Pattern> patterns_;
+  SymmetricMatrix matrix_{.begin = {0}, .row = {}, .value = {}};
+  std::vector<int> signs_;
+};
+
+/// y = A x, from the lower half of A.
+void multiply_mirrored(const BlockMatrix& A, const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+  for (int i = 0; i < A.num_blocks(); ++i) {
+    const Vec3 x_i = x.segment<3>(3 * Eigen::Index{i});
+    Vec3 sum = Vec3::Zero();
+    int s = A.row_begin()[i];
+    for (; A.column()[s] < i; ++s) {
+      const Eigen::Index j = 3 * Eigen::Index{A.column()[s]};
+      sum += A.block(s) * x.segment<3>(j);
+      y.segment<3>(j) += A.block(s).transpose() * x_i;
+    }
+    // The first to write row i: later rows add to it.
+    y.segment<3>(3 * Eigen::Index{i}) = sum + A.block(s).selfadjointView<Eigen::Lower>() * x_i;
+  }
+}
+
+class SaddlePointSolver final : public LinearSolver {
+ public:
+  SaddlePointSolver(double tolerance, int max_iterations)
+      : tolerance_(tolerance), max_iterations_(max_iterations) {}
+
+  using LinearSolver::prepare;
+  FactorStatus prepare(const BlockMatrix& A, const Positions& x) override {
+    return prepare_with_pressure(A, x, {});
+  }
+
+  using LinearSolver::prepare_with_pressure;
+  FactorStatus prepare_with_pressure(const BlockMatrix& A, const Positions&,
+                                     const PressurePart& part) override {
+    ready_ = false;
+    const BlockMatrix& plain = part.plain != nullptr ? *part.plain : A;
+    assert(plain.num_blocks() == A.num_blocks());
+    if (!analyzed_ || !saddle_.has_pattern_of(plain, part.terms)) {
+      saddle_.take_pattern(plain, part.terms);
+      factor_.analyze(saddle_.matrix(), saddle_.signs());
+      analyzed_ = true;
+    }
+    saddle_.take_values(plain, part.terms);
+    if (!factor_.factorize(saddle_.matrix())) return FactorStatus::NotPositiveDefinite;
+    A_ = A;
+    pressure_.set(part.terms);
+    memory_.resize(3 * Eigen::Index{A.num_blocks()});
+    extended_.resize(saddle_.matrix().size());
+    ready_ = true;
+    return FactorStatus::Ready;
+  }
+
+  SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) override {
+    assert(ready_);
+    return preconditioned_iteration(
+        [this](const Eigen::VectorXd& v, Eigen::VectorXd& y) {
+          multiply_mirrored(A_, v, y);
+          pressure_.add_product(v, y);
+        },
+        [this](const Eigen::VectorXd& r, Eigen::VectorXd& z) {
+          // The upper left part of the inverse of the saddle matrix is that of the sum.
+          extended_.head(r.size()) = r;
+          extended_.tail(extended_.size() - r.size()).setZero();
+          factor_.solve(extended_);
+          z = extended_.head(r.size());
+        },
+        tolerance_, max_iterations_, b, x, memory_);
+  }
+
+ private:
+  double tolerance_;
+  int max_iterations_;
+  bool analyzed_ = false, ready_ = false;
+  BlockMatrix A_;
+  PressureOperator pressure_;
+  SaddlePointMatrix saddle_;
+  SignedCholesky factor_;
+  IterationMemory memory_;
+  Eigen::VectorXd extended_;
+};
+
+}  // namespace
+
+FactorStatus LinearSolver::prepare_with_pressure(const BlockMatrix&, const Positions&,
+                                                 const PressurePart&) {
+  throw std::logic_error("this linear solver has no way to add the terms of a nodal pressure");
+}
+
+std::unique_ptr<LinearSolver> make_saddle_point_solver(double tolerance, int max_iterations) {
+  if (!(tolerance > 0) || max_iterations < 1) {
+    std::ostringstream message;
+    message << "saddle point solver: tolerance is " << tolerance << ", must be positive; at most "
+            << max_iterations << " iterations, must be at least 1";
+    throw std::invalid_argument(message.str());
+  }
+  return std::make_unique<SaddlePointSolver>(tolerance, max_iterations);
+}
+
+}  // namespace articular::fem

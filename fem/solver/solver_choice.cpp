@@ -1,0 +1,104 @@
+#include "fem/solver/solver_choice.hpp"
+
+#include <utility>
+
+namespace articular::fem {
+namespace {
+
+// Below, in blocks, a factorization costs less than anything else.
+constexpr int kFewBlocks = 60;
+// Plain tetrahedra lock from about here on, and multigrid with them: up to so many blocks it is
+// better to factor.
+constexpr double kLocked = 0.4985, kVeryLocked = 0.49985;
+constexpr int kMostFactored = 2'000, kMostFactoredVeryLocked = 10'000;
+// Compressible tissue in small steps: below so many blocks block Jacobi is as good as multigrid,
+// and cheaper. A nodal pressure, which it converges with at any rate, shifts that.
+constexpr double kCompressible = 0.4;
+constexpr int kFewForMultigrid = 300, kFewWithPressure = 500, kFewCompressible = 6'000;
+constexpr int kStartFrom = 5;  // solutions
+
+// With contact the pattern changes again and again, and multigrid is set up anew each time. A
+// factorization then costs less up to so many blocks; beyond, so do conjugate gradients, whose
+// iterations grow with the way of waves in a step. Where steps are so long that mass says little,
+// or there is none, contact may take multigrid a hundred iterations (the knee at 1000 N), and a
+// factorization never does.
+constexpr int kMostFactoredInContact = 2'500, kMostFactoredAtRest = 6'000;
+constexpr double kShortWay = 40;
+
+SolverChoice choose_with_contact(const SolverProblem& problem) {
+  const bool short_steps = problem.in_time && problem.elements_a_step < kShortWay;
+  if (problem.num_blocks <= (short_steps ? kMostFactoredInContact : kMostFactoredAtRest)) {
+    return {problem.has_pressure ? SolverKind::SaddlePoint : SolverKind::Cholesky, 0,
+            "contact changes the matrix, and so few unknowns are soon factored"};
+  }
+  if (short_steps) {
+    return {SolverKind::ConjugateGradients, 0,
+            "contact changes the matrix, and steps are short: nothing needs to be set up"};
+  }
+  return {SolverKind::Multigrid, 0, "multigrid: iterations do not depend on the size"};
+}
+
+bool is_for_block_jacobi(const SolverProblem& problem) {
+  if (!problem.has_pressure) {
+    return problem.largest_nu < kCompressible && problem.num_blocks < kFewForMultigrid;
+  }
+  if (!problem.in_time) {
+    return problem.largest_nu < kCompressible && problem.num_blocks < kFewForMultigrid;
+  }
+  return problem.num_blocks <
+         (problem.largest_nu < kCompressible ? kFewCompressible : kFewWithPressure);
+}
+
+bool is_for_factors(const SolverProblem& problem) {
+  const int most = problem.largest_nu >= kVeryLocked ? kMostFactoredVeryLocked : kMostFactored;
+  return problem.largest_nu >= kLocked && problem.num_blocks <= most;
+}
+
+}  // namespace
+
+SolverChoice choose_solver(const SolverProblem& problem) {
+  const int kept = problem.in_time ? kStartFrom : 0;
+  if (problem.num_blocks <= kFewBlocks && !problem.has_pressure) {
+    return {SolverKind::Cholesky, 0, "few unknowns: a factorization costs next to nothing"};
+  }
+  if (problem.has_contact) return choose_with_contact(problem);
+  if (2 * problem.num_nodes < problem.num_blocks) {
+    return {SolverKind::ConjugateGradients, kept,
+            "most unknowns are no nodes of tissue, and multigrid coarsens those"};
+  }
+  if (is_for_block_jacobi(problem)) {
+    return {SolverKind::ConjugateGradients, kept,
+            "too few unknowns for what a cycle of multigrid costs"};
+  }
+  if (problem.has_pressure) {
+    return {SolverKind::Multigrid, kept,
+            "multigrid: iterations depend neither on the size nor on the bulk modulus"};
+  }
+  if (is_for_factors(problem)) {
+    return {SolverKind::Cholesky, 0,
+            "plain tetrahedra lock that near to nu = 0.5, and so do iterations"};
+  }
+  return {SolverKind::Multigrid, kept, "multigrid: iterations do not depend on the size"};
+}
+
+std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, double tolerance,
+                                                 int max_iterations, int threads) {
+  std::unique_ptr<LinearSolver> solver;
+  switch (choice.kind) {
+    case SolverKind::Cholesky:
+      return make_cholesky();
+    case SolverKind::SaddlePoint:
+      solver = make_saddle_point_solver(tolerance, max_iterations);
+      break;
+    case SolverKind::ConjugateGradients:
+      solver = make_conjugate_gradients(tolerance, max_iterations);
+      break;
+    case SolverKind::Multigrid:
+      solver = make_multigrid(tolerance, max_iterations, threads);
+      break;
+  }
+  if (choice.num_kept == 0) return solver;
+  return make_projected_start(std::move(solver), choice.num_kept);
+}
+
+}  // namespace articular::fem

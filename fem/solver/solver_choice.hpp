@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+
+#include "fem/solver/linear_solver.hpp"
+
+namespace articular::fem {
+
+/// What is known of the linear systems of a simulation before the first one.
+struct SolverProblem {
+  int num_blocks = 0;          // of the matrix
+  int num_nodes = 0;           // of these, nodes of tissue: the others are bones, say
+  bool in_time = false;        // each system follows from the last, with a mass in it
+  bool has_pressure = false;   // terms of a nodal pressure: prepare_with_pressure()
+  bool has_contact = false;    // couplings come and go, and with them the pattern
+  double largest_nu = 0;       // Poisson's ratio [-] of the least compressible tissue
+  double elements_a_step = 0;  // in time: how far waves of pressure travel, in elements [-]
+};
+
+enum class SolverKind { Cholesky, SaddlePoint, ConjugateGradients, Multigrid };
+
+struct SolverChoice {
+  SolverKind kind = SolverKind::Cholesky;
+  int num_kept = 0;         // solutions to start from, see make_projected_start(); 0: none
+  const char* reason = "";  // for users
+};
+
+/// The solver that is the fastest, or takes at most about a fifth longer, on what `solver_speed
+/// choice` measures (fem/README.md).
+SolverChoice choose_solver(const SolverProblem& problem);
+
+/// @param tolerance  on |r| / |b|; a direct solver does without
+/// @throws std::invalid_argument as the solvers do
+std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, double tolerance,
+                                                 int max_iterations, int threads = 1);
+
+}  // namespace articular::fem

@@ -1,0 +1,328 @@
+#include "sim/assembly/newton_matrix.hpp"
+
+#include <algorithm>
+
+#include "fem/element/smoothed_elasticity.hpp"
+#include "sim/assembly/solver_setup.hpp"
+#include "sim/contact/contact_stencils.hpp"
+#include "sim/model/constrained_rigid_body.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Free nodes have their block; fixed and driven ones are no unknowns.
+std::vector<int> free_block_of_node(const Tissue& tissue) {
+  std::vector<int> blocks;
+  blocks.reserve(tissue.nodes.size());
+  for (const NodeRef& node : tissue.nodes) blocks.push_back(node.rigid < 0 ? node.block : -1);
+  return blocks;
+}
+
+/// Where the blocks of a tissue's matrix go; -1: a bone is involved.
+std::vector<int> slots_of_free_nodes(const fem::BlockMatrix& K, const Tissue& tissue,
+                                     const fem::BlockMatrix& A) {
+  std::vector<int> slots(static_cast<std::size_t>(K.num_nonzero_blocks()), -1);
+  for (int i = 0; i < K.num_blocks(); ++i) {
+    const NodeRef& row = tissue.nodes[static_cast<std::size_t>(i)];
+    for (int s = K.row_begin()[static_cast<std::size_t>(i)];
+         s < K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
+      const int j = K.column()[static_cast<std::size_t>(s)];
+      const NodeRef& column = tissue.nodes[static_cast<std::size_t>(j)];
+      if (row.rigid < 0 && column.rigid < 0)
+        slots[static_cast<std::size_t>(s)] = A.slot(row.block, column.block);
+    }
+  }
+  return slots;
+}
+
+/// Where the blocks of one matrix are in another whose pattern holds them all.
+std::vector<int> slots_in(const fem::BlockMatrix& A, const fem::BlockMatrix& part) {
+  std::vector<int> slots;
+  slots.reserve(static_cast<std::size_t>(part.num_nonzero_blocks()));
+  for (int i = 0; i < part.num_blocks(); ++i)
+    for (int s = part.row_begin()[static_cast<std::size_t>(i)];
+         s < part.row_begin()[static_cast<std::size_t>(i) + 1]; ++s)
+      slots.push_back(A.slot(i, part.column()[static_cast<std::size_t>(s)]));
+  return slots;
+}
+
+fem::BlockMatrix matrix_of(const Model& model, Stencils stencils, const Stencils& more) {
+  for (std::size_t s = 0; s + 1 < more.offsets.size(); ++s) {
+    stencils.blocks.insert(stencils.blocks.end(), more.blocks.begin() + more.offsets[s],
+                           more.blocks.begin() + more.offsets[s + 1]);
+    stencils.close();
+  }
+  return {model.layout.num_unknown_blocks(), stencils.blocks, stencils.offsets};
+}
+
+}  // namespace
+
+double activation_of(const Tissue& tissue, const Configuration& now) {
+  return tissue.muscle < 0 ? 0 : now.activation[tissue.muscle];
+}
+
+NewtonMatrix::NewtonMatrix(const Model& model)
+    : model_(model),
+      for_multigrid_(choose_linear_solver(model).kind == fem::SolverKind::Multigrid),
+      tissues_(model.tissues.size()),
+      contact_(model) {
+  for (std::size_t t = 0; t < tissues_.size(); ++t) {
+    const Tissue& tissue = model.tissues[t];
+    if (!adds_directly(tissue)) tissues_[t].own.K = tissue.elements.make_matrix();
+    if (const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed()) {
+      smoothed_ = true;
+      tissues_[t].plain.K = smoothed->make_plain_matrix();
+      make_pressure_gradient(t);
+    }
+  }
+  base_ = base_stencils(true);
+  if (smoothed_) plain_base_ = base_stencils(false);
+  build_pattern();
+}
+
+/// Dashpots and relaxation need a matrix of the tissue, and so do nodes whose bone is an unknown,
+/// which the tissue pushes by levers.
+bool NewtonMatrix::adds_directly(const Tissue& tissue) const {
+  if (tissue.elements.smoothed() != nullptr || tissue.dashpots || tissue.relaxation) return false;
+  return std::none_of(tissue.nodes.begin(), tissue.nodes.end(), [this](const NodeRef& node) {
+    return node.rigid >= 0 && node.rigid < model_.layout.num_rigid;
+  });
+}
+
+/// The couplings of all but contact. @param smoothing  of smoothing domains, not only of elements
+Stencils NewtonMatrix::base_stencils(bool smoothing) const {
+  Stencils base;
+  for (const Tissue& tissue : model_.tissues) {
+    const auto append = [&](int node) {
+      append_blocks(model_, tissue.nodes[static_cast<std::size_t>(node)], base.blocks);
+    };
+    if (const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed();
+        smoothing && smoothed != nullptr) {
+      const fem::EdgeDomains& domains = smoothed->domains();
+      for (std::size_t k = 0; k + 1 < domains.node_begin.size(); ++k) {
+        for (int i = domains.node_begin[k]; i < domains.node_begin[k + 1]; ++i)
+          append(domains.node[static_cast<std::size_t>(i)]);
+        base.close();
+      }
+      continue;
+    }
+    for (const auto& element : tissue.elements.tets().colwise()) {
+      for (const int node : element) append(node);
+      base.close();
+    }
+  }
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const int block = model_.rigid_bodies[static_cast<std::size_t>(r)].block;
+    base.blocks.insert(base.blocks.end(), {block, block + 1});
+    base.close();
+  }
+  for (const Line& line : model_.lines) append_stencil(model_, line, base);
+  return base;
+}
+
+void NewtonMatrix::couple(std::span<const CandidateList> candidates) {
+  const std::size_t known = contacts_.blocks.size();
+  append_missing_stencils(model_, candidates, smoothed_ ? plain_ : A_, contacts_);
+  if (contacts_.blocks.size() > known) build_pattern();
+}
+
+void NewtonMatrix::forget() {
+  if (contacts_.blocks.empty()) return;
+  contacts_ = {};
+  build_pattern();
+}
+
+void NewtonMatrix::build_pattern() {
+  A_ = matrix_of(model_, base_, contacts_);
+  if (smoothed_) {
+    plain_ = matrix_of(model_, plain_base_, contacts_);
+    slot_of_plain_ = slots_in(A_, plain_);
+  }
+  for (std::size_t t = 0; t < tissues_.size(); ++t) {
+    const Tissue& tissue = model_.tissues[t];
+    TissueWork& work = tissues_[t];
+    fem::BlockMatrix& common = smoothed_ ? plain_ : A_;
+    if (adds_directly(tissue)) {
+      work.direct = tissue.elements.slots_in(common, free_block_of_node(tissue));
+    } else if (tissue.elements.smoothed() != nullptr) {
+      work.own.slot = slots_of_free_nodes(work.own.K, tissue, A_);
+      work.plain.slot = slots_of_free_nodes(work.plain.K, tissue, plain_);
+    } else {
+      work.own.slot = slots_of_free_nodes(work.own.K, tissue, common);
+    }
+  }
+}
+
+/// The pattern of a tissue's pressure gradient by blocks of unknowns.
+void NewtonMatrix::make_pressure_gradient(std::size_t t) {
+  const Tissue& tissue = model_.tissues[t];
+  const fem::SmoothedElasticity& smoothed = *tissue.elements.smoothed();
+  const Tetrahedra& corners = smoothed.nodal_pressure().of_corner();
+  Stencils blocks;
+  std::vector<int> offsets{0};
+  for (Eigen::Index e = 0; e < corners.cols(); ++e) {
+    for (const int node : tissue.elements.tets().col(e))
+      append_blocks(model_, tissue.nodes[static_cast<std::size_t>(node)], blocks.blocks);
+    blocks.close();
+    offsets.push_back(static_cast<int>(4 * (e + 1)));
+  }
+  TissueWork& work = tissues_[t];
+  work.node_G = smoothed.make_pressure_gradient();
+  work.G = fem::PressureGradient(
+      model_.layout.num_unknown_blocks(), smoothed.num_pressures(), blocks.blocks, blocks.offsets,
+      {corners.data(), static_cast<std::size_t>(corners.size())}, offsets);
+}
+
+/// A node that is tied to a bone pushes the bone, and turns it by its lever.
+void NewtonMatrix::set_pressure_gradient(std::size_t t, const Moment& now) {
+  const Tissue& tissue = model_.tissues[t];
+  TissueWork& work = tissues_[t];
+  tissue.elements.smoothed()->set_pressure_gradient(now.tissues[t].x, work.node_G);
+  work.G.set_zero();
+  for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+    const NodeRef& node = tissue.nodes[i];
+    if (node.rigid >= model_.layout.num_rigid) continue;
+    for (int s = work.node_G.row_begin()[i]; s < work.node_G.row_begin()[i + 1]; ++s) {
+      const int c = work.node_G.column()[static_cast<std::size_t>(s)];
+      const Vec3& g = work.node_G.block(s);
+      work.G.block(work.G.slot(node.block, c)) += g;
+      if (node.rigid >= 0)
+        work.G.block(work.G.slot(node.block + 1, c)) += now.configuration.lever(node).cross(g);
+    }
+  }
+  keep_free_part(model_, work.G);
+}
+
+void NewtonMatrix::add(const TissueMatrix& from, const Tissue& tissue, const Configuration& now,
+                       fem::BlockMatrix& A) const {
+  const fem::BlockMatrix& K = from.K;
+  for (int i = 0; i < K.num_blocks(); ++i)
+    for (int s = K.row_begin()[static_cast<std::size_t>(i)];
+         s < K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
+      const int slot = from.slot[static_cast<std::size_t>(s)];
+      if (slot >= 0) {
+        A.block(slot) += K.block(s);
+        continue;
+      }
+      const int j = K.column()[static_cast<std::size_t>(s)];
+      add_stiffness(model_, now, tissue.nodes[static_cast<std::size_t>(i)],
+                    tissue.nodes[static_cast<std::size_t>(j)], K.block(s), A);
+    }
+}
+
+void NewtonMatrix::add_relaxation(std::size_t t, const Moment& now, const SystemScale& scale,
+                                  fem::Tangent tangent) {
+  const Tissue& tissue = model_.tissues[t];
+  if (!tissue.relaxation) return;
+  TissueWork& work = tissues_[t];
+  const TissueMoment& moment = now.tissues[t];
+  tissue.relaxation->add_stiffness(now.tissues[t].x, activation_of(tissue, now.configuration),
+                                   tangent, moment.stress, moment.internal_variables, scale.step,
+                                   scale.stiffness, work.own.K);
+}
+
+/// All of a plain tissue; of a smoothed one, what both matrices have of it.
+void NewtonMatrix::add_tissue(std::size_t t, const Moment& now, const SystemScale& scale,
+                              fem::Tangent tangent, fem::BlockMatrix& A) {
+  const Tissue& tissue = model_.tissues[t];
+  TissueWork& work = tissues_[t];
+  const double activation = tissue.muscle < 0 ? 0 : now.configuration.activation[tissue.muscle];
+  ++evaluations_[Term::ElasticStiffness];
+  if (work.direct) {
+    tissue.elements.add_stiffness(now.tissues[t].x, activation, tangent, scale.stiffness,
+                                  *work.direct, A);
+    return;
+  }
+  const bool smoothed = tissue.elements.smoothed() != nullptr;
+  if (smoothed && !tissue.dashpots) return;
+  TissueMatrix& matrix = smoothed ? work.plain : work.own;
+  matrix.K.set_zero();
+  if (!smoothed)
+    tissue.elements.add_stiffness(now.tissues[t].x, {}, activation, tangent, scale.stiffness,
+                                  matrix.K);
+  if (tissue.dashpots) tissue.dashpots->add_damping(now.tissues[t].x, scale.damping, matrix.K);
+  if (!smoothed) add_relaxation(t, now, scale, tangent);
+  add(matrix, tissue, now.configuration, A);
+}
+
+/// What the two matrices do not share: the stiffness of the domains, and that of the elements.
+void NewtonMatrix::add_smoothed(std::size_t t, const Moment& now, const SystemScale& scale,
+                                fem::Tangent tangent) {
+  const Tissue& tissue = model_.tissues[t];
+  const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed();
+  if (smoothed == nullptr) return;
+  TissueWork& work = tissues_[t];
+  const double activation = tissue.muscle < 0 ? 0 : now.configuration.activation[tissue.muscle];
+  work.own.K.set_zero();
+  tissue.elements.add_stiffness(now.tissues[t].x, now.tissues[t].pressure, activation, tangent,
+                                scale.stiffness, work.own.K);
+  add_relaxation(t, now, scale, tangent);
+  add(work.own, tissue, now.configuration, A_);
+  // A preconditioner has to be positive definite, wherever the matrix is.
+  work.plain.K.set_zero();
+  smoothed->add_plain_stiffness(now.tissues[t].x, fem::Tangent::Projected, scale.stiffness,
+                                work.plain.K, activation);
+  if (for_multigrid_)
+    smoothed->add_compressible_stiffness(now.tissues[t].x, scale.stiffness, work.plain.K);
+  add(work.plain, tissue, now.configuration, plain_);
+  set_pressure_gradient(t, now);
+  pressure_terms_.push_back({&work.G, &smoothed->nodal_pressure(), scale.stiffness});
+}
+
+void NewtonMatrix::add_masses(const Configuration& now, const SystemScale& scale,
+                              fem::BlockMatrix& A) {
+  const bool any_damping =
+      scale.damping != 0 && std::any_of(model_.tissues.begin(), model_.tissues.end(),
+                                        [](const Tissue& t) { return t.mass_damping > 0; });
+  if (scale.mass == 0 && !any_damping) return;  // equilibrium
+  ++evaluations_[Term::Inertia];
+  for (const Tissue& tissue : model_.tissues) {
+    const double share = scale.mass + scale.damping * tissue.mass_damping;
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+      if (const NodeRef& node = tissue.nodes[i]; node.rigid < 0)
+        A.block(A.slot(node.block, node.block)).diagonal().array() +=
+            share * tissue.lumped_mass[static_cast<Eigen::Index>(i)];
+  }
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(r)];
+    const Mat6 mass = rigid_mass(rigid, now.poses[static_cast<std::size_t>(r)]);
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
+        A.block(A.slot(rigid.block + i, rigid.block + j)) +=
+            scale.mass * mass.block<3, 3>(3 * i, 3 * j);
+  }
+}
+
+const fem::BlockMatrix& NewtonMatrix::assemble(const Moment& now, const SystemScale& scale,
+                                               fem::Tangent tangent) {
+  fem::BlockMatrix& common = smoothed_ ? plain_ : A_;
+  common.set_zero();
+  for (std::size_t t = 0; t < tissues_.size(); ++t) add_tissue(t, now, scale, tangent, common);
+  add_masses(now.configuration, scale, common);
+  for (std::size_t l = 0; l < model_.lines.size(); ++l)
+    add_line_stiffness(model_, model_.lines[l], now.configuration, now.lines[l], scale, common);
+  friction_.clear();
+  for (const ContactPairState* direction : now.contact.pair_states()) {
+    if (direction->num_patches == 0) continue;
+    ++evaluations_[Term::ContactStiffness];
+    contact_.add(*direction, now.configuration, tangent, scale, common, friction_);
+  }
+  pressure_terms_.clear();
+  if (!smoothed_) {
+    keep_free_part(model_, A_);
+    return A_;
+  }
+  A_.set_zero();
+  for (std::size_t s = 0; s < slot_of_plain_.size(); ++s)
+    A_.block(slot_of_plain_[s]) = plain_.block(static_cast<int>(s));
+  for (std::size_t t = 0; t < tissues_.size(); ++t) add_smoothed(t, now, scale, tangent);
+  keep_free_part(model_, A_);
+  keep_free_part(model_, plain_);
+  return A_;
+}
+
+fem::PressurePart NewtonMatrix::pressure_part() const {
+  return {pressure_terms_, smoothed_ ? &plain_ : nullptr};
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "fem/solver/linear_solver.hpp"
+#include "sim/contact/contact_response.hpp"
+#include "sim/contact/contact_stiffness.hpp"
+#include "sim/lines/line_force.hpp"
+#include "sim/model/system_matrix.hpp"
+
+namespace articular::sim {
+
+/// A tissue at one moment.
+struct TissueMoment {
+  Positions x;                                 // its nodes [m]
+  Eigen::VectorXd pressure;                    // of smoothed elements [Pa]
+  Eigen::VectorXd stress, internal_variables;  // of relaxing tissue, see fem::Relaxation [Pa]
+};
+
+/// Of a tissue's fibres, in [0, 1]; 0 where no muscle activates them.
+double activation_of(const Tissue& tissue, const Configuration& now);
+
+/// The matrix of Newton's iteration over the unknown blocks: mass, damping and stiffness of
+/// everything in the scene.
+class NewtonMatrix {
+ public:
+  explicit NewtonMatrix(const Model& model);
+
+  /// Candidates of the coming step: their couplings enter the pattern, and stay in it.
+  void couple(std::span<const CandidateList> candidates);
+  /// Drops the couplings of all candidates so far.
+  void forget();
+  std::uint64_t pattern_id() const { return A_.pattern_id(); }
+
+  /// What the matrix is taken at.
+  struct Moment {
+    const Configuration& configuration;
+    const std::vector<LineState>& lines;
+    const std::vector<TissueMoment>& tissues;
+    const ContactResponse& contact;
+  };
+  const fem::BlockMatrix& assemble(const Moment& now, const SystemScale& scale,
+                                   fem::Tangent tangent);
+  /// Of stiffness and inertia.
+  const EvaluationCounts& evaluations() const { return evaluations_; }
+  /// What friction adds to that matrix.
+  const FrictionCoupling& friction_coupling() const { return friction_; }
+  /// What smoothed tissues add to that matrix: pressures that couple all of their nodes. Refers to
+  /// this object.
+  fem::PressurePart pressure_part() const;
+  /// Whether there are any.
+  bool has_pressures() const { return smoothed_; }
+  /// ∂b/∂xᵀ of a smoothed tissue, by its nodes, where the last matrix was taken.
+  const fem::PressureGradient& pressure_gradient(std::size_t tissue) const {
+    return tissues_[tissue].node_G;
+  }
+
+ private:
+  /// A tissue's own matrix, and where its blocks go.
+  struct TissueMatrix {
+    fem::BlockMatrix K;
+    std::vector<int> slot;  // of each block of K; -1: a bone is involved
+  };
+  struct TissueWork {
+    std::optional<fem::StiffnessSlots> direct;  // tissues that need no matrix of their own
+    TissueMatrix own;                           // the others
+    TissueMatrix plain;                         // smoothed: couplings of the elements alone
+    fem::PressureGradient node_G, G;            // smoothed: by nodes, and by blocks of unknowns
+  };
+  bool adds_directly(const Tissue& tissue) const;
+  Stencils base_stencils(bool smoothing) const;
+  void build_pattern();
+  void make_pressure_gradient(std::size_t t);
+  void set_pressure_gradient(std::size_t t, const Moment& now);
+  /// A += K by the blocks of the tissue.
+  void add(const TissueMatrix& K, const Tissue& tissue, const Configuration& now,
+           fem::BlockMatrix& A) const;
+  void add_tissue(std::size_t t, const Moment& now, const SystemScale& scale, fem::Tangent tangent,
+                  fem::BlockMatrix& A);
+  void add_relaxation(std::size_t t, const Moment& now, const SystemScale& scale,
+                      fem::Tangent tangent);
+  void add_smoothed(std::size_t t, const Moment& now, const SystemScale& scale,
+                    fem::Tangent tangent);
+  void add_masses(const Configuration& now, const SystemScale& scale, fem::BlockMatrix& A);
+
+  const Model& model_;
+  bool smoothed_ = false;       // some tissue is
+  bool for_multigrid_ = false;  // what the plain matrix is for
+  std::vector<TissueWork> tissues_;
+  ContactStiffness contact_;
+  Stencils base_, plain_base_, contacts_;
+  fem::BlockMatrix A_;
+  fem::BlockMatrix plain_;          // with smoothed tissues: couplings of the elements alone
+  std::vector<int> slot_of_plain_;  // of each of its blocks in A_
+  std::vector<fem::PressureTerm> pressure_terms_;
+  FrictionCoupling friction_;
+  EvaluationCounts evaluations_;
+};
+
+}  // namespace articular::sim

@@ -1,0 +1,147 @@
+#include "sim/assembly/rigid_body_modes.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "sim/model/newton_weights.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// A motion that moves nothing farther than 1 counts as free when its stiffness is below this part
+/// of the stiffest diagonal entry: round-off of K leaves 1e-12.
+constexpr double kFree = 1e-10;
+
+/// A motion counts as driven when forces do more work on it than this part of the largest force.
+constexpr double kDriven = 1e-6;
+
+/// Six rigid motions of one body, of its unknown blocks.
+struct BodyMotions {
+  int body = 0;
+  Vec3 center = Vec3::Zero();  // [m]
+  double radius = 0;           // [m] farthest point from there
+};
+
+/// Free blocks of a body and where they are; a bone's own two blocks are added by the caller.
+std::vector<std::pair<int, Vec3>> free_nodes(const Model& model, const Configuration& now,
+                                             const BodyModel& body) {
+  std::vector<std::pair<int, Vec3>> nodes;
+  if (body.tissue < 0) return nodes;
+  for (const NodeRef& node : model.tissues[static_cast<std::size_t>(body.tissue)].nodes)
+    if (node.rigid < 0) nodes.emplace_back(node.block, now.position(node));
+  return nodes;
+}
+
+/// Appends the columns of a body: three translations, three turns by 1/radius about its centre.
+void append_motions(const Model& model, const Configuration& now, int b,
+                    std::vector<BodyMotions>& bodies, std::vector<Eigen::VectorXd>& columns) {
+  const BodyModel& body = model.bodies[static_cast<std::size_t>(b)];
+  const bool is_rigid =
+      body.rigid >= 0 && model.rigid_bodies[static_cast<std::size_t>(body.rigid)].unknown;
+  const auto nodes = free_nodes(model, now, body);
+  if (!is_rigid && nodes.empty()) return;
+  BodyMotions motions{.body = b};
+  if (is_rigid) {
+    const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
+    motions.center = now.poses[static_cast<std::size_t>(body.rigid)].p;
+    motions.radius = turning_radius(rigid);
+  } else {
+    for (const auto& [block, x] : nodes) motions.center += x / static_cast<double>(nodes.size());
+    for (const auto& [block, x] : nodes)
+      motions.radius = std::max(motions.radius, (x - motions.center).norm());
+  }
+  for (int k = 0; k < 6; ++k) {
+    Eigen::VectorXd column = Eigen::VectorXd::Zero(3 * model.layout.num_unknown_blocks());
+    Vec3 axis = Vec3::Unit(k % 3);
+    if (is_rigid) {
+      const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
+      const int row = 3 * rigid.block;
+      if (rigid.hold) axis = rigid.hold->axes.col(k % 3);
+      if (rigid.hold && rigid.hold->held[static_cast<std::size_t>(k)]) axis.setZero();
+      if (k < 3) column.segment<3>(row) = axis;
+      if (k >= 3) column.segment<3>(row + 3) = axis / motions.radius;
+    }
+    for (const auto& [block, x] : nodes)
+      column.segment<3>(3 * block) =
+          k < 3 ? axis : Vec3(axis.cross(x - motions.center) / motions.radius);
+    columns.push_back(std::move(column));
+  }
+  bodies.push_back(motions);
+}
+
+/// To two decimals, without a negative zero.
+Vec3 rounded(const Vec3& v) { return (100 * v).array().round() / 100 + 0.0; }
+
+std::string in_words(const Model& model, const BodyMotions& motions,
+                     const Eigen::Matrix<double, 6, 1>& part) {
+  const Vec3 shift = part.head<3>(), turn = part.tail<3>();
+  const bool shifts = shift.norm() >= turn.norm();
+  const Vec3 axis = rounded((shifts ? shift : turn).normalized());
+  const double unit = 1 / model.scenario.output.length_unit;
+  const std::string name = model.bodies[static_cast<std::size_t>(motions.body)].name;
+  if (shifts)
+    return fmt::format("body `{}` can shift along ({:.2f} {:.2f} {:.2f})", name, axis.x(), axis.y(),
+                       axis.z());
+  const Vec3 c = unit * motions.center;
+  return fmt::format(
+      "body `{}` can turn about the axis ({:.2f} {:.2f} {:.2f}) through ({:.3g} {:.3g} {:.3g}) {}",
+      name, axis.x(), axis.y(), axis.z(), c.x(), c.y(), c.z(),
+      model.scenario.output.length_unit_name);
+}
+
+/// The largest stiffness of a free node or of a bone's translation [N/m].
+double stiffest_node(const Model& model, const fem::BlockMatrix& K) {
+  double stiffest = 0;
+  const auto look_at = [&](int block) {
+    stiffest = std::max(stiffest, K.block(K.slot(block, block)).diagonal().maxCoeff());
+  };
+  for (int block = 0; block < model.layout.num_free_nodes; ++block) look_at(block);
+  for (int r = 0; r < model.layout.num_rigid; ++r)
+    look_at(model.rigid_bodies[static_cast<std::size_t>(r)].block);
+  return stiffest;
+}
+
+}  // namespace
+
+std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& dynamics) {
+  std::vector<BodyMotions> bodies;
+  std::vector<Eigen::VectorXd> columns;
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
+    append_motions(model, dynamics.configuration(), b, bodies, columns);
+  if (columns.empty()) return std::nullopt;
+
+  const fem::BlockMatrix& K = dynamics.matrix({0, 0, 1}, fem::Tangent::Consistent);
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd projected(n, n);
+  Eigen::VectorXd product, drive(n);
+  const double stiffest = stiffest_node(model, K);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Eigen::VectorXd& column = columns[static_cast<std::size_t>(j)];
+    K.multiply(column, product);
+    for (Eigen::Index i = 0; i < n; ++i)
+      projected(i, j) = columns[static_cast<std::size_t>(i)].dot(product);
+    drive[j] = column.dot(dynamics.forces().head(column.size()));
+    if (column.isZero(0)) projected(j, j) = stiffest;  // held
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 *
+                                                             (projected + projected.transpose()));
+  Eigen::Index num_free = 0;
+  const double limit = kFree * stiffest;
+  while (num_free < n && eigen.eigenvalues()[num_free] <= limit) ++num_free;
+  if (num_free == 0) return std::nullopt;
+
+  const auto null_space = eigen.eigenvectors().leftCols(num_free);
+  Eigen::VectorXd motion = null_space * (null_space.transpose() * drive);
+  if (!(motion.norm() > kDriven * dynamics.largest_force())) motion = null_space.col(0);
+  const auto part = [&](std::size_t b) -> Eigen::Matrix<double, 6, 1> {
+    return motion.segment<6>(6 * static_cast<Eigen::Index>(b));
+  };
+  std::size_t most = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (part(b).norm() > part(most).norm()) most = b;
+  return RigidBodyMode{bodies[most].body, in_words(model, bodies[most], part(most))};
+}
+
+}  // namespace articular::sim

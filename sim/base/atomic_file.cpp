@@ -1,0 +1,76 @@
+#include "sim/base/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "sim/base/error.hpp"
+
+namespace articular::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& file, int error) {
+  throw SystemError(file.string() + ": can't be written: " + std::system_category().message(error));
+}
+
+/// Closes on leaving; close() itself reports what a network drive says only then.
+class OpenFile {
+ public:
+  explicit OpenFile(const fs::path& path) : fd_(::open(path.c_str(), kFlags, 0666)) {}
+  ~OpenFile() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  /// 0, or the error number of the first call that failed.
+  int write_and_close(const std::string& text) {
+    if (fd_ < 0) return errno;
+    for (std::size_t done = 0; done < text.size();) {
+      const ssize_t count = ::write(fd_, text.data() + done, text.size() - done);
+      if (count < 0 && errno != EINTR) return errno;
+      if (count > 0) done += static_cast<std::size_t>(count);
+    }
+    const int fd = fd_;
+    fd_ = -1;
+    return ::close(fd) == 0 ? 0 : errno;
+  }
+
+ private:
+  static constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
+  int fd_;
+};
+
+}  // namespace
+
+void write_text_file(const fs::path& file, const std::string& text) {
+  std::error_code status;
+  fs::path target = file;
+  if (fs::is_symlink(file, status)) {  // the link stays, what it points to is replaced
+    target = fs::weakly_canonical(file, status);
+    if (status) fail(file, status.value());
+  }
+  // A pipe or device (/dev/stdout, /dev/full) must be written itself: a rename would replace it.
+  if (fs::exists(target, status) && fs::is_other(target, status)) {
+    if (const int error = OpenFile(target).write_and_close(text)) fail(file, error);
+    return;
+  }
+  // A fixed name, so that what a killed run left is overwritten by the next.
+  fs::path temporary = target;
+  temporary += ".part";
+  if (const int error = OpenFile(temporary).write_and_close(text)) {
+    ::unlink(temporary.c_str());
+    fail(file, error);
+  }
+  fs::rename(temporary, target, status);
+  if (status) {
+    ::unlink(temporary.c_str());
+    fail(file, status.value());
+  }
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,131 @@
+#include "sim/build/body_collider.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/build/collider.hpp"
+#include "sim/model/tissue.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// How far in front of a face a triangle's depth counts in the averages, in heights of the elements
+/// at its surface: more than a facet's sagitta under a round bone. The larger, the more a dragged
+/// sphere's force ripples; the smaller, the stiffer coarse surfaces are (README.md).
+constexpr double kOpenDepth = 0.1;
+/// A tissue's face counts as crossed up to this part of an element's height. Contact keeps depths
+/// far below it; what lies deeper is seen from beyond an edge, and was not entered through that
+/// face.
+constexpr double kTissueReach = 0.5;
+/// A bone's face counts as crossed up to this part of half its thickness, so that the faces of its
+/// other side are not.
+constexpr double kBoneReach = 0.9;
+/// Cortical bone, where a bone meets a bone without a layer between: E [Pa], nu.
+constexpr double kBoneModulus = 15e9, kBonePoisson = 0.3;
+
+bool can_touch(const Scenario& scenario, std::size_t b) {
+  if (!scenario.contact || !scenario.bodies[b].collides) return false;
+  if (!scenario.contacts.empty()) {
+    return std::any_of(
+        scenario.contacts.begin(), scenario.contacts.end(), [&](const ContactPair& pair) {
+          return pair.a == scenario.bodies[b].name || pair.b == scenario.bodies[b].name;
+        });
+  }
+  return scenario.bodies.size() > 1;
+}
+
+Collider tissue_collider(const Model& model, std::size_t b) {
+  const Tissue& tissue = model.tissues[static_cast<std::size_t>(model.bodies[b].tissue)];
+  const TissueMaterial& material = *model.scenario.bodies[b].material;
+  Collider collider;
+  collider.X = tissue.X;
+  collider.tets = tissue.elements.tets();
+  collider.nodes = tissue.nodes;
+  complete_collider(collider, {});
+  collider.compliance = collider.height / constrained_modulus(material);
+  collider.mean_compliance = collider.size / constrained_modulus(material);
+  collider.reach = kTissueReach * collider.size;
+  collider.open_depth = kOpenDepth * collider.size;
+  return collider;
+}
+
+/// Of a surface's triangles [m]: the depth of the collision elements under it where the scenario
+/// names none.
+double mean_edge(const MeshData& surface) {
+  double sum = 0;
+  for (const auto& triangle : surface.triangles.colwise())
+    for (int k = 0; k < 3; ++k)
+      sum += (surface.X.col(triangle[(k + 1) % 3]) - surface.X.col(triangle[k])).norm();
+  return sum / (3 * static_cast<double>(surface.triangles.cols()));
+}
+
+/// Creases and slivers of a scanned surface that can't take part in contact: a few are told, many
+/// are an error.
+void report_dropped(const Body& body, Eigen::Index given, Eigen::Index kept, Model& model) {
+  constexpr double kMostDropped = 0.03;
+  if (kept == given) return;
+  const std::string what =
+      fmt::format("{} of {} faces of the contact surface of `{}` are slivers or lie in creases",
+                  given - kept, given, body.name);
+  if (static_cast<double>(given - kept) > kMostDropped * static_cast<double>(given))
+    throw InputError(what + "; expected a smooth surface with outward normals");
+  model.warnings.push_back(prefix(body.where) + what + " and are left out of contact");
+}
+
+Collider bone_collider(const BodyGeometry& geometry, std::size_t b, Model& model) {
+  const Body& body = model.scenario.bodies[b];
+  const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(model.bodies[b].rigid)];
+  const bool shell = geometry.contact.X.cols() > 0 || geometry.mesh.tets.cols() == 0;
+  Collider collider;
+  std::vector<char> is_outer;
+  double depth = 0;
+  if (shell) {
+    const MeshData& surface = geometry.contact.X.cols() > 0 ? geometry.contact : geometry.mesh;
+    if (surface.triangles.cols() == 0) throw InputError("its mesh has no triangles");
+    depth = body.shell_thickness.value_or(mean_edge(surface));
+    collider.X = surface.X;
+    Triangles triangles = surface.triangles;
+    collider.tets = shell_under(collider.X, triangles, depth);
+    report_dropped(body, surface.triangles.cols(), triangles.cols(), model);
+    is_outer.assign(static_cast<std::size_t>(collider.X.cols()), 0);
+    std::fill_n(is_outer.begin(), surface.X.cols(), 1);
+  } else {
+    collider.X = geometry.mesh.X;
+    collider.tets = geometry.mesh.tets;
+  }
+  complete_collider(collider, is_outer);
+  if (!shell) depth = 2 * collider.size;
+  collider.reach = shell ? depth : std::min(depth, kBoneReach * half_thickness(collider));
+  for (Eigen::Index i = 0; i < collider.X.cols(); ++i)
+    collider.nodes.push_back(
+        {rigid.block, model.bodies[b].rigid, collider.X.col(i) - rigid.rest.p});
+  collider.open_depth = kOpenDepth * depth;
+  collider.mean_compliance = depth / constrained_modulus(kBoneModulus, kBonePoisson);
+  if (body.layer)
+    collider.layer_compliance =
+        body.layer->thickness /
+        constrained_modulus(body.layer->young_modulus, body.layer->poisson_ratio);
+  collider.compliance.setConstant(collider.X.cols(), collider.mean_compliance);
+  return collider;
+}
+
+}  // namespace
+
+void make_colliders(const std::vector<BodyGeometry>& geometry, Model& model) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (!can_touch(model.scenario, b)) continue;
+    const Body& body = model.scenario.bodies[b];
+    try {
+      if (model.bodies[b].tissue >= 0)
+        model.bodies[b].collider = tissue_collider(model, b);
+      else if (geometry[b].mesh.X.cols() > 0 || geometry[b].contact.X.cols() > 0)
+        model.bodies[b].collider = bone_collider(geometry[b], b, model);
+    } catch (const std::exception& error) {
+      throw InputError(body.mesh ? body.mesh->where : body.where,
+                       fmt::format("body `{}`: {}", body.name, error.what()));
+    }
+  }
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,145 @@
+#include "sim/build/body_geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "collision/mesh/surface.hpp"
+#include "sim/mesh/mesh_continue.hpp"
+#include "sim/mesh/shapes.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Faces of a contact mesh within 80 degrees of `facing` take part.
+const double kFacingLimit = std::cos(80 * std::numbers::pi / 180);
+
+MeshData load(const MeshFile& file) {
+  MeshData mesh;
+  std::error_code error;
+  if (!file.made_by.empty() && !std::filesystem::exists(file.path, error))
+    throw InputError(file.where, file.path.string() + ": no such mesh file; it is made by `" +
+                                     file.made_by + "`");
+  try {
+    mesh = read_mesh(file.path, file.unit);
+  } catch (const InputError& error) {
+    throw InputError(file.where, error.what());
+  }
+  place(file.placement, mesh.X);
+  return mesh;
+}
+
+void append(const MeshData& part, MeshData& whole) {
+  const auto nodes = static_cast<int>(whole.X.cols());
+  const auto triangles = whole.triangles.cols();
+  whole.X.conservativeResize(3, nodes + part.X.cols());
+  whole.X.rightCols(part.X.cols()) = part.X;
+  whole.triangles.conservativeResize(3, triangles + part.triangles.cols());
+  whole.triangles.rightCols(part.triangles.cols()) = part.triangles.array() + nodes;
+}
+
+/// The faces of a surface that face a direction, or all of them, with the nodes that they use.
+MeshData faces_of(const MeshData& mesh, const std::optional<Vec3>& facing) {
+  std::vector<int> kept, new_index(static_cast<std::size_t>(mesh.X.cols()), -1);
+  MeshData part;
+  part.triangles.resize(3, mesh.triangles.cols());
+  Eigen::Index count = 0;
+  for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+    const Eigen::Vector3i t = mesh.triangles.col(f);
+    const Vec3 area =
+        (mesh.X.col(t[1]) - mesh.X.col(t[0])).cross(mesh.X.col(t[2]) - mesh.X.col(t[0]));
+    if (facing && area.dot(*facing) <= kFacingLimit * area.norm()) continue;
+    for (int k = 0; k < 3; ++k) {
+      int& index = new_index[static_cast<std::size_t>(t[k])];
+      if (index < 0) {
+        index = static_cast<int>(kept.size());
+        kept.push_back(t[k]);
+      }
+      part.triangles(k, count) = index;
+    }
+    ++count;
+  }
+  part.triangles.conservativeResize(3, count);
+  part.X = mesh.X(Eigen::all, kept);
+  return part;
+}
+
+MeshData continued_part(const MeshData& mesh, const MeshFile& file) {
+  try {
+    return continued(mesh, *file.continued);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(file.where, error.what());
+  }
+}
+
+/// Of tetrahedra, if there are any.
+void take_surface(MeshData& mesh) {
+  if (mesh.tets.cols() == 0) return;
+  mesh.triangles = collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())).faces;
+}
+
+}  // namespace
+
+std::string mesh_name(const Body& body) {
+  return body.mesh ? " (" + body.mesh->path.string() + ")" : "";
+}
+
+BodyGeometry read_geometry(const Body& body) {
+  BodyGeometry geometry;
+  if (body.mesh) geometry.mesh = load(*body.mesh);
+  if (body.box) geometry.mesh = box_mesh(*body.box);
+  if (body.hexahedron) geometry.mesh = hexahedron_mesh(*body.hexahedron);
+  if (body.sphere) geometry.mesh = sphere_mesh(*body.sphere);
+  if (body.v_shape) geometry.mesh = v_shape_mesh(*body.v_shape);
+  if (!body.mesh) place(body.placement, geometry.mesh.X);
+
+  const Location& where = body.mesh ? body.mesh->where : body.where;
+  const bool tissue = body.kind == Body::Kind::Tissue;
+  if (tissue && geometry.mesh.tets.cols() == 0)
+    throw InputError(where, fmt::format("the mesh of tissue `{}`{} has no tetrahedra; expected "
+                                        "a tetrahedral mesh (.vtu, .vtk or .inp)",
+                                        body.name, mesh_name(body)));
+  if (!tissue && geometry.mesh.X.cols() > 0) take_surface(geometry.mesh);
+  for (const MeshFile& file : body.contact_meshes) {
+    MeshData part = load(file);
+    take_surface(part);
+    if (part.triangles.cols() == 0)
+      throw InputError(file.where, fmt::format("contact mesh {} of `{}` has no triangles",
+                                               file.path.string(), body.name));
+    if (file.facing || part.tets.cols() > 0) part = faces_of(part, file.facing);
+    if (file.faces) part = simplified(part, *file.faces);
+    if (file.continued) part = continued_part(part, file);
+    append(part, geometry.contact);
+  }
+  return geometry;
+}
+
+MassProperties rigid_mass(const Body& body, const MeshData& mesh) {
+  MassProperties mass;
+  const bool from_mesh = !(body.mass && body.center_of_mass && body.inertia);
+  if (from_mesh) {
+    if (mesh.triangles.cols() == 0)
+      throw InputError(body.where, fmt::format("rigid body `{}` needs a mesh, or mass, "
+                                               "center_of_mass and inertia",
+                                               body.name));
+    mass = solid_mass_properties(mesh.X, mesh.triangles, body.density.value_or(1.0));
+    if (!(mass.mass > 0))
+      throw InputError(body.where,
+                       fmt::format("the surface of `{}` encloses no volume; expected a closed "
+                                   "surface with outward normals",
+                                   body.name));
+    if (body.mass) {
+      mass.inertia *= *body.mass / mass.mass;
+    }
+  }
+  if (body.mass) mass.mass = *body.mass;
+  if (body.center_of_mass) mass.center = *body.center_of_mass;
+  if (body.inertia) mass.inertia = *body.inertia;
+  return mass;
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "sim/mesh/mesh_io.hpp"
+#include "sim/model/mass_properties.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace articular::sim {
+
+/// What was read of one body.
+struct BodyGeometry {
+  MeshData mesh;     // drawn; tissue: with tetrahedra
+  MeshData contact;  // surfaces that touch, without tetrahedra; empty: the mesh
+};
+
+/// Reads or builds a body's meshes, placed. @throws InputError with the place in the scenario
+BodyGeometry read_geometry(const Body& body);
+
+/// Mass, centre and inertia of a rigid body: as given, else those of the solid within its surface.
+/// @throws InputError when the surface encloses nothing
+MassProperties rigid_mass(const Body& body, const MeshData& mesh);
+
+/// " (FILE)" of a body that comes from a file, for messages.
+std::string mesh_name(const Body& body);
+
+}  // namespace articular::sim

@@ -1,0 +1,421 @@
+#include "sim/build/build_model.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/build/body_collider.hpp"
+#include "sim/build/body_geometry.hpp"
+#include "sim/build/contact_model.hpp"
+#include "sim/build/make_tissue.hpp"
+#include "sim/build/region.hpp"
+#include "sim/lines/muscle_law.hpp"
+#include "sim/mesh/flat_elements.hpp"
+#include "sim/model/newton_weights.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// A muscle that gives less than this part of its maximal force at rest and full activation is
+/// probably a table applied to another subject.
+constexpr double kLeastForceAtRest = 0.1;
+
+class Builder {
+ public:
+  explicit Builder(Scenario scenario) { model_.scenario = std::move(scenario); }
+
+  Model build() {
+    read_bodies();
+    make_bones();
+    make_tissues();
+    number_blocks();
+    carry_tissue_mass();
+    make_colliders(geometry_, model_);
+    make_lines();
+    make_loads();
+    make_contacts(model_);
+    make_probes();
+    model_.position_tolerance = position_tolerance(model_);
+    model_.detection_margin = detection_margin(model_);
+    return std::move(model_);
+  }
+
+ private:
+  const Scenario& scenario() const { return model_.scenario; }
+
+  static Vec3 reference_point(const RigidBody& rigid) {
+    return rigid.hold && rigid.hold->at ? *rigid.hold->at : rigid.mass.center;
+  }
+
+  int body_index(const std::string& name) const { return sim::body_index(scenario(), name); }
+
+  void read_bodies() {
+    for (const Body& body : scenario().bodies) {
+      geometry_.push_back(read_geometry(body));
+      BodyModel entry;
+      entry.name = body.name;
+      entry.kind = body.kind;
+      model_.bodies.push_back(std::move(entry));
+    }
+  }
+
+  void make_bones() {
+    // Rigid ones first: their blocks are unknowns.
+    for (const Body::Kind kind : {Body::Kind::Rigid, Body::Kind::Fixed})
+      for (std::size_t b = 0; b < scenario().bodies.size(); ++b) {
+        const Body& body = scenario().bodies[b];
+        if (body.kind != kind) continue;
+        RigidBody rigid;
+        rigid.body = static_cast<int>(b);
+        rigid.unknown = kind == Body::Kind::Rigid;
+        if (rigid.unknown) {
+          rigid.mass = rigid_mass(body, geometry_[b].mesh);
+          rigid.hold = body.hold;
+          rigid.rest.p = reference_point(rigid);
+          rigid.start = {body.velocity, body.angular_velocity};
+          ++model_.layout.num_rigid;
+        } else if (geometry_[b].mesh.X.cols() > 0) {
+          const auto& X = geometry_[b].mesh.X;
+          rigid.rest.p = 0.5 * (X.rowwise().minCoeff() + X.rowwise().maxCoeff());
+        }
+        model_.bodies[b].rigid = static_cast<int>(model_.rigid_bodies.size());
+        model_.rigid_bodies.push_back(rigid);
+      }
+    for (const Load& load : scenario().loads) {
+      if (load.kind != Load::Kind::Motion) continue;
+      RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(
+          model_.bodies[static_cast<std::size_t>(body_index(load.body))].rigid)];
+      if (rigid.motion)
+        throw InputError(load.where, fmt::format("body `{}` is driven twice", load.body));
+      rigid.motion = load.motion;
+      if (rigid.hold) {
+        for (Vec3& shift : rigid.motion->translation) shift = rigid.hold->axes * shift;
+        for (Vec3& turn : rigid.motion->rotation) turn = rigid.hold->axes * turn;
+      }
+    }
+  }
+
+  void make_tissues() {
+    for (std::size_t b = 0; b < scenario().bodies.size(); ++b) {
+      if (scenario().bodies[b].kind != Body::Kind::Tissue) continue;
+      const MeshData& mesh = geometry_[b].mesh;
+      surface_.push_back(collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())));
+      model_.bodies[b].tissue = static_cast<int>(model_.tissues.size());
+      model_.tissues.push_back(
+          make_tissue(model_, geometry_, surface_.back(), static_cast<int>(b)));
+      tell_flat_elements(scenario().bodies[b], mesh);
+    }
+  }
+
+  void tell_flat_elements(const Body& body, const MeshData& mesh) {
+    const FlatElements flat = flat_elements(mesh.X, mesh.tets);
+    if (flat.count == 0) return;
+    const Vec3 mm = 1e3 * flat.flattest;
+    model_.warnings.push_back(
+        prefix(body.where) +
+        fmt::format("{} of {} tetrahedra of `{}` are flat (height below 1/50 of an edge), the "
+                    "flattest at ({:.3f} {:.3f} {:.3f}) mm: pressures beside them are uneven",
+                    flat.count, mesh.tets.cols(), body.name, mm.x(), mm.y(), mm.z()));
+  }
+
+  /// Attached nodes to their bones, the others to blocks of their own; then the bones' blocks.
+  void number_blocks() {
+    for (const Attachment& attachment : scenario().attachments) {
+      const auto b = static_cast<std::size_t>(body_index(attachment.body));
+      Tissue& tissue = model_.tissues[static_cast<std::size_t>(model_.bodies[b].tissue)];
+      const int rigid = model_.bodies[static_cast<std::size_t>(body_index(attachment.to))].rigid;
+      const RegionTest test(attachment.region, model_, geometry_);
+      const std::vector<char> on_surface = surface_nodes(model_.bodies[b].tissue);
+      int count = 0;
+      for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+        const Vec3 x = tissue.X.col(static_cast<Eigen::Index>(i));
+        if (!test.contains(x, on_surface[i] != 0)) continue;
+        ++count;
+        tissue.nodes[i].rigid = rigid;
+        tissue.nodes[i].local = x - model_.rigid_bodies[static_cast<std::size_t>(rigid)].rest.p;
+      }
+      if (count == 0)
+        throw InputError(attachment.where,
+                         fmt::format("no node of tissue `{}` lies in the region attached to `{}`",
+                                     attachment.body, attachment.to));
+    }
+    int block = 0;
+    for (Tissue& tissue : model_.tissues)
+      for (NodeRef& node : tissue.nodes)
+        if (node.rigid < 0) node.block = block++;
+    model_.layout.num_free_nodes = block;
+    for (RigidBody& rigid : model_.rigid_bodies) {
+      rigid.block = block;
+      block += 2;
+    }
+    model_.num_blocks = block;
+    for (Tissue& tissue : model_.tissues)
+      for (NodeRef& node : tissue.nodes)
+        if (node.rigid >= 0)
+          node.block = model_.rigid_bodies[static_cast<std::size_t>(node.rigid)].block;
+    model_.layout.num_muscles = static_cast<int>(scenario().muscles.size());
+    for (Tissue& tissue : model_.tissues) {
+      if (!tissue.relaxation) continue;
+      tissue.first_internal_variable = model_.layout.num_internal_variables;
+      model_.layout.num_internal_variables += tissue.relaxation->num_internal_variables();
+    }
+  }
+
+  std::vector<char> surface_nodes(int tissue) const {
+    std::vector<char> on_surface(model_.tissues[static_cast<std::size_t>(tissue)].nodes.size(), 0);
+    for (const int node : surface_[static_cast<std::size_t>(tissue)].faces.reshaped())
+      on_surface[static_cast<std::size_t>(node)] = 1;
+    return on_surface;
+  }
+
+  /// Tissue nodes attached to a rigid bone add their mass to it; its centre of mass moves.
+  void carry_tissue_mass() {
+    for (std::size_t r = 0; r < model_.rigid_bodies.size(); ++r) {
+      RigidBody& rigid = model_.rigid_bodies[r];
+      if (!rigid.unknown) continue;
+      const Vec3 old_center = rigid.rest.p;
+      for (const Tissue& tissue : model_.tissues)
+        for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+          if (tissue.nodes[i].rigid == static_cast<int>(r))
+            rigid.mass =
+                join(rigid.mass, {tissue.lumped_mass[static_cast<Eigen::Index>(i)],
+                                  tissue.X.col(static_cast<Eigen::Index>(i)), Mat3::Zero()});
+      rigid.rest.p = reference_point(rigid);
+      rigid.start.linear += rigid.start.angular.cross(rigid.rest.p - old_center);
+      for (Tissue& tissue : model_.tissues)
+        for (NodeRef& node : tissue.nodes)
+          if (node.rigid == static_cast<int>(r)) node.local += old_center - rigid.rest.p;
+    }
+    for (const RigidBody& rigid : model_.rigid_bodies) {
+      const auto b = static_cast<std::size_t>(rigid.body);
+      model_.bodies[b].X = geometry_[b].mesh.X.colwise() - rigid.rest.p;
+      model_.bodies[b].triangles = geometry_[b].mesh.triangles;
+    }
+  }
+
+  WeightedPoint resolve(const Anchor& anchor) const {
+    const auto b = static_cast<std::size_t>(body_index(anchor.body));
+    const BodyModel& body = model_.bodies[b];
+    WeightedPoint point;
+    if (body.rigid >= 0) {
+      const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(body.rigid)];
+      point.nodes.push_back({rigid.block, body.rigid, anchor.point - rigid.rest.p});
+      point.weights.push_back(1);
+      return point;
+    }
+    const Tissue& tissue = model_.tissues[static_cast<std::size_t>(body.tissue)];
+    const std::vector<char> on_surface = surface_nodes(body.tissue);
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+      if (on_surface[i] == 0) continue;
+      const double distance = (tissue.X.col(static_cast<Eigen::Index>(i)) - anchor.point).norm();
+      if (distance < least) {
+        least = distance;
+        nearest = i;
+      }
+      if (distance <= anchor.radius) point.nodes.push_back(tissue.nodes[i]);
+    }
+    if (point.nodes.empty()) point.nodes.push_back(tissue.nodes[nearest]);
+    point.weights.assign(point.nodes.size(), 1.0 / static_cast<double>(point.nodes.size()));
+    return point;
+  }
+
+  Vec3 start_position(const WeightedPoint& point) const {
+    Vec3 x = Vec3::Zero();
+    for (std::size_t k = 0; k < point.nodes.size(); ++k)
+      x += point.weights[k] * start_position(point.nodes[k]);
+    return x;
+  }
+
+  Vec3 start_position(const NodeRef& node) const {
+    if (node.rigid >= 0)
+      return model_.rigid_bodies[static_cast<std::size_t>(node.rigid)].rest.p + node.local;
+    return free_node_start().col(node.block);
+  }
+
+  const Positions& free_node_start() const {
+    if (free_start_.cols() == 0) {
+      free_start_.resize(3, model_.layout.num_free_nodes);
+      for (const Tissue& tissue : model_.tissues)
+        for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+          if (tissue.nodes[i].rigid < 0)
+            free_start_.col(tissue.nodes[i].block) = tissue.X.col(static_cast<Eigen::Index>(i));
+    }
+    return free_start_;
+  }
+
+  Line make_line(const std::string& name, const std::vector<Anchor>& path, const Location& where) {
+    Line line;
+    line.name = name;
+    for (const Anchor& anchor : path) line.path.push_back(resolve(anchor));
+    for (std::size_t i = 1; i < line.path.size(); ++i)
+      line.start_length += (start_position(line.path[i]) - start_position(line.path[i - 1])).norm();
+    if (!(line.start_length > 0))
+      throw InputError(where, fmt::format("`{}` has no length: its points coincide", name));
+    return line;
+  }
+
+  void make_fibre_muscle(const Muscle& muscle) {
+    const BodyModel& body = model_.bodies[static_cast<std::size_t>(body_index(muscle.tissue))];
+    Tissue& tissue = model_.tissues[static_cast<std::size_t>(body.tissue)];
+    if (tissue.muscle >= 0)
+      throw InputError(
+          muscle.where,
+          fmt::format("the fibres of `{}` have two muscles, `{}` and "
+                      "`{}`",
+                      body.name, model_.muscles[static_cast<std::size_t>(tissue.muscle)].given.name,
+                      muscle.name));
+    tissue.muscle = static_cast<int>(model_.muscles.size());
+    model_.muscles.push_back({.given = muscle});
+  }
+
+  void make_lines() {
+    for (const Muscle& muscle : scenario().muscles) {
+      if (!muscle.tissue.empty()) {
+        make_fibre_muscle(muscle);
+        continue;
+      }
+      Line line = make_line(muscle.name, muscle.path, muscle.where);
+      line.muscle = static_cast<int>(model_.muscles.size());
+      MuscleModel m{muscle, muscle.optimal_length.value_or(line.start_length),
+                    static_cast<int>(model_.lines.size())};
+      const double rest =
+          active_force_length(line.start_length, m.optimal_length, muscle.tendon_ratio).value;
+      if (muscle.force_length && rest < kLeastForceAtRest)
+        model_.warnings.push_back(
+            prefix(muscle.where) +
+            fmt::format("muscle `{}` can give only {:.1f} % of its active force at rest (length "
+                        "{:.1f} mm, optimal {:.1f} mm); does the table belong to this geometry?",
+                        muscle.name, 100 * rest, 1e3 * line.start_length, 1e3 * m.optimal_length));
+      model_.muscles.push_back(std::move(m));
+      model_.lines.push_back(std::move(line));
+    }
+    for (const Ligament& ligament : scenario().ligaments) {
+      Line line = make_line(ligament.name, ligament.path, ligament.where);
+      line.ligament = static_cast<int>(model_.ligaments.size());
+      double slack = line.start_length;
+      if (ligament.slack_length)
+        slack = *ligament.slack_length;
+      else if (ligament.slack_extension)
+        slack += *ligament.slack_extension;
+      else if (ligament.reference_strain)
+        slack /= 1 + *ligament.reference_strain;
+      if (!(slack > 0))
+        throw InputError(ligament.where,
+                         fmt::format("ligament `{}` has slack length {:g} mm; expected more than 0",
+                                     ligament.name, 1e3 * slack));
+      model_.ligaments.push_back({ligament, slack, static_cast<int>(model_.lines.size())});
+      model_.lines.push_back(std::move(line));
+    }
+  }
+
+  void make_loads() {
+    for (const Load& load : scenario().loads) {
+      if (load.kind == Load::Kind::Gravity) model_.gravity += load.acceleration;
+      if (load.kind != Load::Kind::Force) continue;
+      ForceModel force;
+      force.force = load.force;
+      force.profile = load.profile;
+      force.point = load.region ? region_point(load) : resolve(load.anchor);
+      model_.forces.push_back(std::move(force));
+    }
+  }
+
+  WeightedPoint region_point(const Load& load) const {
+    const auto b = static_cast<std::size_t>(body_index(load.body));
+    const int t = model_.bodies[b].tissue;
+    const Tissue& tissue = model_.tissues[static_cast<std::size_t>(t)];
+    const RegionTest test(*load.region, model_, geometry_);
+    const std::vector<char> on_surface = surface_nodes(t);
+    WeightedPoint point;
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+      if (test.contains(tissue.X.col(static_cast<Eigen::Index>(i)), on_surface[i] != 0))
+        point.nodes.push_back(tissue.nodes[i]);
+    if (point.nodes.empty())
+      throw InputError(load.where,
+                       fmt::format("no node of tissue `{}` lies in the loaded region", load.body));
+    point.weights.assign(point.nodes.size(), 1.0 / static_cast<double>(point.nodes.size()));
+    return point;
+  }
+
+  void check_tied(const ProbeModel& probe) const {
+    const int rigid = model_.bodies[static_cast<std::size_t>(probe.other)].rigid;
+    const int tissue = model_.bodies[static_cast<std::size_t>(probe.body)].tissue;
+    const auto& nodes = model_.tissues[static_cast<std::size_t>(tissue)].nodes;
+    const auto is_tied = [&](const NodeRef& node) { return node.rigid == rigid; };
+    if (std::none_of(nodes.begin(), nodes.end(), is_tied))
+      throw InputError(probe.given.where,
+                       fmt::format("[[probe]] `{}`: no node of `{}` is attached to `{}`",
+                                   probe.given.name, probe.given.body, probe.given.other));
+  }
+
+  /// By face of the collider: its middle, at the start, lies in the region.
+  std::vector<char> faces_in(const Probe& probe, int body) const {
+    const Collider& collider = *model_.bodies[static_cast<std::size_t>(body)].collider;
+    const RegionTest test(*probe.region, model_, geometry_);
+    std::vector<char> inside;
+    for (const auto& face : collider.surface.faces.colwise())
+      inside.push_back(test.contains(collider.X(Eigen::all, face).rowwise().mean(), true) ? 1 : 0);
+    if (std::find(inside.begin(), inside.end(), 1) == inside.end())
+      throw InputError(probe.region->where,
+                       fmt::format("[[probe]] `{}`: no face of `{}` has its middle in the region",
+                                   probe.name, probe.body));
+    return inside;
+  }
+
+  std::vector<int> probes_called(const std::vector<std::string>& names) const {
+    std::vector<int> found;
+    for (const std::string& name : names)
+      for (std::size_t p = 0; p < scenario().probes.size(); ++p)
+        if (scenario().probes[p].name == name) found.push_back(static_cast<int>(p));
+    return found;
+  }
+
+  void make_joint(ProbeModel& probe) const {
+    const auto bone_of = [&](const JointSide& side) {
+      return model_.bodies[static_cast<std::size_t>(body_index(side.body))].rigid;
+    };
+    const auto rest_of = [&](int rigid) {
+      return model_.rigid_bodies[static_cast<std::size_t>(rigid)].rest;
+    };
+    const Probe& given = probe.given;
+    const int proximal = bone_of(given.proximal), distal = bone_of(given.distal);
+    probe.proximal =
+        proximal_frame(given.proximal, given.is_right, proximal, rest_of(proximal), given.where);
+    probe.distal = distal_frame(given.distal, given.is_right, distal, rest_of(distal), given.where);
+  }
+
+  void make_probes() {
+    for (const Probe& probe : scenario().probes) {
+      ProbeModel p;
+      p.given = probe;
+      if (probe.kind == Probe::Kind::Point) p.point = resolve(probe.anchor);
+      if (!probe.body.empty()) p.body = body_index(probe.body);
+      if (!probe.other.empty()) p.other = body_index(probe.other);
+      if (probe.kind == Probe::Kind::Attachment) check_tied(p);
+      if (probe.region) p.faces = faces_in(probe, p.body);
+      if (probe.kind == Probe::Kind::Joint) make_joint(p);
+      p.part = probes_called(probe.part);
+      p.whole = probes_called(probe.whole);
+      if (probe.kind == Probe::Kind::Line)
+        for (std::size_t l = 0; l < model_.lines.size(); ++l)
+          if (model_.lines[l].name == probe.line) p.line = static_cast<int>(l);
+      model_.probes.push_back(std::move(p));
+    }
+  }
+
+  Model model_;
+  std::vector<BodyGeometry> geometry_;       // one a body
+  std::vector<collision::Surface> surface_;  // one a tissue
+  mutable Positions free_start_;             // of the free tissue nodes, by block
+};
+
+}  // namespace
+
+Model build_model(Scenario scenario) { return Builder(std::move(scenario)).build(); }
+
+}  // namespace articular::sim

@@ -1,0 +1,138 @@
+#include "sim/build/contact_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "sim/gap/sample_points.hpp"
+#include "sim/model/tissue.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Contact stiffness of a side is this times constrained modulus / element height. From a thousand
+/// on forces of averaged depths no longer depend on it. Statics ends there and begins softer: from
+/// afar a stiff iteration is thrown back and forth. In time, where that ends by how far things
+/// still move, it takes the accurate preset's tolerance: what is left of motion is noise of the
+/// forces; by other tolerances a tenth of it is enough. Explicit steps are as long as the stiffness
+/// lets them. Two bones, which give way nowhere, have nothing of it.
+constexpr double kSoftFactor = 10, kFirmFactor = 100, kStiffFactor = 1000;
+
+double stiffness_factor(const Scenario& scenario, bool averaged) {
+  if (scenario.analysis == Scenario::Analysis::Static) return kStiffFactor;
+  if (!averaged) return kSoftFactor;
+  if (scenario.accuracy == Scenario::Accuracy::Accurate) return kStiffFactor;
+  const bool is_explicit = scenario.integrator.scheme == Integrator::Scheme::Explicit;
+  return is_explicit ? kSoftFactor : kFirmFactor;
+}
+
+/// Of the elements at the surface: what friction at 0.7 of its limit creeps in the whole scene.
+constexpr double kCreep = 0.05;
+
+/// Of the elements at the surface.
+constexpr double kMaxPenetration = 0.01;
+
+double mean_face_area(const Collider& collider) {
+  return std::accumulate(collider.face_area.begin(), collider.face_area.end(), 0.0) /
+         static_cast<double>(std::max<std::size_t>(1, collider.face_area.size()));
+}
+
+/// Whose triangles look for the other's faces, and at whose nodes depths are averaged: of tissue
+/// where it meets bone, of the softer or, much alike, the finer of two tissues, of the finer of two
+/// bones. Both sides at once would hold the bodies apart at more nodes than the coarser one has to
+/// give way with, and cost twice as much.
+bool is_nonmortar(const Model& model, int a, int b, const Collider& A, const Collider& B) {
+  constexpr double kMuchSofter = 3;
+  const auto modulus = [&](int body) {
+    return constrained_modulus(*model.scenario.bodies[static_cast<std::size_t>(body)].material);
+  };
+  const bool soft_a = model.bodies[static_cast<std::size_t>(a)].tissue >= 0;
+  const bool soft_b = model.bodies[static_cast<std::size_t>(b)].tissue >= 0;
+  if (soft_a != soft_b) return soft_a;
+  if (soft_a && modulus(a) > kMuchSofter * modulus(b)) return false;
+  if (soft_a && modulus(b) > kMuchSofter * modulus(a)) return true;
+  return mean_face_area(A) <= mean_face_area(B);
+}
+
+void add_contact(int a, int b, const ContactPair& pair, Model& model) {
+  const auto& A = model.bodies[static_cast<std::size_t>(a)].collider;
+  const auto& B = model.bodies[static_cast<std::size_t>(b)].collider;
+  if (!A || !B) return;
+  ContactModel contact;
+  contact.a = a;
+  contact.b = b;
+  const bool is_static = model.scenario.analysis == Scenario::Analysis::Static;
+  const Scenario::Response response = model.scenario.contact_response;
+  // In time two bones count depths point by point: there is no tissue whose facets averages let
+  // give way, and where edges slip off each other stiff contact would make energy.
+  const bool has_tissue = model.bodies[static_cast<std::size_t>(a)].tissue >= 0 ||
+                          model.bodies[static_cast<std::size_t>(b)].tissue >= 0;
+  contact.averaged = is_static || (has_tissue && response == Scenario::Response::Averaged);
+  if (!is_static && response == Scenario::Response::Sampled) contact.samples = triangle_samples();
+  contact.share = a == b ? 0.5 : 1;
+  const double factor = stiffness_factor(model.scenario, contact.averaged);
+  const double layers = A->layer_compliance + B->layer_compliance;
+  contact.mean_stiffness =
+      pair.stiffness.value_or(1 / ((A->mean_compliance + B->mean_compliance) / factor + layers));
+  contact.max_penetration =
+      pair.max_penetration.value_or(kMaxPenetration * std::min(A->size, B->size));
+  // The depth of a layer is its own compression.
+  contact.is_bounded = layers == 0 && (is_static || pair.max_penetration);
+  const auto of_groups = [&](const Collider& side, const Collider& other, double c) {
+    if (pair.stiffness || !contact.averaged)
+      return Eigen::VectorXd::Constant(std::ssize(side.group_node),
+                                       contact.share * contact.mean_stiffness)
+          .eval();
+    const Eigen::ArrayXd compliance = side.compliance(side.group_node);
+    return (contact.share / ((compliance + other.mean_compliance) / c + layers)).matrix().eval();
+  };
+  contact.reversed = a != b && !is_nonmortar(model, a, b, *A, *B);
+  const Collider& nonmortar = contact.reversed ? *B : *A;
+  const Collider& other = contact.reversed ? *A : *B;
+  contact.stiffness = of_groups(nonmortar, other, factor);
+  contact.soft = of_groups(nonmortar, other, kSoftFactor);
+  contact.law.friction = pair.friction;
+  contact.law.damping = contact.share * pair.damping;
+  contact.law.slip_velocity =
+      pair.slip_velocity.value_or(kCreep * std::min(A->size, B->size) / model.scenario.duration);
+  model.contacts.push_back(std::move(contact));
+}
+
+}  // namespace
+
+void make_contacts(Model& model) {
+  if (!model.scenario.contact) return;
+  for (const ContactPair& pair : model.scenario.contacts) {
+    const int a = body_index(model.scenario, pair.a), b = body_index(model.scenario, pair.b);
+    for (const int body : {a, b})
+      if (!model.bodies[static_cast<std::size_t>(body)].collider)
+        throw InputError(pair.where,
+                         fmt::format("body `{}` has nothing to touch with: it needs a mesh and "
+                                     "must not have collides = false",
+                                     model.bodies[static_cast<std::size_t>(body)].name));
+    add_contact(a, b, pair, model);
+  }
+  if (!model.scenario.contacts.empty()) return;
+  const auto n = static_cast<int>(model.bodies.size());
+  for (int a = 0; a < n; ++a)
+    for (int b = a + 1; b < n; ++b) {
+      const auto fixed = [&](int body) {
+        return model.bodies[static_cast<std::size_t>(body)].kind == Body::Kind::Fixed;
+      };
+      if (!(fixed(a) && fixed(b))) add_contact(a, b, ContactPair{}, model);
+    }
+}
+
+double detection_margin(const Model& model) {
+  constexpr double kMarginOfElement = 0.1;
+  if (model.scenario.detection.margin) return *model.scenario.detection.margin;
+  double least = std::numeric_limits<double>::infinity();
+  for (const BodyModel& body : model.bodies)
+    if (body.collider) least = std::min(least, body.collider->size);
+  return std::isfinite(least) ? kMarginOfElement * least : 0;
+}
+
+}  // namespace articular::sim

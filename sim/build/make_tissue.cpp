@@ -1,0 +1,120 @@
+#include "sim/build/make_tissue.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "fem/element/elasticity.hpp"
+#include "fem/element/smoothed_elasticity.hpp"
+#include "fem/material/any_material.hpp"
+#include "fem/material/point_law.hpp"
+#include "fem/material/viscosity.hpp"
+#include "fem/mesh/fibre_field.hpp"
+#include "sim/build/region.hpp"
+
+namespace articular::sim {
+namespace {
+
+using collision::Surface;
+
+std::vector<int> nodes_in(const Region& region, const Model& model,
+                          const std::vector<BodyGeometry>& geometry, const Surface& surface,
+                          const Positions& X) {
+  std::vector<bool> on_surface(static_cast<std::size_t>(X.cols()), false);
+  for (const int node : surface.faces.reshaped()) on_surface[static_cast<std::size_t>(node)] = true;
+  const RegionTest test(region, model, geometry);
+  std::vector<int> nodes;
+  for (int i = 0; i < X.cols(); ++i)
+    if (test.contains(X.col(i), on_surface[static_cast<std::size_t>(i)])) nodes.push_back(i);
+  return nodes;
+}
+
+FibreDirections fibres_of_array(const Body& body, const MeshData& mesh) {
+  const std::string& name = *body.material->fibres->array;
+  for (const auto& [array, directions] : mesh.cell_vectors)
+    if (array == name)
+      return fem::normalized_fibres(rotation_matrix(body.mesh->placement.rotation) * directions);
+  std::string names;
+  for (const auto& [array, directions] : mesh.cell_vectors)
+    names += (names.empty() ? "" : ", ") + array;
+  throw std::invalid_argument(
+      fmt::format("its mesh has no cell array `{}` with three components{}", name,
+                  names.empty() ? " (none at all: expected a .vtu or .vtk file with one)"
+                                : fmt::format("; it has {}", names)));
+}
+
+FibreDirections make_fibres(const Model& model, const std::vector<BodyGeometry>& geometry,
+                            const Surface& surface, std::size_t b) {
+  const Body& body = model.scenario.bodies[b];
+  const MeshData& mesh = geometry[b].mesh;
+  const Fibres& fibres = *body.material->fibres;
+  if (fibres.direction) return fem::constant_fibres(*fibres.direction, mesh.tets.cols());
+  if (fibres.array) return fibres_of_array(body, mesh);
+  const auto from = nodes_in(fibres.between->first, model, geometry, surface, mesh.X);
+  const auto to = nodes_in(fibres.between->second, model, geometry, surface, mesh.X);
+  if (from.empty() || to.empty())
+    throw std::invalid_argument(
+        fmt::format("the region {} holds no node", from.empty() ? "`from`" : "`to`"));
+  return fem::harmonic_fibres(mesh.X, mesh.tets, from, to);
+}
+
+TissueElements make_elements(const TissueMaterial& material, const MeshData& mesh,
+                             const FibreDirections& fibres, int threads) {
+  if (material.element == TissueMaterial::Element::Smoothed)
+    return TissueElements(fem::SmoothedElasticity(mesh.X, mesh.tets, *material.law, {}, fibres));
+  return TissueElements(
+      fem::Elasticity(mesh.X, mesh.tets, *material.law, fibres, {.threads = threads}));
+}
+
+/// Bulk and shear modulus at small strain.
+std::pair<double, double> moduli(const fem::AnyMaterial& law) {
+  return {fem::bulk_modulus(law), fem::shear_modulus(law)};
+}
+
+}  // namespace
+
+Tissue make_tissue(const Model& model, const std::vector<BodyGeometry>& geometry,
+                   const Surface& surface, int index) {
+  const auto b = static_cast<std::size_t>(index);
+  const Body& body = model.scenario.bodies[b];
+  const TissueMaterial& material = *body.material;
+  const MeshData& mesh = geometry[b].mesh;
+  FibreDirections fibres;
+  try {
+    if (material.fibres) fibres = make_fibres(model, geometry, surface, b);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(material.fibres->where, fmt::format("fibres of tissue `{}`{}: {}", body.name,
+                                                         mesh_name(body), error.what()));
+  }
+  try {
+    Tissue tissue{.body = index,
+                  .elements = make_elements(material, mesh, fibres, model.scenario.threads),
+                  .dashpots = {},
+                  .relaxation = {},
+                  .lumped_mass = fem::lumped_mass(mesh.X, mesh.tets, *body.density),
+                  .mass_damping = material.mass_damping,
+                  .nodes = {},
+                  .X = mesh.X,
+                  .fibres = fibres};
+    tissue.nodes.resize(static_cast<std::size_t>(mesh.X.cols()));
+    if (material.stiffness_damping > 0) {
+      const auto [kappa, mu] = moduli(*material.law);
+      tissue.dashpots.emplace(mesh.X, mesh.tets,
+                              fem::stiffness_damping(material.stiffness_damping, mu, kappa),
+                              tissue.elements.make_plain_matrix());
+    }
+    if (!material.relaxation.empty())
+      tissue.relaxation.emplace(material.relaxation, *material.law,
+                                tissue.elements.distortion_points(mesh.X),
+                                tissue.elements.make_matrix());
+    return tissue;
+  } catch (const std::invalid_argument& error) {
+    throw InputError(body.mesh ? body.mesh->where : body.where,
+                     fmt::format("tissue `{}`{}: {}", body.name, mesh_name(body), error.what()));
+  }
+}
+
+}  // namespace articular::sim

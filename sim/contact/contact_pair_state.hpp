@@ -1,0 +1,88 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "sim/contact/contact_friction.hpp"
+#include "sim/gap/contact_patch.hpp"
+#include "sim/model/configuration.hpp"
+
+/// A contact pair as it stands: the patches of one side's triangles opposite the other side's
+/// faces, and what they sum to at the nodes of those triangles: where a node has several smooth
+/// groups around it, at each (smoothing_groups.hpp).
+namespace articular::sim {
+
+struct ContactPairState {
+  struct Patch {
+    ContactPatch patch;
+    int triangle = 0, face = 0;
+    Vec3 measure_slope = Vec3::Zero();  // ∂A_a/∂W_a of the triangle's nodes; pointwise: 0
+  };
+  int contact = 0;            // index into Model::contacts
+  std::vector<Patch> stored;  // never shrinks: the patches are the first ones
+  std::size_t num_patches = 0;
+  std::span<const Patch> patches() const { return {stored.data(), num_patches}; }
+  // By smoothing group of the side whose triangles these are; zero where it meets nothing:
+  Eigen::VectorXd area;                              // W [m²]
+  Eigen::VectorXd measure;                           // A [m²]
+  Eigen::VectorXd depth;                             // g [m]
+  Eigen::VectorXd pressure;                          // p [Pa], with that of damping
+  Eigen::VectorXd multiplier;                        // λ [Pa]; empty: none
+  std::vector<int> groups;                           // that have an area
+  const Eigen::VectorXd* model_stiffness = nullptr;  // of the groups [Pa/m]
+  double stiffening = 1;
+  double stiffness(int group) const { return (*model_stiffness)[group] * stiffening; }  // k [Pa/m]
+  /// <λ + k g> [Pa]: the pressure without that of damping.
+  double penalty(int group) const {
+    const double lambda = multiplier.size() > 0 ? multiplier[group] : 0;
+    return std::max(0.0, lambda + stiffness(group) * depth[group]);
+  }
+  /// Where depths are not averaged, k of each point [Pa/m]; then g and p above are but means.
+  double point_stiffness = 0;
+  std::vector<NodalDrag> drag;  // empty: neither friction nor damping
+  Positions friction_dual;      // g by smoothing group, see contact_friction.hpp; empty: none
+};
+
+/// The side whose triangles look for faces, and the side whose faces they meet.
+struct ContactSides {
+  const Collider& triangles;
+  const Collider& faces;
+  int triangle_body, face_body;
+  bool is_self() const { return triangle_body == face_body; }
+};
+ContactSides sides_of(const Model& model, int contact);
+ContactSides sides_of(const Model& model, const ContactPairState& pair_state);
+
+/// Whether there is pressure at a corner of the triangle.
+/// @param groups  of the triangles' side, here and below
+bool carries(const ContactPairState& pair_state, int triangle, const Eigen::Matrix3Xi& groups);
+
+/// The six nodes of a patch: the triangle's, then the face's.
+std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider& faces,
+                                       int triangle, int face);
+
+/// The corners of a face where they are now [m], one a column.
+Mat3 corners_of(const Configuration& configuration, const Collider& collider, int face);
+
+/// Pressures at the nodes of a patch's triangle [Pa].
+Vec3 nodal_pressures(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
+                     const Eigen::Matrix3Xi& groups);
+
+/// A patch's part of Σ p_a A_a δg_a, A_a δg_a = δG_a − g_a δA_a, for p at the nodes of its
+/// triangle.
+PatchSum mean_depths(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
+                     const Eigen::Matrix3Xi& groups, const Vec3& p);
+/// That of the energy's change; an average's is E_a = A_a p_a²/2k_a with p_a = λ_a + k_a g_a.
+PatchSum energy_sum(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
+                    const Eigen::Matrix3Xi& groups);
+/// The same with the pressure of damping.
+PatchSum pressure_sum(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
+                      const Eigen::Matrix3Xi& groups);
+
+/// Forces on a patch's six nodes [N].
+Vec18 forces_on_nodes(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
+                      const Eigen::Matrix3Xi& groups);
+
+}  // namespace articular::sim

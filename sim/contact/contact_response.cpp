@@ -1,0 +1,247 @@
+#include "sim/contact/contact_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace articular::sim {
+
+ContactResponse::ContactResponse(const Model& model)
+    : model_(model), of_contact_(model.contacts.size(), nullptr) {}
+
+ContactPairState& ContactResponse::pair_state_of(const CandidateList& list) {
+  ContactPairState*& known = of_contact_[static_cast<std::size_t>(list.contact)];
+  if (known != nullptr) return *known;
+  ContactPairState& pair_state = pair_states_.emplace_back();
+  pair_state.contact = list.contact;
+  const Eigen::Index num_sheets = std::ssize(sides_of(model_, pair_state).triangles.group_node);
+  for (Eigen::VectorXd* values :
+       {&pair_state.area, &pair_state.measure, &pair_state.depth, &pair_state.pressure})
+    values->setZero(num_sheets);
+  known = &pair_state;
+  return pair_state;
+}
+
+void ContactResponse::clear(ContactPairState& pair_state) const {
+  for (Eigen::VectorXd* values :
+       {&pair_state.area, &pair_state.measure, &pair_state.depth, &pair_state.pressure})
+    for (const int group : pair_state.groups) (*values)[group] = 0;
+  pair_state.groups.clear();
+  pair_state.drag.clear();
+  pair_state.num_patches = 0;
+}
+
+void ContactResponse::evaluate(const Configuration& configuration,
+                               std::span<const CandidateList> candidates) {
+  near_.clear();
+  for (const CandidateList& list : candidates) {
+    ContactPairState& pair_state = pair_state_of(list);
+    near_.push_back(&pair_state);
+    clear(pair_state);
+    find_patches(list, configuration, pair_state);
+    find_pressures(configuration, pair_state);
+  }
+}
+
+void ContactResponse::find_pressures(const Configuration& configuration,
+                                     ContactPairState& pair_state) {
+  ++evaluations_[Term::ContactForce];
+  const auto c = static_cast<std::size_t>(pair_state.contact);
+  const ContactModel& contact = model_.contacts[c];
+  pair_state.model_stiffness = soft_ ? &contact.soft : &contact.stiffness;
+  pair_state.stiffening = stiffening_.size() > 0 ? stiffening_[static_cast<Eigen::Index>(c)] : 1;
+  pair_state.point_stiffness = contact.averaged ? 0 : pair_state.stiffness(0);
+  for (const int group : pair_state.groups) {
+    pair_state.depth[group] /= pair_state.measure[group];
+    pair_state.pressure[group] = pair_state.penalty(group);
+  }
+  if (!contact.law.acts()) return;
+  const ContactSides side = sides_of(model_, pair_state);
+  find_drag(contact.law, side.triangles, side.faces, configuration, pair_state);
+  if (contact.law.friction > 0) ++evaluations_[Term::Friction];
+  if (contact.law.damping > 0) ++evaluations_[Term::ContactDamping];
+}
+
+bool ContactResponse::augment() {
+  bool any = false;
+  for (ContactPairState* const near : near_) {
+    ContactPairState& pair_state = *near;
+    const ContactModel& contact = model_.contacts[static_cast<std::size_t>(pair_state.contact)];
+    if (!contact.is_bounded || !contact.averaged) continue;
+    const bool exceeds =
+        std::any_of(pair_state.groups.begin(), pair_state.groups.end(), [&](int group) {
+          return pair_state.pressure[group] > 0 &&
+                 pair_state.depth[group] > contact.max_penetration;
+        });
+    if (!exceeds) continue;
+    pair_state.multiplier = pair_state.pressure;
+    any = true;
+  }
+  return any;
+}
+
+void ContactResponse::drop_multipliers() {
+  for (ContactPairState& pair_state : pair_states_) pair_state.multiplier.resize(0);
+}
+
+const FlatTriangle& ContactResponse::face_now(const Configuration& configuration,
+                                              const Collider& faces, int face) {
+  const auto f = static_cast<std::size_t>(face);
+  if (met_[f] != now_) {
+    met_[f] = now_;
+    faces_[f] = flat_triangle(corners_of(configuration, faces, face));
+    faces_[f].rims = faces.rims[f];
+    faces_[f].rim_height = faces.rim_height.col(face);
+  }
+  return faces_[f];
+}
+
+namespace {
+
+/// A triangle's patches. Where faces stand oblique to it their weights differ, and beside rims the
+/// depths: no face takes over from the next what an edge sweeps. Nor, in the tangent, at the corner
+/// where such an edge meets an end.
+void end_at_edges(std::span<ContactPairState::Patch> patches) {
+  if (std::none_of(patches.begin(), patches.end(), [](const ContactPairState::Patch& entry) {
+        return entry.patch.turning != 0 || entry.patch.nearest != ContactPatch::kFace ||
+               has_end(entry.patch);
+      }))
+    return;
+  for (ContactPairState::Patch& entry : patches)
+    for (int k = 0; k < entry.patch.num_edges; ++k)
+      entry.patch.edge[static_cast<std::size_t>(k)].is_end = true;
+}
+
+}  // namespace
+
+/// Patches of a contact pair, and what they sum to at groups: W, A and (in place of g) G.
+void ContactResponse::find_patches(const CandidateList& list, const Configuration& configuration,
+                                   ContactPairState& pair_state) {
+  const ContactSides side = sides_of(model_, pair_state);
+  pair_state.num_patches = 0;
+  ++now_;
+  if (faces_.size() < side.faces.face_area.size()) {
+    faces_.resize(side.faces.face_area.size());
+    met_.resize(side.faces.face_area.size(), 0);
+  }
+  const auto contact = static_cast<std::size_t>(pair_state.contact);
+  const bool averaged = model_.contacts[contact].averaged;
+  const std::span<const SamplePoint> samples = model_.contacts[contact].samples;
+  DepthRange range = depth_range(side.triangles, side.faces, averaged);
+  if (!allowances_.empty()) range.allowance = allowances_[contact];
+  const std::vector<ContactCandidate>& pairs = list.pairs;
+  for (std::size_t first = 0; first < pairs.size();) {  // they come sorted by triangle
+    const int triangle = pairs[first].triangle;
+    const FlatTriangle s = flat_triangle(corners_of(configuration, side.triangles, triangle));
+    const double rest_area = side.triangles.face_area[static_cast<std::size_t>(triangle)];
+    Vec3 covered = Vec3::Zero(), integrals = Vec3::Zero();
+    const std::size_t first_patch = pair_state.num_patches;
+    for (; first < pairs.size() && pairs[first].triangle == triangle; ++first) {
+      const int face = pairs[first].face;
+      range.reach = pairs[first].reach;
+      const FlatTriangle& f = face_now(configuration, side.faces, face);
+      for (int nearest = 0; nearest <= ContactPatch::kFace; ++nearest) {
+        if (pair_state.num_patches == pair_state.stored.size()) pair_state.stored.emplace_back();
+        ContactPairState::Patch& entry = pair_state.stored[pair_state.num_patches];
+        if (!contact_patch(s, f, rest_area, range, entry.patch, samples, nearest)) continue;
+        ++pair_state.num_patches;
+        entry.triangle = triangle;
+        entry.face = face;
+        covered += nodal_areas(entry.patch);
+        integrals += depth_integrals(entry.patch);
+      }
+    }
+    Vec3 measure_slope = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+      if (!(covered[i] > 0)) continue;
+      const int group = side.triangles.groups(i, triangle);
+      if (pair_state.measure[group] == 0) pair_state.groups.push_back(group);
+      const double measure = averaged ? std::sqrt(covered[i] * rest_area / 3) : covered[i];
+      if (averaged) measure_slope[i] = 0.5 * measure / covered[i];
+      pair_state.measure[group] += measure;
+      pair_state.area[group] += covered[i];
+      pair_state.depth[group] += integrals[i];
+    }
+    const std::span<ContactPairState::Patch> of_triangle(pair_state.stored.data() + first_patch,
+                                                         pair_state.num_patches - first_patch);
+    for (ContactPairState::Patch& entry : of_triangle) entry.measure_slope = measure_slope;
+    end_at_edges(of_triangle);
+  }
+}
+
+void ContactResponse::add_force(const Configuration& configuration, Eigen::VectorXd& f) {
+  force_on_bodies_.assign(model_.bodies.size(), 0);
+  for (const ContactPairState* pair_state : near_) {
+    const ContactSides side = sides_of(model_, *pair_state);
+    const auto& groups = side.triangles.groups;
+    Vec3 on_triangles = Vec3::Zero();
+    for (const ContactPairState::Patch& entry : pair_state->patches()) {
+      if (!carries(*pair_state, entry.triangle, groups)) continue;
+      const Vec18 forces = forces_on_nodes(*pair_state, entry, groups);
+      const auto nodes = nodes_of(side.triangles, side.faces, entry.triangle, entry.face);
+      for (std::size_t i = 0; i < 6; ++i)
+        sim::add_force(configuration, *nodes[i],
+                       forces.segment<3>(3 * static_cast<Eigen::Index>(i)), f);
+      on_triangles += forces.segment<3>(0) + forces.segment<3>(3) + forces.segment<3>(6);
+    }
+    if (side.is_self()) continue;
+    for (const int body : {side.triangle_body, side.face_body})
+      force_on_bodies_[static_cast<std::size_t>(body)] += on_triangles.norm();
+  }
+}
+
+bool ContactResponse::has_patches() const {
+  return std::any_of(near_.begin(), near_.end(), [](const ContactPairState* pair_state) {
+    return pair_state->num_patches > 0;
+  });
+}
+
+std::vector<double> ContactResponse::point_depths() const {
+  std::vector<double> deepest(model_.contacts.size(), 0);
+  for (const ContactPairState* pair_state : near_) {
+    double& depth = deepest[static_cast<std::size_t>(pair_state->contact)];
+    for (const ContactPairState::Patch& entry : pair_state->patches())
+      depth = std::max(depth, entry.patch.depth_max);
+  }
+  return deepest;
+}
+
+double ContactResponse::largest_force() const {
+  double largest = 0;
+  for (const ContactPairState* pair_state : near_)
+    for (const int group : pair_state->groups)
+      largest = std::max(largest, pair_state->pressure[group] * pair_state->area[group]);
+  return largest;
+}
+
+void ContactResponse::add_damping_product(const Configuration& configuration,
+                                          const Eigen::VectorXd& u, double scale,
+                                          Eigen::VectorXd& f) const {
+  for (const ContactPairState* pair_state : near_) {
+    if (pair_state->drag.empty()) continue;
+    const ContactSides side = sides_of(model_, *pair_state);
+    add_drag_product(*pair_state, side.triangles, side.faces, configuration, u, scale, f);
+  }
+}
+
+void ContactResponse::update_friction_duals(const Configuration& configuration,
+                                            const Eigen::VectorXd& change) {
+  for (ContactPairState* const near : near_) {
+    const ContactModel& contact = model_.contacts[static_cast<std::size_t>(near->contact)];
+    if (!(contact.law.friction > 0)) continue;
+    const ContactSides side = sides_of(model_, *near);
+    sim::update_friction_duals(contact.law, side.triangles, side.faces, configuration, change,
+                               *near);
+  }
+}
+
+void ContactResponse::drop_friction_duals() {
+  for (ContactPairState& pair_state : pair_states_) pair_state.friction_dual.resize(3, 0);
+}
+
+double ContactResponse::damping_power() const {
+  double power = 0;
+  for (const ContactPairState* pair_state : near_) power += drag_power(*pair_state);
+  return power;
+}
+
+}  // namespace articular::sim

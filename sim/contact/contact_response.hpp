@@ -1,0 +1,112 @@
+#pragma once
+
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "sim/contact/contact_pair_state.hpp"
+#include "sim/contact/contact_search.hpp"
+
+/// The penalty response on contact candidates: patches of a side's triangles opposite the other
+/// side's faces (contact_patch.hpp) make an energy of their depths.
+///
+/// Averaged (in statics, or where the scenario asks for it) depths count at the nodes a of one
+/// side,
+///
+///   g_a = G_a / A_a,   E = ½ Σ k_a A_a <g_a>²,   p_a = k_a <g_a>,
+///
+/// G_a summed over the patches around a, A_a = Σ √(W_a T/3) over the triangles (area T) there: the
+/// node's share of them where they are covered; a covered sliver counts little. A node between
+/// creases has several a, one for each smoothing group around it (smoothing_groups.hpp). A mean
+/// depth lets a faceted soft surface rest on a round bone where a pointwise one would carry on a
+/// few spots only, so that k may be large: a mortar method whose multipliers p_a the penalty gives
+/// [Puso 2004].
+///
+/// Where a g_a exceeds the contact's max_penetration all the same, multipliers λ_a take over what
+/// the penalty carried, p_a = <λ_a + k_a g_a> (augment(): Uzawa's method).
+///
+/// Else they count point by point, E = ½ k ∫ <d>² dA, on one side's triangles: everywhere, or at
+/// sample points that stand for the integral. In time, where a mean depth at a node exceeds a bound
+/// that the scenario sets, k is raised (set_stiffening()).
+///
+/// [Puso 2004] Puso, Laursen. A mortar segment-to-segment contact method for large deformation
+/// solid mechanics. Comput Methods Appl Mech Eng 193:601.
+namespace articular::sim {
+
+class ContactResponse {
+ public:
+  explicit ContactResponse(const Model& model);
+  ContactResponse(const ContactResponse&) = delete;
+  ContactResponse& operator=(const ContactResponse&) = delete;
+  /// From the next evaluate() on, with the soft stiffness of the ContactModel.
+  void set_soft(bool soft) { soft_ = soft; }
+  /// From the next evaluate() on, k of each contact is that of the model times these; empty: 1.
+  void set_stiffening(const Eigen::VectorXd& factors) { stiffening_ = factors; }
+  /// Where averaged depths exceed a bounded contact's max_penetration: from the next evaluate() on,
+  /// λ = p. @return whether any does
+  bool augment();
+  /// From the next evaluate() on, λ = 0.
+  void drop_multipliers();
+  /// From the next evaluate() on, the friction duals of friction are those after a change of the
+  /// blocks' velocities.
+  void update_friction_duals(const Configuration& configuration, const Eigen::VectorXd& change);
+  /// From the next evaluate() on, there are none.
+  void drop_friction_duals();
+  /// From the next evaluate() on, this part of each contact's depth is allowed [m]; empty: none.
+  void set_allowances(std::vector<double> allowances) { allowances_ = std::move(allowances); }
+
+  /// Depths and pressures of the candidates in a configuration; what follows is about it.
+  void evaluate(const Configuration& configuration, std::span<const CandidateList> candidates);
+
+  /// Those that have candidates, in the order of the contacts.
+  std::span<const ContactPairState* const> pair_states() const { return near_; }
+
+  /// f += contact forces (block forces).
+  void add_force(const Configuration& configuration, Eigen::VectorXd& f);
+  /// f += scale D u for block velocities u, with the D of friction and damping.
+  void add_damping_product(const Configuration& configuration, const Eigen::VectorXd& u,
+                           double scale, Eigen::VectorXd& f) const;
+  /// What friction and damping lose [W].
+  double damping_power() const;
+
+  /// Of what acts between surfaces.
+  const EvaluationCounts& evaluations() const { return evaluations_; }
+
+  /// Something lies opposite a face within the depths that count.
+  bool has_patches() const;
+  /// By contact: how far any point of one body is behind a face of the other [m], whether or not
+  /// the mean around a node is; 0 where none is.
+  std::vector<double> point_depths() const;
+  /// On one node [N]: what a residual is small against.
+  double largest_force() const;
+  /// By body [N]: the sizes of the forces from others, one a pair and side, of the last
+  /// add_force().
+  const std::vector<double>& force_on_bodies() const { return force_on_bodies_; }
+
+ private:
+  ContactPairState& pair_state_of(const CandidateList& list);
+  /// Sets what belongs to the last configuration to nothing.
+  void clear(ContactPairState& pair_state) const;
+  void find_patches(const CandidateList& list, const Configuration& configuration,
+                    ContactPairState& pair_state);
+  void find_pressures(const Configuration& configuration, ContactPairState& pair_state);
+  const FlatTriangle& face_now(const Configuration& configuration, const Collider& faces, int face);
+
+  const Model& model_;
+  bool soft_ = false;
+  std::vector<double> allowances_;
+  Eigen::VectorXd stiffening_;
+  std::deque<ContactPairState> pair_states_;   // all that have had candidates so far
+  std::vector<ContactPairState*> of_contact_;  // by contact; none yet: null
+  std::vector<ContactPairState*> near_;        // those that have some now
+
+  std::vector<double> force_on_bodies_;
+  EvaluationCounts evaluations_;
+
+  // Scratch of find_patches: the faces met so far.
+  std::vector<FlatTriangle> faces_;
+  std::vector<int> met_;  // by face: when it was computed last
+  int now_ = 0;
+};
+
+}  // namespace articular::sim

@@ -1,0 +1,319 @@
+#include "sim/contact/contact_search.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <tuple>
+
+namespace articular::sim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Or, not yet, but it may turn until the step's end.
+bool may_face(const FaceBounds& s, const FaceBounds& face) {
+  return s.normal.dot(face.normal) <= -0.5 * kFacingNone;
+}
+
+/// A triangle and a face that move with the same bone, or share a node, do not touch: tissue tied
+/// to a bone, or neighbours in one tissue.
+bool tied(const Collider& a, int triangle, const Collider& b, int face) {
+  for (const int i : a.surface.faces.col(triangle))
+    for (const int j : b.surface.faces.col(face)) {
+      const NodeRef &p = a.nodes[static_cast<std::size_t>(i)],
+                    &q = b.nodes[static_cast<std::size_t>(j)];
+      if (p.rigid == q.rigid && (p.rigid >= 0 || p.block == q.block)) return true;
+    }
+  return false;
+}
+
+/// Keeps the candidates whose face itself meets the triangle's body. A triangle that passes the
+/// edge of a body also faces that body's far side, which it can't have come through: that side is
+/// outside.
+void drop_far_faces(const std::vector<collision::Penetration>& faces_in_triangles_body,
+                    std::size_t num_faces, std::vector<ContactCandidate>& pairs) {
+  if (pairs.empty()) return;
+  std::vector<char> meets(num_faces, 0);
+  for (const collision::Penetration& p : faces_in_triangles_body)
+    meets[static_cast<std::size_t>(p.face)] = 1;
+  std::erase_if(pairs, [&](const ContactCandidate& candidate) {
+    return meets[static_cast<std::size_t>(candidate.face)] == 0;
+  });
+}
+
+std::vector<ContactCandidate> swapped(std::vector<ContactCandidate> pairs) {
+  for (ContactCandidate& pair : pairs) std::swap(pair.triangle, pair.face);
+  return pairs;
+}
+
+/// More candidates, sorted by triangle as the response takes them; of a pair that was found twice
+/// the one that reaches deeper.
+void merge(const std::vector<ContactCandidate>& more, std::vector<ContactCandidate>& pairs) {
+  if (more.empty()) return;
+  pairs.insert(pairs.end(), more.begin(), more.end());
+  std::sort(pairs.begin(), pairs.end(), [](const ContactCandidate& p, const ContactCandidate& q) {
+    return std::tuple(p.triangle, p.face, -p.reach) < std::tuple(q.triangle, q.face, -q.reach);
+  });
+  const auto same = [](const ContactCandidate& p, const ContactCandidate& q) {
+    return p.triangle == q.triangle && p.face == q.face;
+  };
+  pairs.erase(std::unique(pairs.begin(), pairs.end(), same), pairs.end());
+}
+
+}  // namespace
+
+DepthRange depth_range(const Collider& triangles, const Collider& faces, bool averaged) {
+  return {averaged ? triangles.open_depth : 0, std::min(2 * triangles.reach, faces.reach)};
+}
+
+ContactSearch::ContactSearch(const Model& model) : model_(model) {
+  options_.narrow = model.scenario.detection.narrow_test;
+  options_.threads = model.scenario.threads;
+  std::vector<int> moving_of_body(model.bodies.size(), -1);
+  const auto moving_of = [&](int body) {
+    int& index = moving_of_body[static_cast<std::size_t>(body)];
+    if (index >= 0) return index;
+    index = static_cast<int>(moving_.size());
+    const Collider& collider = *model.bodies[static_cast<std::size_t>(body)].collider;
+    Moving moving;
+    moving.body = body;
+    moving.tree =
+        std::make_unique<collision::BlockTree>(collider.tets, collider.surface, collider.X);
+    moving_.push_back(std::move(moving));
+    seen_.resize(std::max(seen_.size(), collider.face_area.size()));
+    return index;
+  };
+  for (const ContactModel& contact : model.contacts) {
+    pairs_.push_back({moving_of(contact.a), moving_of(contact.b)});
+    if (!contact.averaged) continue;
+    const auto nonmortar = static_cast<std::size_t>(contact.reversed ? contact.b : contact.a);
+    open_depth_ = std::max(open_depth_, model.bodies[nonmortar].collider->open_depth);
+  }
+}
+
+bool ContactSearch::needs_update(const Moving& moving, double margin) const {
+  // Fixed bones are mapped once (for a margin).
+  return moving.tree->num_updates() == 0 || moving.tree->margin() != margin || moves(moving);
+}
+
+bool ContactSearch::moves(const Moving& moving) const {
+  const BodyModel& body = model_.bodies[static_cast<std::size_t>(moving.body)];
+  if (body.rigid < 0) return true;
+  const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(body.rigid)];
+  return rigid.unknown || rigid.motion.has_value();
+}
+
+void ContactSearch::fit(Moving& moving) {
+  if (moving.tree->is_fitted()) return;
+  moving.tree->fit();
+  // Of a fixed body a run that was resumed would count it once more.
+  if (moves(moving)) ++counts_.evaluations[Term::TreeFit];
+  const BodyModel& body = model_.bodies[static_cast<std::size_t>(moving.body)];
+  const Eigen::Matrix3Xi& faces = body.collider->surface.faces;
+  moving.faces.resize(static_cast<std::size_t>(faces.cols()));
+  for (Eigen::Index f = 0; f < faces.cols(); ++f)
+    moving.faces[static_cast<std::size_t>(f)] = face_bounds(moving.x(Eigen::all, faces.col(f)));
+}
+
+void ContactSearch::update(Moving& moving, const Configuration& configuration, double margin) {
+  if (!needs_update(moving, margin)) return;
+  const Collider& collider = *model_.bodies[static_cast<std::size_t>(moving.body)].collider;
+  positions_of(configuration, collider.nodes, moving.x);
+  moving.tree->move(moving.x, margin);
+  ++counts_.tree_updates;
+  ++counts_.evaluations[moves(moving) ? Term::BodyUpdate : Term::FixedBodyUpdate];
+}
+
+void ContactSearch::find(const Configuration& configuration, double margin) {
+  const auto start = Clock::now();
+  margin_ = margin;
+  for (Moving& moving : moving_) update(moving, configuration, margin + open_depth_);
+  counts_.update_seconds += seconds_since(start);
+
+  const auto query_start = Clock::now();
+  collision::BlockQueryCounts query;
+  num_lists_ = 0;
+  for (std::size_t c = 0; c < pairs_.size(); ++c) {
+    Moving &a = moving_[static_cast<std::size_t>(pairs_[c].a)],
+           &b = moving_[static_cast<std::size_t>(pairs_[c].b)];
+    if (&a == &b)
+      search_itself(static_cast<int>(c), a, margin, query);
+    else
+      search(static_cast<int>(c), a, b, margin, query);
+  }
+  counts_.narrow_tests += query.candidates;
+  counts_.reported_pairs += query.pairs;
+  counts_.narrow_seconds += query.narrow_seconds;
+  counts_.traversal_seconds += seconds_since(query_start) - query.narrow_seconds;
+}
+
+/// Stays out of the candidates until num_lists_ counts it.
+CandidateList& ContactSearch::next_list(int contact) {
+  if (num_lists_ == lists_.size()) lists_.emplace_back();
+  CandidateList& list = lists_[num_lists_];
+  list.contact = contact;
+  return list;
+}
+
+void ContactSearch::search_itself(int contact, Moving& a, double margin,
+                                  collision::BlockQueryCounts& query) {
+  fit(a);
+  ++counts_.evaluations[Term::SelfQuery];
+  collision::faces_in_own_body(*a.tree, found_of_a_, query, scratch_, options_);
+  collision::sort_pairs(found_of_a_, *a.tree, *a.tree, sort_scratch_);
+  collect(found_of_a_, found_of_a_, a, a,
+          model_.contacts[static_cast<std::size_t>(contact)].averaged, margin, of_a_);
+  CandidateList& list = next_list(contact);
+  list.pairs = of_a_.near;
+  merge(of_a_.deep, list.pairs);
+  num_lists_ += list.pairs.empty() ? 0 : 1;
+}
+
+void ContactSearch::search(int contact, Moving& a, Moving& b, double margin,
+                           collision::BlockQueryCounts& query) {
+  ++counts_.evaluations[Term::BoxTest];
+  if (!overlap(a.tree->bounds(), b.tree->bounds())) return;
+  fit(a);
+  fit(b);
+  ++counts_.evaluations[Term::PairQuery];
+  collision::faces_in_body(*a.tree, *b.tree, found_of_a_, query, scratch_, options_);
+  collision::faces_in_body(*b.tree, *a.tree, found_of_b_, query, scratch_, options_);
+  collision::sort_pairs(found_of_a_, *a.tree, *b.tree, sort_scratch_);
+  collision::sort_pairs(found_of_b_, *b.tree, *a.tree, sort_scratch_);
+  // In both directions, though one side alone looks for the other: what lies deep shows in either.
+  const ContactModel& pair = model_.contacts[static_cast<std::size_t>(contact)];
+  collect(found_of_a_, found_of_b_, a, b, pair.averaged, margin, of_a_);
+  collect(found_of_b_, found_of_a_, b, a, pair.averaged, margin, of_b_);
+  const Direction &own = pair.reversed ? of_b_ : of_a_, &other = pair.reversed ? of_a_ : of_b_;
+  CandidateList& list = next_list(contact);
+  list.pairs = own.near;
+  merge(own.deep, list.pairs);
+  merge(swapped(other.deep), list.pairs);
+  num_lists_ += list.pairs.empty() ? 0 : 1;
+}
+
+void ContactSearch::collect(const std::vector<collision::Penetration>& found,
+                            const std::vector<collision::Penetration>& reverse, const Moving& a,
+                            const Moving& b, bool averaged, double margin, Direction& direction) {
+  const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
+  const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
+  const DepthRange range = depth_range(A, B, averaged);
+  std::vector<ContactCandidate>& pairs = direction.near;
+  pairs.clear();
+  direction.deep.clear();
+  deep_.clear();
+  std::fill(seen_.begin(), seen_.end(), -1);
+  for (std::size_t first = 0, end = 0; first < found.size(); first = end) {
+    const int triangle = found[first].face;
+    const FaceBounds& s = a.faces[static_cast<std::size_t>(triangle)];
+    bool deep = false;
+    for (end = first; end < found.size() && found[end].face == triangle; ++end) {
+      const auto tetrahedron = static_cast<std::size_t>(found[end].tetrahedron);
+      deep = deep || B.is_inner[tetrahedron] != 0;
+      for (int k = B.nearby_begin[tetrahedron]; k < B.nearby_begin[tetrahedron + 1]; ++k) {
+        const int f = B.nearby[static_cast<std::size_t>(k)];
+        if (seen_[static_cast<std::size_t>(f)] == triangle) continue;
+        seen_[static_cast<std::size_t>(f)] = triangle;
+        const FaceBounds& face = b.faces[static_cast<std::size_t>(f)];
+        if (!may_face(s, face)) continue;
+        const FaceProximity what = face_proximity(s, face, range, margin);
+        deep = deep || what.deeper;
+        if (what.may && !tied(A, triangle, B, f)) pairs.push_back({triangle, f, range.reach});
+      }
+    }
+    if (deep) deep_.push_back({first, end});
+  }
+  drop_far_faces(reverse, B.face_area.size(), pairs);
+  add_deep_pairs(found, a, b, range, margin, direction.deep);
+}
+
+/// For triangles that lie deeper below the other surface than the range reaches: the faces behind
+/// them up to about that depth. Faces farther off are seen from beyond an edge.
+void ContactSearch::add_deep_pairs(const std::vector<collision::Penetration>& found,
+                                   const Moving& a, const Moving& b, const DepthRange& range,
+                                   double margin, std::vector<ContactCandidate>& pairs) {
+  constexpr double kOfDepth = 1.5;  // along a triangle's normal it is farther than straight up
+  const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
+  const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
+  for (const DeepTriangle& deep : deep_) {
+    const int triangle = found[deep.begin].face;
+    const FaceBounds& s = a.faces[static_cast<std::size_t>(triangle)];
+    const bool inside =
+        std::any_of(found.begin() + static_cast<std::ptrdiff_t>(deep.begin),
+                    found.begin() + static_cast<std::ptrdiff_t>(deep.end),
+                    [&](const collision::Penetration& p) {
+                      return has_corner_in(s, b.x(Eigen::all, B.tets.col(p.tetrahedron)));
+                    });
+    if (!inside) continue;
+    const double depth = depth_below(s, b.faces);
+    if (!(kOfDepth * depth > range.reach)) continue;
+    const DepthRange deeper{range.open, kOfDepth * depth + margin};
+    for (std::size_t f = 0; f < b.faces.size(); ++f) {
+      const auto face = static_cast<int>(f);
+      if (!may_face(s, b.faces[f]) || tied(A, triangle, B, face)) continue;
+      if (!face_proximity(s, b.faces[f], deeper, margin).may) continue;
+      pairs.push_back({triangle, face, deeper.reach});
+      ++counts_.deep_pairs;
+    }
+  }
+}
+
+namespace {
+
+/// What a collider sweeps, and the range of its nodes' displacements.
+struct Sweep {
+  Eigen::AlignedBox3d way, displacement;
+};
+
+Sweep sweep_of(const Collider& collider, const Configuration& from, const Configuration& to) {
+  Sweep sweep;
+  for (const NodeRef& node : collider.nodes) {
+    const Vec3 a = from.position(node), b = to.position(node);
+    sweep.way.extend(a).extend(b);
+    sweep.displacement.extend(Vec3(b - a));
+  }
+  return sweep;
+}
+
+}  // namespace
+
+bool ContactSearch::passes_unseen(const Configuration& from, const Configuration& to) const {
+  std::vector<Sweep> sweeps;
+  for (const Moving& moving : moving_)
+    sweeps.push_back(
+        sweep_of(*model_.bodies[static_cast<std::size_t>(moving.body)].collider, from, to));
+  for (std::size_t c = 0; c < pairs_.size(); ++c) {
+    if (pairs_[c].a == pairs_[c].b) continue;
+    const Sweep &a = sweeps[static_cast<std::size_t>(pairs_[c].a)],
+                &b = sweeps[static_cast<std::size_t>(pairs_[c].b)];
+    if (!a.way.intersects(b.way)) continue;
+    const Vec3 most = (a.displacement.max() - b.displacement.min())
+                          .cwiseMax(b.displacement.max() - a.displacement.min());
+    const ContactModel& pair = model_.contacts[c];
+    const Collider& A = *model_.bodies[static_cast<std::size_t>(pair.a)].collider;
+    const Collider& B = *model_.bodies[static_cast<std::size_t>(pair.b)].collider;
+    if (most.norm() >
+        std::max(depth_range(A, B, pair.averaged).reach, depth_range(B, A, pair.averaged).reach))
+      return true;
+  }
+  return false;
+}
+
+double ContactSearch::motion_since(const Configuration& configuration) const {
+  double largest = 0;
+  for (const Moving& moving : moving_) {
+    const Collider& collider = *model_.bodies[static_cast<std::size_t>(moving.body)].collider;
+    for (std::size_t i = 0; i < collider.nodes.size(); ++i)
+      largest = std::max(largest, (configuration.position(collider.nodes[i]) -
+                                   moving.x.col(static_cast<Eigen::Index>(i)))
+                                      .squaredNorm());
+  }
+  return std::sqrt(largest);
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "collision/blocks/block_collide.hpp"
+#include "sim/base/evaluation_counters.hpp"
+#include "sim/gap/face_bounds.hpp"
+#include "sim/model/configuration.hpp"
+
+/// Who may touch whom during the next step: from the BlockTrees' penetrations with a margin to
+/// pairs of a surface triangle and a facing face of the other body.
+namespace articular::sim {
+
+/// A triangle of the contact's non-mortar side may touch a face of the other.
+struct ContactCandidate {
+  int triangle = 0, face = 0;
+  double reach = 0;  // [m] up to this depth the triangle came in through this face
+};
+
+struct CandidateList {
+  int contact = 0;  // index into Model::contacts
+  std::vector<ContactCandidate> pairs;
+};
+
+/// The depths of a side's triangles behind another's faces that count. Deeper than an element of
+/// either side it was not this face that was crossed.
+DepthRange depth_range(const Collider& triangles, const Collider& faces, bool averaged);
+
+struct SearchCounts {
+  std::int64_t tree_updates = 0;
+  std::int64_t reported_pairs = 0;  // by the BlockTrees, within the margin
+  std::int64_t narrow_tests = 0;
+  std::int64_t deep_pairs = 0;  // candidates deeper than depth_range() reaches
+  EvaluationCounts evaluations;
+  double update_seconds = 0, traversal_seconds = 0, narrow_seconds = 0;
+};
+
+class ContactSearch {
+ public:
+  explicit ContactSearch(const Model& model);
+
+  /// The first three lines of Listing 1.5.1's loop body: all bodies where they are now, tissues
+  /// against each other, then each against itself where the scene asks for it.
+  /// @param margin  [m] how much nearer than now things may come: pairs are found that are nearer
+  ///                than this and the depth in front of a face at which surfaces count
+  void find(const Configuration& configuration, double margin);
+
+  /// The lists that have pairs, in the order of the contacts; until the next find().
+  std::span<const CandidateList> candidates() const { return {lists_.data(), num_lists_}; }
+  const SearchCounts& counts() const { return counts_; }
+  SearchCounts& counts() { return counts_; }
+
+  /// Between the two, some pair of bodies that meet on the way move past each other farther than a
+  /// face can be found behind a triangle: one could be through the other at the end.
+  bool passes_unseen(const Configuration& from, const Configuration& to) const;
+
+  /// Of the last find() [m].
+  double margin() const { return margin_; }
+
+  /// Largest distance of a node of any collider from where find() had it [m].
+  double motion_since(const Configuration& configuration) const;
+
+ private:
+  struct Moving {
+    int body = 0;
+    std::unique_ptr<collision::BlockTree> tree;
+    Positions x;  // where it was found
+    std::vector<FaceBounds> faces;
+  };
+  void update(Moving& moving, const Configuration& configuration, double margin);
+  /// What a body needs that may touch another: done once a detection, if at all.
+  void fit(Moving& moving);
+  bool needs_update(const Moving& moving, double margin) const;
+  bool moves(const Moving& moving) const;
+  /// Candidates among triangles of one body and faces of another.
+  struct Direction {
+    std::vector<ContactCandidate> near, deep;
+  };
+  void search(int contact, Moving& a, Moving& b, double margin, collision::BlockQueryCounts& query);
+  void search_itself(int contact, Moving& a, double margin, collision::BlockQueryCounts& query);
+  CandidateList& next_list(int contact);
+  /// @param found    triangles of a in tetrahedra of b
+  /// @param reverse  of b in a
+  void collect(const std::vector<collision::Penetration>& found,
+               const std::vector<collision::Penetration>& reverse, const Moving& a, const Moving& b,
+               bool averaged, double margin, Direction& direction);
+  void add_deep_pairs(const std::vector<collision::Penetration>& found, const Moving& a,
+                      const Moving& b, const DepthRange& range, double margin,
+                      std::vector<ContactCandidate>& pairs);
+
+  const Model& model_;
+  std::vector<Moving> moving_;  // one a collider
+  /// Of each contact, indices into moving_: all that most contacts of a large scene are asked for.
+  struct MovingPair {
+    int a = 0, b = 0;
+  };
+  std::vector<MovingPair> pairs_;
+  std::vector<CandidateList> lists_;  // never shrinks: the first ones are candidates
+  std::size_t num_lists_ = 0;
+  double margin_ = 0;      // [m]
+  double open_depth_ = 0;  // [m] largest of all sides that are averaged over
+  std::vector<collision::Penetration> found_of_a_, found_of_b_;
+  Direction of_a_, of_b_;
+  collision::BlockQueryScratch scratch_;
+  collision::BlockQueryOptions options_;
+  collision::SortScratch sort_scratch_;
+  std::vector<int> seen_;  // per face: last triangle that it was paired with
+  /// Triangles that may lie deeper in the other body than the range reaches, with what was found of
+  /// each: found[begin .. end).
+  struct DeepTriangle {
+    std::size_t begin = 0, end = 0;
+  };
+  std::vector<DeepTriangle> deep_;
+  SearchCounts counts_;
+};
+
+}  // namespace articular::sim

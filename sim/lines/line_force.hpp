@@ -1,0 +1,33 @@
+#pragma once
+
+#include "sim/model/configuration.hpp"
+#include "sim/model/system_matrix.hpp"
+
+/// Muscles and ligaments as lines through points: one tension along the whole path.
+namespace articular::sim {
+
+struct LineState {
+  double length = 0, rate = 0;  // [m], [m/s]
+  double tension = 0;           // [N]
+  double active = 0;     // [N] part of it that does the muscle's work; the rest is stored or damped
+  double damping = 0;    // [N] part of it that a ligament's damper makes
+  double stored = 0;     // [J] passive muscle or ligament energy
+  double stiffness = 0;  // ∂tension/∂length [N/m], not negative: descending parts count as 0
+  double viscosity = 0;  // ∂tension/∂rate [N s/m]
+  double tension_per_activation = 0;  // [N]
+};
+
+LineState line_state(const Model& model, const Line& line, const Configuration& configuration);
+
+/// f += the line's pull on its points.
+void add_line_force(const Line& line, const Configuration& configuration, double tension,
+                    Eigen::VectorXd& f);
+
+/// A += the line's part of stiffness and damping.
+void add_line_stiffness(const Model& model, const Line& line, const Configuration& configuration,
+                        const LineState& state, const SystemScale& scale, fem::BlockMatrix& A);
+
+/// Couplings that add_line_stiffness writes.
+void append_stencil(const Model& model, const Line& line, Stencils& stencils);
+
+}  // namespace articular::sim

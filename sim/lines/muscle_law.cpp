@@ -1,0 +1,47 @@
+#include "sim/lines/muscle_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace articular::sim {
+
+ValueSlope active_force_length(double length, double optimal_length, double tendon_ratio) {
+  const double fibre = optimal_length * (1 - tendon_ratio);
+  const double n = (length - tendon_ratio * optimal_length) / fibre;
+  if (n <= 0.5 || n >= 1.5) return {};
+  const double angle = 2 * std::numbers::pi * n;
+  return {0.5 * (1 + std::cos(angle)), -std::numbers::pi * std::sin(angle) / fibre};
+}
+
+ValueSlope passive_force_length(double length, double optimal_length, double max_ratio) {
+  const double range = optimal_length * (max_ratio - 1);
+  const double stretch = length - optimal_length;
+  if (stretch <= 0) return {};
+  if (stretch >= range) return {1, 0};
+  return {stretch / range, 1 / range};
+}
+
+double passive_energy_length(double length, double optimal_length, double max_ratio) {
+  const double range = optimal_length * (max_ratio - 1);
+  const double stretch = length - optimal_length;
+  if (stretch <= 0) return 0;
+  const double ramp = std::min(stretch, range);
+  return 0.5 * ramp * ramp / range + std::max(0.0, stretch - range);
+}
+
+ValueSlope force_velocity(double w) {
+  constexpr double kCurvature = 4;        // F0/a
+  constexpr double kEccentricGain = 0.4;  // above 1 at fast lengthening
+  // Slope at w = 0 from both sides: 1 + kCurvature = kEccentricGain * kEccentricRate.
+  constexpr double kEccentricRate = (1 + kCurvature) / kEccentricGain;
+  if (w <= -1) return {};
+  if (w <= 0) {
+    const double d = 1 - kCurvature * w;
+    return {(1 + w) / d, (1 + kCurvature) / (d * d)};
+  }
+  const double d = 1 + kEccentricRate * w;
+  return {1 + kEccentricGain * kEccentricRate * w / d, kEccentricGain * kEccentricRate / (d * d)};
+}
+
+}  // namespace articular::sim

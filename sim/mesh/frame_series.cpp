@@ -1,0 +1,121 @@
+#include "sim/mesh/frame_series.hpp"
+
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUtilities.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <map>
+
+#include "sim/base/atomic_file.hpp"
+#include "sim/base/error.hpp"
+#include "sim/mesh/mesh_readers.hpp"
+#include "sim/mesh/vtk_files.hpp"
+
+namespace articular::sim {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
+  }
+  return result;
+}
+
+/// The shortest text that reads back as the same number.
+std::string shortest(double value) {
+  std::array<char, 32> text{};
+  const auto [end, status] = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), end};
+}
+
+std::string attribute(vtkXMLDataElement& element, const char* name) {
+  const char* const text = element.GetAttribute(name);
+  return text != nullptr ? text : "";
+}
+
+/// 123 from "frames/condyle_left_000123.vtp".
+std::optional<int> index_in_name(const std::string& file) {
+  const std::string stem = std::filesystem::path(file).stem().string();
+  const std::size_t underscore = stem.rfind('_');
+  if (underscore == std::string::npos) return std::nullopt;
+  return parse_integer(std::string_view(stem).substr(underscore + 1));
+}
+
+constexpr const char* kContactSurface = ":contact";  // bodies' names have no colon
+
+}  // namespace
+
+std::string contact_surface_part(const std::string& body) { return body + kContactSurface; }
+
+bool is_contact_surface(const SeriesEntry& entry) { return entry.part.ends_with(kContactSurface); }
+
+std::vector<SeriesEntry> read_series(const std::filesystem::path& pvd) {
+  const std::string name = pvd.string();
+  if (!std::filesystem::exists(pvd)) throw InputError({name}, "no such series of frames");
+  const QuietVtk vtk;
+  const auto root =
+      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(name.c_str()));
+  vtkXMLDataElement* const collection =
+      root != nullptr ? root->FindNestedElementWithName("Collection") : nullptr;
+  if (collection == nullptr)
+    throw InputError({name}, "not readable as .pvd" + (vtk.failed() ? ": " + vtk.message() : ""));
+  std::vector<SeriesEntry> entries;
+  for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
+    vtkXMLDataElement& element = *collection->GetNestedElement(i);
+    const std::string file = attribute(element, "file"), time = attribute(element, "timestep");
+    const std::optional<int> index = index_in_name(file);
+    const std::optional<double> seconds = parse_number(time);
+    if (!index) throw InputError({name}, "`" + file + "` is not a frame PART_000123.vtu or .vtp");
+    if (!seconds) throw InputError({name}, "timestep `" + time + "` is not a number");
+    entries.push_back({*seconds, *index, attribute(element, "name"), file});
+  }
+  // A part that stands still is listed in later frames with its first file: the frame's number is
+  // that of its newest file.
+  std::map<double, int> newest;
+  for (const SeriesEntry& entry : entries) {
+    int& index = newest.try_emplace(entry.time, entry.index).first->second;
+    index = std::max(index, entry.index);
+  }
+  for (SeriesEntry& entry : entries) entry.index = newest.at(entry.time);
+  return entries;
+}
+
+void write_series(const std::filesystem::path& pvd, const std::vector<SeriesEntry>& entries) {
+  // ParaView wants parts numbered, the same part by the same number in every frame.
+  std::map<std::string, std::size_t> part_number;
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "  <Collection>\n";
+  for (const SeriesEntry& entry : entries) {
+    const std::size_t number =
+        part_number.try_emplace(entry.part, part_number.size()).first->second;
+    text += "    <DataSet timestep=\"" + shortest(entry.time) + "\" part=\"" +
+            std::to_string(number) + "\" name=\"" + escaped(entry.part) + "\" file=\"" +
+            escaped(entry.file) + "\"/>\n";
+  }
+  text += "  </Collection>\n</VTKFile>\n";
+  write_text_file(pvd, text);
+}
+
+std::string frame_file_name(const std::string& part, int index, const std::string& ending) {
+  std::array<char, 16> digits{};
+  std::snprintf(digits.data(), digits.size(), "_%06d", index);
+  return part + digits.data() + ending;
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,120 @@
+#include "sim/mesh/mesh_io.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include "sim/base/error.hpp"
+#include "sim/mesh/mesh_readers.hpp"
+#include "sim/mesh/vtk_files.hpp"
+
+namespace articular::sim {
+namespace {
+
+std::string lower_ending(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+/// Calls visit(index) for every node index of every cell.
+template <class Visit>
+void for_each_index(MeshData& mesh, Visit visit) {
+  for (int& a : mesh.tets.reshaped()) visit(a);
+  for (int& a : mesh.triangles.reshaped()) visit(a);
+}
+
+void check_indices(const std::string& file, MeshData& mesh) {
+  const Eigen::Index num_nodes = mesh.X.cols();
+  for_each_index(mesh, [&](int a) {
+    if (a < 0 || a >= num_nodes)
+      throw InputError({file}, "a cell refers to point " + std::to_string(a) + ", but there are " +
+                                   std::to_string(num_nodes) + " points");
+  });
+}
+
+/// Renumbers so that every node is used by a cell; the order of the nodes stays.
+void drop_unused_nodes(MeshData& mesh) {
+  std::vector<int> new_index(static_cast<std::size_t>(mesh.X.cols()), -1);
+  const auto entry = [&](int a) -> int& { return new_index[static_cast<std::size_t>(a)]; };
+  for_each_index(mesh, [&](int a) { entry(a) = 0; });
+  int num_used = 0;
+  for (int a = 0; a < mesh.X.cols(); ++a) {
+    if (entry(a) < 0) continue;
+    mesh.X.col(num_used) = mesh.X.col(a).eval();
+    entry(a) = num_used++;
+  }
+  mesh.X.conservativeResize(Eigen::NoChange, num_used);
+  for_each_index(mesh, [&](int& a) { a = entry(a); });
+}
+
+}  // namespace
+
+MeshData read_mesh(const std::filesystem::path& file, double unit) {
+  const std::string name = file.string();
+  const std::string ending = lower_ending(file);
+  if (ending != ".inp" && ending != ".obj" && ending != ".ply" && !is_vtk_file_ending(ending))
+    throw InputError({name}, "unknown mesh format `" + ending +
+                                 "`; known: .vtu, .vtp, .vtk, .stl, .obj, .ply, .inp");
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw InputError({name}, "no such mesh file");
+  if (std::filesystem::is_directory(file, error))
+    throw InputError({name}, "is a folder; expected a mesh file");
+  if (!std::ifstream(file)) throw InputError({name}, "can't be opened for reading");
+  if (std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) == 0)
+    throw InputError({name}, "the mesh file is empty");
+
+  MeshData mesh = ending == ".inp"   ? read_abaqus(file)
+                  : ending == ".obj" ? read_obj(file)
+                  : ending == ".ply" ? read_ply(file)
+                                     : read_with_vtk(file);
+  if (mesh.tets.cols() == 0 && mesh.triangles.cols() == 0)
+    throw InputError({name}, "holds no tetrahedra and no surface triangles");
+  check_indices(name, mesh);
+  drop_unused_nodes(mesh);
+  mesh.X *= unit;
+  for (Eigen::Index a = 0; a < mesh.X.cols(); ++a)
+    if (!mesh.X.col(a).allFinite())
+      throw InputError({name}, "the position of point " + std::to_string(a) + " is not finite");
+  return mesh;
+}
+
+void write_mesh(const std::filesystem::path& file, const MeshData& mesh, double unit) {
+  const std::string expected = mesh.tets.cols() > 0 ? ".vtu" : ".vtp";
+  if (lower_ending(file) != expected)
+    throw InputError({file.string()}, "this mesh is written as `" + expected + "`, not as `" +
+                                          lower_ending(file) + "`");
+  const auto set = mesh.tets.cols() > 0 ? make_grid(mesh.X, unit, mesh.tets, mesh.triangles)
+                                        : make_surface(mesh.X, unit, mesh.triangles);
+  for (const auto& [name, values] : mesh.cell_vectors) add_cell_vectors(*set, name, values);
+  write_vtk_file(file, *set);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data(), end, value);
+  if (status != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<int> parse_integer(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  int value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data(), end, value);
+  if (status != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vtkOutputWindow.h>
+#include <vtkPointSet.h>
+#include <vtkSmartPointer.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "fem/base/types.hpp"
+
+/// VTK's readers and writers with our manners: quiet, errors as exceptions, files whole or not at
+/// all.
+namespace articular::sim {
+
+/// While it lives, VTK prints nothing: its first error is kept instead. One thread at a time.
+class QuietVtk {
+ public:
+  QuietVtk();
+  ~QuietVtk();
+  QuietVtk(const QuietVtk&) = delete;
+  QuietVtk& operator=(const QuietVtk&) = delete;
+  bool failed() const;
+  std::string message() const;  // what is wrong, in one line
+
+ private:
+  class Window;
+  vtkSmartPointer<vtkOutputWindow> previous_;
+  vtkSmartPointer<Window> window_;
+  int previous_verbosity_;
+};
+
+/// .vtu .vtp .vtk .stl, in lower case.
+bool is_vtk_file_ending(std::string_view ending);
+
+/// @throws InputError in one line when VTK finds anything wrong with the file
+vtkSmartPointer<vtkPointSet> read_vtk_file(const std::filesystem::path& file);
+
+/// A .vtu or .vtp: appended binary, zlib. @throws SystemError
+void write_vtk_file(const std::filesystem::path& file, vtkPointSet& set);
+
+/// Points x / unit in double precision; cells as given, tetrahedra first.
+vtkSmartPointer<vtkPointSet> make_grid(const Positions& x, double unit, const Tetrahedra& tets,
+                                       const Triangles& triangles);
+vtkSmartPointer<vtkPointSet> make_surface(const Positions& x, double unit,
+                                          const Triangles& triangles);
+/// A cell array with three components: one column a tetrahedron; zero for the other cells.
+void add_cell_vectors(vtkPointSet& set, const std::string& name, const Eigen::Matrix3Xd& values);
+
+}  // namespace articular::sim

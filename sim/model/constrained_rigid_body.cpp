@@ -1,0 +1,140 @@
+#include "sim/model/constrained_rigid_body.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+namespace articular::sim {
+namespace {
+
+Vec3 center_of_mass(const RigidBody& rigid, const Pose& pose) {
+  return pose.R * (rigid.mass.center - rigid.rest.p);
+}
+
+/// ω × (ω × c) m and ω × I ω.
+Vec6 gyroscopic_force(const RigidBody& rigid, const Pose& pose, const Vec3& omega) {
+  const Mat6 mass = rigid_mass(rigid, pose);
+  Vec6 force;
+  force << rigid.mass.mass * omega.cross(omega.cross(center_of_mass(rigid, pose))),
+      omega.cross(mass.bottomRightCorner<3, 3>() * omega);
+  return force;
+}
+
+/// Of the rates of a bone's velocities, what its drive gives them: s̈, ω_f × R_f ω_D + R_f ω̇_D.
+Vec6 driven_part(const RigidBody& rigid, const Pose& pose, const RigidVelocity& velocity,
+                 Instant at) {
+  if (!rigid.motion) return Vec6::Zero();
+  const Mat3 R_f = pose.R * drive_of(rigid, at.t).R.transpose();
+  const RigidVelocity rate = driven_acceleration(*rigid.motion, at);
+  const Vec3 turning = R_f * driven_velocity(*rigid.motion, Pose{}, at.t).angular;
+  Vec6 part;
+  part << rate.linear, (velocity.angular - turning).cross(turning) + R_f * rate.angular;
+  return part;
+}
+
+/// One unit vector a free freedom of translation (k = 0) or rotation (k = 1).
+Eigen::Matrix3Xd free_axes(const Hold& hold, std::size_t k) {
+  Eigen::Matrix3Xd axes(3, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (hold.held[3 * k + i]) continue;
+    axes.conservativeResize(Eigen::NoChange, axes.cols() + 1);
+    axes.rightCols<1>() = hold.axes.col(static_cast<Eigen::Index>(i));
+  }
+  return axes;
+}
+
+Mat3 free_projection(const Hold& hold, std::size_t k) {
+  const Eigen::Matrix3Xd axes = free_axes(hold, k);
+  return axes * axes.transpose();
+}
+
+}  // namespace
+
+Vec6 free_part(const RigidBody& rigid, const Vec6& value) {
+  if (!rigid.hold) return value;
+  Vec6 part;
+  part << free_projection(*rigid.hold, 0) * value.head<3>(),
+      free_projection(*rigid.hold, 1) * value.tail<3>();
+  return part;
+}
+
+void keep_free_part(const Model& model, Eigen::VectorXd& blocks) {
+  for (const RigidBody& rigid : model.rigid_bodies)
+    if (rigid.hold)
+      blocks.segment<6>(3 * rigid.block) = free_part(rigid, blocks.segment<6>(3 * rigid.block));
+}
+
+Mat6 rigid_mass(const RigidBody& rigid, const Pose& pose) {
+  const Mat3 c = skew(center_of_mass(rigid, pose));
+  Mat6 mass;
+  mass << rigid.mass.mass * Mat3::Identity(), -rigid.mass.mass * c, rigid.mass.mass * c,
+      pose.R * rigid.mass.inertia * pose.R.transpose() - rigid.mass.mass * c * c;
+  return mass;
+}
+
+Vec6 rigid_acceleration(const RigidBody& rigid, const Pose& pose, const RigidVelocity& velocity,
+                        Instant at, const Vec6& force) {
+  const Mat6 mass = rigid_mass(rigid, pose);
+  const Vec6 drive = force - gyroscopic_force(rigid, pose, velocity.angular) -
+                     mass * driven_part(rigid, pose, velocity, at);
+  if (!rigid.hold) return mass.llt().solve(drive);
+  const Eigen::Matrix3Xd shift = free_axes(*rigid.hold, 0), turn = free_axes(*rigid.hold, 1);
+  const Eigen::Index num_free = shift.cols() + turn.cols();
+  if (num_free == 0) return Vec6::Zero();
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(6, num_free);
+  basis.topLeftCorner(3, shift.cols()) = shift;
+  basis.bottomRightCorner(3, turn.cols()) = turn;
+  const Eigen::MatrixXd free_mass = basis.transpose() * mass * basis;
+  return basis * free_mass.llt().solve(basis.transpose() * drive);
+}
+
+Vec6 force_on_hold(const RigidBody& rigid, const Pose& pose, const RigidVelocity& velocity,
+                   Instant at, const Vec6& force) {
+  const Vec6 acceleration =
+      rigid_acceleration(rigid, pose, velocity, at, force) + driven_part(rigid, pose, velocity, at);
+  const Vec6 rest = force - rigid_mass(rigid, pose) * acceleration -
+                    gyroscopic_force(rigid, pose, velocity.angular);
+  return rest - free_part(rigid, rest);
+}
+
+Vec6 driven_way(const RigidBody& rigid, double t_from, double t_to, const Mat3& R, double t) {
+  const Pose from = drive_of(rigid, t_from), to = drive_of(rigid, t_to);
+  const Mat3 R_f = R * drive_of(rigid, t).R.transpose();
+  const Eigen::AngleAxisd turn(to.R * from.R.transpose());
+  Vec6 way;
+  way << to.p - from.p, R_f * (turn.angle() * turn.axis());
+  return way;
+}
+
+void keep_free_part(const Model& model, fem::BlockMatrix& A) {
+  for (const RigidBody& rigid : model.rigid_bodies) {
+    if (!rigid.hold) continue;
+    for (int k = 0; k < 2; ++k) {
+      const Mat3 P = free_projection(*rigid.hold, static_cast<std::size_t>(k));
+      const int row = rigid.block + k;
+      for (int s = A.row_begin()[static_cast<std::size_t>(row)];
+           s < A.row_begin()[static_cast<std::size_t>(row) + 1]; ++s) {
+        const int transposed = A.slot(A.column()[static_cast<std::size_t>(s)], row);
+        A.block(s) = (P * A.block(s)).eval();
+        A.block(transposed) = (A.block(transposed) * P).eval();
+      }
+      // Of the size of the others, for the solver's sake: their solution is 0 in any case.
+      Eigen::Map<Mat3> own = A.block(A.slot(row, row));
+      const double size = own.trace();
+      own += (size > 0 ? size : 1) * (Mat3::Identity() - P);
+    }
+  }
+}
+
+void keep_free_part(const Model& model, fem::PressureGradient& G) {
+  for (const RigidBody& rigid : model.rigid_bodies) {
+    if (!rigid.hold) continue;
+    for (int k = 0; k < 2; ++k) {
+      const Mat3 P = free_projection(*rigid.hold, static_cast<std::size_t>(k));
+      const auto row = static_cast<std::size_t>(rigid.block + k);
+      for (int s = G.row_begin()[row]; s < G.row_begin()[row + 1]; ++s)
+        G.block(s) = (P * G.block(s)).eval();
+    }
+  }
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,37 @@
+#include "sim/model/model.hpp"
+
+#include "sim/scenario/curve.hpp"
+
+namespace articular::sim {
+
+double steady_activation(const MuscleModel& muscle, double t) {
+  return muscle.given.excitation.time.empty() ? 0 : value_at(muscle.given.excitation, t);
+}
+
+Eigen::VectorXd initial_state(const Model& model) {
+  const Layout& layout = model.layout;
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(layout.size());
+  for (const Tissue& tissue : model.tissues) {
+    const Vec3& velocity = model.scenario.bodies[static_cast<std::size_t>(tissue.body)].velocity;
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+      const NodeRef& node = tissue.nodes[i];
+      if (node.rigid >= 0) continue;
+      y.segment<3>(layout.node_x(node.block)) = tissue.X.col(static_cast<Eigen::Index>(i));
+      y.segment<3>(layout.velocities() + 3 * node.block) = velocity;
+    }
+  }
+  for (int r = 0; r < layout.num_rigid; ++r) {
+    const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(r)];
+    y.segment<3>(layout.rigid_p(r)) = rigid.rest.p;
+    y[layout.rigid_q(r)] = 1;
+    y.segment<3>(layout.velocities() + 3 * rigid.block) = rigid.start.linear;
+    y.segment<3>(layout.velocities() + 3 * rigid.block + 3) = rigid.start.angular;
+  }
+  for (int m = 0; m < layout.num_muscles; ++m) {
+    const Curve& excitation = model.muscles[static_cast<std::size_t>(m)].given.excitation;
+    y[layout.activations() + m] = excitation.time.empty() ? 0 : value_at(excitation, 0);
+  }
+  return y;
+}
+
+}  // namespace articular::sim

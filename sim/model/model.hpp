@@ -1,0 +1,192 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "collision/mesh/surface.hpp"
+#include "fem/element/dashpots.hpp"
+#include "fem/element/relaxation.hpp"
+#include "sim/base/pose.hpp"
+#include "sim/gap/contact_patch.hpp"
+#include "sim/model/joint_coordinates.hpp"
+#include "sim/model/mass_properties.hpp"
+#include "sim/model/surface_law.hpp"
+#include "sim/model/tissue_elements.hpp"
+#include "sim/scenario/scenario.hpp"
+
+/// The scenario made ready to compute: immutable, holding only what the scene requires.
+///
+/// Unknown velocities come in blocks of three: one block a free tissue node, then two a rigid bone
+/// (velocity of its centre of mass, angular velocity). Bones that are fixed or driven have two
+/// blocks too, after all unknown ones: forces on them are reactions.
+namespace articular::sim {
+
+/// A point of a body by what moves it: a free tissue node's block, or a bone's two blocks and the
+/// point's place in the bone's frame.
+struct NodeRef {
+  int block = 0;              // first block
+  int rigid = -1;             // index into Model::rigid_bodies, or -1 for a free node
+  Vec3 local = Vec3::Zero();  // in the bone's frame [m]
+};
+
+struct RigidBody {
+  int body = 0;          // index into Model::bodies
+  int block = 0;         // translation; rotation is the next
+  bool unknown = false;  // rigid: its motion is solved for
+  // p: centre of mass (rigid), the held point, or the middle of the mesh's box (fixed); R = I.
+  Pose rest;
+  RigidVelocity start;  // at t = 0
+  MassProperties mass;  // with the tissue that it carries; centre at the start, world
+  std::optional<Hold> hold;
+  std::optional<Motion>
+      motion;  // driven: wholly, or of a held one what is held, see constrained_rigid_body.hpp
+};
+
+/// What of a body can touch: tetrahedra with their surface. Tissue: its own mesh. RigidBody: its
+/// mesh, or a shell of tetrahedra under its surfaces.
+struct Collider {
+  Positions X;  // at the start, world [m]
+  Tetrahedra tets;
+  collision::Surface surface;             // of a shell: without its inner and lateral faces
+  std::vector<NodeRef> nodes;             // what moves each node
+  std::vector<double> face_area;          // at the start [m²]
+  Eigen::Matrix3Xi groups;                // of the corners of each face, and
+  std::vector<int> group_node;            // the node of each: see smoothing_groups.hpp
+  std::vector<unsigned> rims;             // of each face, FlatTriangle::rims
+  Positions rim_height;                   // of each face, FlatTriangle::rim_height
+  std::vector<int> nearby_begin, nearby;  // per tetrahedron: faces around it
+  std::vector<char> is_inner;             // per tetrahedron: no node of it is on the surface
+  Eigen::VectorXd compliance;             // of an element at the surface, h/M, at each node [m/Pa]
+  double mean_compliance = 0;             // the same of the whole surface [m/Pa]
+  double layer_compliance = 0;            // of the layer on it [m/Pa]
+  double reach = 0;                       // [m] depth up to which a crossed face is found
+  double open_depth = 0;   // [m] how far in front of a face this side's surface counts
+  double size = 0;         // [m] mean height of the elements at the surface
+  Eigen::VectorXd height;  // [m] the same around each node of the surface
+};
+
+struct Tissue {
+  int body = 0;
+  TissueElements elements;
+  std::optional<fem::Dashpots> dashpots;
+  std::optional<fem::Relaxation> relaxation;
+  int first_internal_variable = 0;  // of the relaxation, among Layout::internal variables()
+  Eigen::VectorXd lumped_mass;      // [kg], one a node
+  double mass_damping = 0;          // α [1/s]: a force −α m v on each node
+  std::vector<NodeRef> nodes;       // what moves each node
+  Positions X;                      // at the start, world [m]
+  FibreDirections fibres;           // one an element, or none
+  int muscle = -1;                  // index into Model::muscles: what activates the fibres
+};
+
+struct BodyModel {
+  std::string name;
+  Body::Kind kind = Body::Kind::Fixed;
+  int tissue = -1;  // index into Model::tissues
+  int rigid = -1;   // index into Model::rigid_bodies
+  Positions X;      // bones: what is drawn, in the bone's frame [m]
+  Triangles triangles;
+  std::optional<Collider> collider;
+};
+
+/// A point of a line or a load: a bone's point, or a mean over tissue nodes.
+struct WeightedPoint {
+  std::vector<NodeRef> nodes;
+  std::vector<double> weights;  // sum 1
+};
+
+struct Line {
+  std::string name;
+  std::vector<WeightedPoint> path;
+  double start_length = 0;  // [m]
+  int muscle = -1;          // index into Model::muscles
+  int ligament = -1;        // index into Model::ligaments
+};
+
+struct MuscleModel {
+  Muscle given;
+  double optimal_length = 0;  // [m], of a line
+  int line = -1;              // -1: the muscle is made of a tissue's fibres
+};
+
+struct LigamentModel {
+  Ligament given;
+  double slack_length = 0;  // [m]
+  int line = 0;
+};
+
+struct ForceModel {
+  WeightedPoint point;
+  Vec3 force = Vec3::Zero();
+  Curve profile;
+};
+
+struct ContactModel {
+  int a = 0, b = 0;      // bodies; a == b: with itself
+  bool averaged = true;  // depths are averaged at the nodes of one side; else pointwise
+  std::span<const SamplePoint> samples;  // of each triangle, for all time; empty: exact
+  bool reversed = false;                 // b's triangles look for a's faces
+  Eigen::VectorXd stiffness;   // at the nodes of the non-mortar side, times `share` [Pa/m]
+  Eigen::VectorXd soft;        // what an iteration that comes from afar starts with
+  double mean_stiffness = 0;   // of the two sides in series [Pa/m]
+  double max_penetration = 0;  // [m] mean depth at a node that the penalty may take
+  bool is_bounded = false;     // where it takes more, it is helped: see ContactResponse
+  double share = 1;            // ½ where both folds of one body look for the other
+  SurfaceLaw law;              // its damping times `share`
+};
+
+struct ProbeModel {
+  Probe given;
+  WeightedPoint point;  // Point
+  int body = -1, other = -1, line = -1;
+  std::vector<char> faces;       // Contact with a region: by face of the body's collider
+  std::vector<int> part, whole;  // Share: probes
+  JointFrame proximal, distal;   // Joint
+};
+
+/// Where everything stands in the state vector y:
+/// [free tissue x | per rigid bone: p, quaternion (w x y z) | free tissue v | per rigid bone: v, ω
+/// | activations | internal variables of relaxing tissues]
+struct Layout {
+  int num_free_nodes = 0, num_rigid = 0, num_muscles = 0, num_internal_variables = 0;
+
+  int num_unknown_blocks() const { return num_free_nodes + 2 * num_rigid; }
+  int node_x(int block) const { return 3 * block; }
+  int rigid_p(int r) const { return 3 * num_free_nodes + 7 * r; }
+  int rigid_q(int r) const { return rigid_p(r) + 3; }
+  int velocities() const {
+    return 3 * num_free_nodes + 7 * num_rigid;
+  }  // in the order of the blocks
+  int activations() const { return velocities() + 3 * num_unknown_blocks(); }
+  int internal_variables() const { return activations() + num_muscles; }
+  int size() const { return internal_variables() + num_internal_variables; }
+};
+
+struct Model {
+  Scenario scenario;
+  std::vector<BodyModel> bodies;
+  std::vector<Tissue> tissues;
+  std::vector<RigidBody> rigid_bodies;  // rigid ones first: bone r < layout.num_rigid is unknown
+  std::vector<Line> lines;
+  std::vector<MuscleModel> muscles;
+  std::vector<LigamentModel> ligaments;
+  std::vector<ForceModel> forces;
+  std::vector<ContactModel> contacts;
+  std::vector<ProbeModel> probes;
+  Vec3 gravity = Vec3::Zero();  // [m/s²]
+  Layout layout;
+  double position_tolerance = 0;  // [m], of the Newton iteration
+  double detection_margin = 0;    // [m], least one
+  int num_blocks = 0;             // with the blocks of fixed and driven bones
+  std::vector<std::string> warnings;
+};
+
+/// y at t = 0.
+Eigen::VectorXd initial_state(const Model& model);
+
+/// A muscle's activation after a long time of the excitation that it has at t.
+double steady_activation(const MuscleModel& muscle, double t);
+
+}  // namespace articular::sim

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "sim/base/evaluation_counters.hpp"
+
+namespace articular::sim {
+
+/// Work done and energy lost since the start [J].
+struct EnergyLedger {
+  double muscle_work = 0;    // by active muscle force
+  double load_work = 0;      // by forces of the scenario (gravity is a stored energy)
+  double motion_work = 0;    // by what drives prescribed motions
+  double ligament_loss = 0;  // in ligaments' dampers
+  double tissue_loss = 0;    // in tissues' dampers
+  double contact_loss = 0;   // by friction and dampers in contact
+  double settling_loss = 0;  // against pseudo-time damping of a static analysis
+  double start = 0;          // stored and kinetic energy at t = 0
+};
+
+/// What SUNDIALS did.
+struct SolverCounts {
+  std::int64_t steps = 0;            // taken
+  std::int64_t rejected_newton = 0;  // Newton's iteration did not converge: step halved
+  std::int64_t newton_iterations = 0;
+  std::int64_t factorizations = 0;
+  std::int64_t projected_tangents = 0;  // matrices that were not positive definite as they came
+  std::int64_t linear_solves = 0;
+  std::int64_t linear_iterations = 0;
+  std::int64_t force_evaluations = 0;
+};
+
+SolverCounts operator+(SolverCounts a, const SolverCounts& b);
+SolverCounts operator-(SolverCounts a, const SolverCounts& b);
+
+struct Counts : SolverCounts {
+  std::int64_t rejected_motion = 0;  // something moved farther than the detection covered
+  std::int64_t lagged_steps = 0;     // tried with the contact candidates of an earlier one
+  std::int64_t tree_updates = 0;
+  std::int64_t narrow_tests = 0;
+  std::int64_t reported_pairs = 0;
+  std::int64_t stiffened = 0;   // steps done again with a contact's stiffness doubled
+  std::int64_t deep_pairs = 0;  // contact candidates deeper than usual: see ContactSearch
+  EvaluationCounts evaluations;
+};
+
+/// How far two bodies overlapped before and after they were set apart [m], the deepest point of
+/// either.
+struct ResolvedOverlap {
+  int contact = 0;  // index into Model::contacts
+  double before = 0, after = 0;
+};
+
+/// What set overlapping bodies apart before the start.
+struct OverlapResolution {
+  std::vector<ResolvedOverlap> overlaps;
+  int solutions = 0;          // equilibria
+  double largest_motion = 0;  // [m] of a node
+};
+
+/// Extreme values at the start or the end of any step, for warnings.
+struct RunExtrema {
+  double volume_ratio = 1;  // least of any element
+  int tissue = -1;          // that has it
+  std::int64_t element = -1;
+  double squeezed_at = 0;  // [s]
+  double overlap = 0;      // of two bodies, by the depth that their contact can follow
+  int contact = -1;        // of these
+  double overlap_at = 0;   // [s]
+  double kinetic = 0;      // [J], largest
+  double work = 0;         // [J], largest sum of what muscles, loads and driven motions had done
+  double made = 0;         // [J], most that had come from nowhere when a frame was written
+  double gravity_low = std::numeric_limits<double>::infinity();  // [J]
+  double gravity_high = -std::numeric_limits<double>::infinity();
+};
+
+/// All that changes: a copy of it at a checkpoint is a restart point.
+struct State {
+  double t = 0;                // [s]
+  Eigen::VectorXd y;           // in the order of Layout
+  double next_step = 0;        // [s]
+  double next_margin = 0;      // [m] of the next detection
+  double max_penetration = 0;  // [m] largest so far
+  int frames = 0;              // written
+  EnergyLedger energy;
+  Counts counts;
+  OverlapResolution overlap_resolution;
+  RunExtrema extrema;
+  Eigen::VectorXd stiffening;  // of each contact's stiffness, by max_penetration; ≥ 1
+};
+
+}  // namespace articular::sim

@@ -1,0 +1,22 @@
+#include "sim/model/tissue.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "fem/material/point_law.hpp"
+
+namespace articular::sim {
+
+double element_size(const Tissue& tissue) {
+  const std::vector<double>& volume = tissue.elements.rest_volume();
+  const double sum = std::accumulate(volume.begin(), volume.end(), 0.0);
+  return std::cbrt(6 * sum / static_cast<double>(volume.size()));
+}
+
+double constrained_modulus(const TissueMaterial& material) {
+  return fem::bulk_modulus(*material.law) + 4 * fem::shear_modulus(*material.law) / 3;
+}
+
+double constrained_modulus(double E, double nu) { return E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)); }
+
+}  // namespace articular::sim

@@ -1,0 +1,191 @@
+#include "sim/output/frame_writer.hpp"
+
+#include <unistd.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cmath>
+#include <system_error>
+
+#include "sim/base/atomic_file.hpp"
+#include "sim/base/error.hpp"
+#include "sim/mesh/vtk_files.hpp"
+
+namespace articular::sim {
+namespace {
+
+constexpr const char* kFrames = "frames";  // folder beside the .pvd
+
+void add_text(vtkPointSet& set, const std::string& name, const std::string& text) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(name.c_str());
+  array->InsertNextValue(text);
+  set.GetFieldData()->AddArray(array);
+}
+
+/// Muscles and ligaments as polylines, a point of its own for every point of every path.
+vtkSmartPointer<vtkPointSet> make_lines(const std::vector<Positions>& paths, double unit) {
+  Eigen::Index num_points = 0;
+  for (const Positions& path : paths) num_points += path.cols();
+  Positions x(3, num_points);
+  vtkNew<vtkCellArray> lines;
+  lines->Use32BitStorage();
+  Eigen::Index point = 0;
+  for (const Positions& path : paths) {
+    lines->InsertNextCell(static_cast<int>(path.cols()));
+    for (Eigen::Index a = 0; a < path.cols(); ++a) {
+      x.col(point) = path.col(a);
+      lines->InsertCellPoint(point++);
+    }
+  }
+  vtkSmartPointer<vtkPointSet> set = make_surface(x, unit, Triangles(3, 0));
+  vtkPolyData::SafeDownCast(set)->SetLines(lines);
+  return set;
+}
+
+}  // namespace
+
+FrameWriter::FrameWriter(std::filesystem::path directory, std::string name, double length_unit,
+                         std::string length_unit_name)
+    : directory_(std::move(directory)),
+      name_(std::move(name)),
+      length_unit_(length_unit),
+      length_unit_name_(std::move(length_unit_name)) {
+  const std::filesystem::path frames = directory_ / kFrames;
+  std::error_code error;
+  std::filesystem::create_directories(frames, error);
+  if (error) throw SystemError(frames.string() + ": the folder can't be made: " + error.message());
+  for (const std::filesystem::path& folder : {directory_, frames})
+    if (::access(folder.c_str(), W_OK) != 0)
+      throw SystemError(folder.string() +
+                        ": the folder can't be written: " + std::system_category().message(errno));
+}
+
+std::filesystem::path FrameWriter::series_file() const { return directory_ / (name_ + ".pvd"); }
+
+void FrameWriter::resume_at(double time) {
+  constexpr double kSameTime = 1e-12;  // relative: round-off of sums of step sizes
+  pending_.clear();
+  published_.clear();
+  if (!std::filesystem::exists(series_file())) return;  // stopped before its first frame
+  published_ = read_series(series_file());
+  const std::size_t before = published_.size();
+  std::erase_if(published_, [&](const SeriesEntry& entry) {
+    return entry.time > time + kSameTime * std::abs(time);
+  });
+  if (published_.size() < before) write_series(series_file(), published_);
+}
+
+void FrameWriter::add_field(vtkPointSet& set, vtkDataSetAttributes& target,
+                            const Field& field) const {
+  double scale = 1;
+  std::string unit = field.unit;
+  if ((field.name == "displacement" || field.name == "contact_gap") && field.unit == "m") {
+    scale = 1 / length_unit_;
+    unit = length_unit_name_;
+  } else if (field.name == "velocity" && field.unit == "m/s") {
+    scale = 1 / length_unit_;
+    unit = length_unit_name_ + "/s";
+  }
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(field.name.c_str());
+  array->SetNumberOfComponents(static_cast<int>(field.values.rows()));
+  array->SetNumberOfTuples(field.values.cols());
+  Eigen::Map<Eigen::MatrixXd>(array->GetPointer(0), field.values.rows(), field.values.cols()) =
+      scale * field.values;
+  target.AddArray(array);
+  add_text(set, field.name + ".unit", unit);
+}
+
+void FrameWriter::add_fields(vtkPointSet& set, const std::vector<Field>& point_fields,
+                             const std::vector<Field>& cell_fields) const {
+  for (const Field& field : point_fields) {
+    assert(field.values.cols() == set.GetNumberOfPoints());
+    add_field(set, *set.GetPointData(), field);
+  }
+  for (const Field& field : cell_fields) {
+    assert(field.values.cols() == set.GetNumberOfCells());
+    add_field(set, *set.GetCellData(), field);
+  }
+}
+
+void FrameWriter::write_part(const std::string& part, const std::string& name,
+                             const std::string& ending, vtkPointSet& set, int index, double time) {
+  if (name.empty() || name.find('/') != std::string::npos || name.front() == '.')
+    throw InputError("body name `" + name + "` can't be the name of a file");
+  const std::string file = std::string(kFrames) + "/" + frame_file_name(name, index, ending);
+  assert(std::none_of(pending_.begin(), pending_.end(),
+                      [&](const SeriesEntry& entry) { return entry.file == file; }));
+  vtkNew<vtkDoubleArray> time_value;
+  time_value->SetName("TimeValue");
+  time_value->InsertNextValue(time);
+  set.GetFieldData()->AddArray(time_value);
+  add_text(set, "coordinates.unit", length_unit_name_);
+  write_vtk_file(directory_ / file, set);
+  pending_.push_back({time, index, part, file});
+}
+
+void FrameWriter::write_tissue(const TissueFrame& frame, int index, double time) {
+  const auto set = make_grid(frame.x, length_unit_, frame.tets, Triangles(3, 0));
+  add_fields(*set, frame.point_fields, frame.cell_fields);
+  write_part(frame.body, frame.body, ".vtu", *set, index, time);
+}
+
+void FrameWriter::write_rigid_body(const RigidBodyFrame& frame, int index, double time) {
+  const auto set = make_surface(frame.x, length_unit_, frame.triangles);
+  add_fields(*set, frame.point_fields, frame.cell_fields);
+  write_part(frame.body, frame.body, ".vtp", *set, index, time);
+}
+
+void FrameWriter::repeat_rigid_body(const std::string& body, int first, int index, double time) {
+  pending_.push_back(
+      {time, index, body, std::string(kFrames) + "/" + frame_file_name(body, first, ".vtp")});
+}
+
+void FrameWriter::write_contact_surface(const ContactSurfaceFrame& frame, int index, double time) {
+  // Interior nodes have no place in a surface.
+  std::vector<int> kept(frame.faces.data(), frame.faces.data() + frame.faces.size());
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  const Triangles faces = frame.faces.unaryExpr([&](int node) {
+    return static_cast<int>(std::lower_bound(kept.begin(), kept.end(), node) - kept.begin());
+  });
+  std::vector<Field> point_fields = frame.point_fields;
+  for (Field& field : point_fields) field.values = field.values(Eigen::all, kept).eval();
+  const auto set = make_surface(frame.x(Eigen::all, kept), length_unit_, faces);
+  add_fields(*set, point_fields, frame.cell_fields);
+  write_part(contact_surface_part(frame.body), frame.body + "_contact", ".vtp", *set, index, time);
+}
+
+void FrameWriter::write_lines(const LinesFrame& frame, int index, double time) {
+  const auto set = make_lines(frame.paths, length_unit_);
+  vtkNew<vtkStringArray> names;
+  names->SetName("name");
+  for (const std::string& name : frame.names) names->InsertNextValue(name);
+  set->GetCellData()->AddArray(names);
+  add_fields(*set, {}, frame.cell_fields);
+  write_part("lines", "lines", ".vtp", *set, index, time);
+}
+
+void FrameWriter::finish_frame(int index, double time) {
+  // A frame written again (the last before an interruption) takes the place of its first version.
+  std::erase_if(published_, [&](const SeriesEntry& entry) { return entry.index == index; });
+  for (SeriesEntry& entry : pending_) {
+    assert(entry.index == index);
+    entry.time = time;
+  }
+  published_.insert(published_.end(), pending_.begin(), pending_.end());
+  pending_.clear();
+  write_series(series_file(), published_);
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fem/base/types.hpp"
+#include "sim/mesh/frame_series.hpp"
+
+class vtkDataSetAttributes;
+class vtkPointSet;
+
+/// Frames for ParaView: .vtu, .vtp and a .pvd over them. Everything arrives in SI and is written
+/// in the output's length unit (coordinates, displacement, velocity per second) and SI otherwise.
+namespace articular::sim {
+
+/// A named array over points or cells: `components` rows, one column a point or cell. A
+/// `displacement` or `contact_gap` in "m" and a `velocity` in "m/s" are written in the output's
+/// length unit, every other field as it is.
+struct Field {
+  std::string name;  // e.g. "contact_pressure"
+  std::string unit;  // e.g. "Pa"; written as a field-data array "<name>.unit"
+  Eigen::MatrixXd values;
+};
+
+struct TissueFrame {
+  std::string body;
+  const Positions& x;
+  const Tetrahedra& tets;
+  std::vector<Field> point_fields, cell_fields;
+};
+
+struct RigidBodyFrame {
+  std::string body;
+  const Positions& x;
+  const Triangles& triangles;
+  std::vector<Field> point_fields, cell_fields;
+};
+
+/// The surface that a body touches with.
+struct ContactSurfaceFrame {
+  std::string body;
+  const Positions& x;  // of all nodes of the collider; those on no face are left out
+  const Triangles& faces;
+  std::vector<Field> point_fields, cell_fields;  // over x and over the faces
+};
+
+/// Muscles and ligaments: each a polyline; one value a line in each cell field.
+struct LinesFrame {
+  std::vector<std::string> names;
+  std::vector<Positions> paths;
+  std::vector<Field> cell_fields;  // activation, force, length, kind (0 muscle, 1 ligament)
+};
+
+/// Writes a time series into a folder: DIR/NAME.pvd and DIR/frames/BODY_000123.vtu etc. Every file
+/// appears whole or not at all; after each frame the .pvd lists all frames so far.
+class FrameWriter {
+ public:
+  /// @param length_unit  [m] per unit in the files, with its name, e.g. 1e-3, "mm"
+  /// @throws SystemError when the folder can't be made or written
+  FrameWriter(std::filesystem::path directory, std::string name, double length_unit,
+              std::string length_unit_name);
+
+  /// Resumes: keeps the frames up to `time` (relative tolerance 1e-12) that an earlier run
+  /// published, forgets those after it. @throws InputError when that .pvd can't be understood
+  void resume_at(double time);
+
+  void write_tissue(const TissueFrame& frame, int index, double time);
+  void write_rigid_body(const RigidBodyFrame& frame, int index, double time);
+  /// A bone that stands still since frame `first`: that frame's file again.
+  void repeat_rigid_body(const std::string& body, int first, int index, double time);
+  /// As BODY_contact_000123.vtp.
+  void write_contact_surface(const ContactSurfaceFrame& frame, int index, double time);
+  void write_lines(const LinesFrame& frame, int index, double time);
+  /// All parts of this frame are there: publishes it in the .pvd.
+  void finish_frame(int index, double time);
+
+ private:
+  /// @param part  its name in the .pvd  @param name  of the file, without number and ending
+  void write_part(const std::string& part, const std::string& name, const std::string& ending,
+                  vtkPointSet& set, int index, double time);
+  std::filesystem::path series_file() const;
+  void add_field(vtkPointSet& set, vtkDataSetAttributes& target, const Field& field) const;
+  void add_fields(vtkPointSet& set, const std::vector<Field>& point_fields,
+                  const std::vector<Field>& cell_fields) const;
+
+  std::filesystem::path directory_;
+  std::string name_;
+  double length_unit_;
+  std::string length_unit_name_;
+  std::vector<SeriesEntry> published_, pending_;
+};
+
+}  // namespace articular::sim

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/step/stepper.hpp"
+
+namespace articular::sim {
+
+/// history.csv: first column `time [s]`, then one column a probe value with its unit. A place where
+/// nothing is (NaN) is an empty cell: plots and spreadsheets leave a gap there, while a number
+/// would draw a line to it.
+class History {
+ public:
+  explicit History(const Model& model);
+
+  void record(const State& state, const Stepper& stepper);
+  /// The whole file.
+  std::string text() const;
+  /// Continues from an earlier file's text: keeps its rows up to a time.
+  void resume(const std::string& earlier, double time);
+
+  const std::vector<std::string>& columns() const { return columns_; }
+  /// The values of the last record(), one a column.
+  const std::vector<double>& last() const { return values_; }
+
+ private:
+  void append(const ProbeModel& probe, const State& state, const Stepper& stepper);
+  double share_of(const ProbeModel& probe, const std::vector<std::size_t>& begin) const;
+
+  const Model& model_;
+  std::vector<std::string> columns_;
+  std::vector<double> values_;
+  std::string rows_;
+};
+
+}  // namespace articular::sim

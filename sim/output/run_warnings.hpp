@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/step/stepper.hpp"
+
+namespace articular::sim {
+
+/// What whoever reads the results must know: elements turned inside out, contact deeper than it can
+/// be followed, energy that the time integration took or made, bodies that nothing holds. A
+/// sentence each.
+std::vector<std::string> run_warnings(const Model& model, const State& state,
+                                      const Stepper& stepper);
+
+}  // namespace articular::sim

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "sim/output/history.hpp"
+#include "sim/step/stepper.hpp"
+
+namespace articular::sim {
+
+struct WallTimes {
+  double total = 0, output = 0;  // [s]
+};
+
+/// summary.json: settings, sizes, counts, wall time by phase, energy balance, memory, versions.
+/// @param outcome  "finished", "interrupted" or the reason why it could not go on
+std::string summary_json(const Model& model, const State& state, const Stepper& stepper,
+                         const PhaseTimes& phases, const WallTimes& wall,
+                         const std::string& outcome);
+
+}  // namespace articular::sim

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "sim/statics/equilibrium.hpp"
+
+namespace articular::sim {
+
+struct RunOptions {
+  std::filesystem::path directory;  // of the results
+  bool resume = false;
+  /// Called once bodies that overlapped at the start have been pushed apart.
+  std::function<void(const OverlapResolution&)> after_overlap_resolution;
+  /// Called after every iteration of a static load step, and of settling (t = 0); true stops the
+  /// run: a load step may take minutes.
+  IterationWatch after_iteration;
+  /// Asked within each step of an analysis in time; true stops the run at the end of the last one.
+  std::function<bool()> is_to_stop;
+  /// Called at the end with each warning that the run itself has given cause for, if any.
+  std::function<void(const std::string&)> warn;
+  /// Called after every step; true stops the run (as after Ctrl-C).
+  std::function<bool(const State&, double duration)> after_step;
+};
+
+enum class RunOutcome { Finished, Interrupted };
+
+/// Runs a model from the start (or its checkpoint) to its duration and writes frames, history,
+/// checkpoints and the summary.
+/// @throws SimulationError when it can't go on; what was written stays valid, the summary says
+/// until when
+/// @throws SystemError when results can't be written
+RunOutcome run(const Model& model, const RunOptions& options);
+
+/// Times at which a step must end: kinks of curves and motions, within (0, duration).
+std::vector<double> kink_times(const Model& model);
+
+}  // namespace articular::sim

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/scenario/scenario.hpp"
+
+namespace articular::sim {
+
+/// A curve's value at a time; 1 for the empty curve.
+double value_at(const Curve& curve, double t);
+
+}  // namespace articular::sim

@@ -1,0 +1,87 @@
+#include "sim/scenario/scenario.hpp"
+
+#include <algorithm>
+
+#include "sim/scenario/scenario_choices.hpp"
+#include "sim/scenario/scenario_reader.hpp"
+#include "sim/scenario/toml_override.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// frames/BODY_contact_000000.vtp must not be a body's own file.
+void check_names_of_contact_surfaces(const std::vector<Body>& bodies) {
+  for (const Body& body : bodies)
+    for (const Body& other : bodies)
+      if (other.name == body.name + "_contact")
+        throw InputError(other.where, fmt::format("body `{}` has the name of the contact surface "
+                                                  "of `{}` in the results; expected another name, "
+                                                  "or no output.contact_surfaces",
+                                                  other.name, body.name));
+}
+
+/// Inertia would have to give it an impulse at each of its times.
+void check_motions_of_masses(const Scenario& scenario) {
+  for (const Load& load : scenario.loads) {
+    if (load.kind != Load::Kind::Motion || load.motion.smooth) continue;
+    const auto is_driven = [&](const Body& body) {
+      return body.name == load.body && body.kind == Body::Kind::Rigid;
+    };
+    if (std::any_of(scenario.bodies.begin(), scenario.bodies.end(), is_driven))
+      throw InputError(load.where,
+                       fmt::format("body `{}` has a mass, whose velocity can't jump as with "
+                                   "`interpolation` \"linear\"; expected \"smooth\", or a static "
+                                   "analysis",
+                                   load.body));
+  }
+}
+
+}  // namespace
+
+Scenario read_scenario(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides) {
+  Node root = read_toml(file);
+  for (const std::string& text : overrides)
+    if (sets_a_choice(text)) apply_override(root, text);
+  const ChosenWords choices = apply_choices(root);
+  for (const std::string& text : overrides)
+    if (!sets_a_choice(text)) apply_override(root, text);
+  const TableReader document(
+      root, "scenario",
+      {"choice", "title", "duration", "analysis", "accuracy", "settling", "contact_response",
+       "contact", "integrator", "detection", "output", "body", "attach", "muscle", "muscle_table",
+       "ligament", "load", "probe"});
+  Scenario scenario;
+  scenario.choices = choices;
+  scenario.file = file;
+  scenario.name = file.stem().string();
+  const std::filesystem::path folder = file.parent_path();
+  read_settings(document, scenario);
+  scenario.bodies = read_bodies(document, folder);
+  if (scenario.output.contact_surfaces) check_names_of_contact_surfaces(scenario.bodies);
+  if (scenario.analysis == Scenario::Analysis::Static)
+    for (const Body& body : scenario.bodies)
+      if (!body.velocity.isZero(0) || !body.angular_velocity.isZero(0))
+        throw InputError(body.where, fmt::format("body `{}` has a velocity at the start, but the "
+                                                 "analysis is static: there is no motion in it",
+                                                 body.name));
+  const Context context{folder, scenario.bodies};
+  scenario.attachments = read_attachments(document, context);
+  scenario.muscles = read_muscles(document, context);
+  scenario.ligaments = read_ligaments(document, context, scenario.muscles);
+  scenario.loads = read_loads(document, context);
+  if (scenario.analysis == Scenario::Analysis::Dynamic) check_motions_of_masses(scenario);
+  read_contacts(document, context, scenario);
+  scenario.probes = read_probes(document, context, scenario.muscles, scenario.ligaments);
+  scenario.settings_json = settings_as_json(scenario);
+  scenario.content = plain_text(root);
+  return scenario;
+}
+
+int body_index(const Scenario& scenario, const std::string& name) {
+  for (std::size_t b = 0; b < scenario.bodies.size(); ++b)
+    if (scenario.bodies[b].name == name) return static_cast<int>(b);
+  throw InputError(fmt::format("no body `{}`", name));
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,346 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "collision/narrow/narrow_rule.hpp"
+#include "fem/material/prony_term.hpp"
+#include "sim/base/error.hpp"
+
+namespace articular::fem {
+struct AnyMaterial;
+}
+
+/// A scenario as the user wrote it, in SI units: plain data, no meshes loaded, nothing looked up.
+/// The TOML form of every field is documented in scenarios/README.md.
+namespace articular::sim {
+
+using Vec3 = Eigen::Vector3d;
+
+/// A value over time: piecewise linear, constant before the first and after the last time.
+/// Empty = the constant 1.
+struct Curve {
+  std::vector<double> time;   // [s], strictly increasing
+  std::vector<double> value;  // as many
+};
+
+/// A path over time of a driven body, or of a rigid one's held freedoms: along and about the axes
+/// of its hold.
+struct Motion {
+  std::vector<double> time;       // [s], strictly increasing
+  std::vector<Vec3> translation;  // [m], from the reference pose; empty = none
+  std::vector<Vec3> rotation;     // rotation vector [rad], about `about`; empty = none
+  Vec3 about = Vec3::Zero();      // [m], world
+  bool smooth = true;             // between two times: smoothstep (true) or linear
+};
+
+/// A part of a mesh's nodes: those inside every condition given. No condition = every node.
+struct Region {
+  std::optional<std::pair<Vec3, Vec3>> box;       // min, max corner [m]
+  std::optional<std::pair<Vec3, double>> sphere;  // centre, radius [m]
+  std::optional<std::pair<std::string, double>>
+      near_body;  // within a distance [m] of a body's surface
+  bool surface_only = false;
+  Location where;
+};
+
+/// An axis-aligned block of tetrahedra (six a cell).
+struct BoxGeometry {
+  Vec3 size = Vec3::Zero();  // [m]
+  Eigen::Vector3i cells = Eigen::Vector3i::Ones();
+  Vec3 center = Vec3::Zero();  // [m]
+};
+
+/// A block of tetrahedra (six a cell) with any eight corners, trilinear between them.
+struct HexahedronGeometry {
+  Eigen::Matrix<double, 3, 8> corners;  // [m], ordered as VTK's hexahedron
+  Eigen::Vector3i cells = Eigen::Vector3i::Ones();
+};
+
+/// A solid ball of tetrahedra.
+struct SphereGeometry {
+  double radius = 0;           // [m]
+  double element_size = 0;     // [m]
+  Vec3 center = Vec3::Zero();  // [m]
+};
+
+/// The article's V-shape: two square legs that meet at the origin and open along +z in the x-z
+/// plane.
+struct VShapeGeometry {
+  double leg_length = 0;                            // [m], from the tip
+  double width = 0;                                 // [m], the side of the square section
+  double angle = 0;                                 // [rad], between the legs
+  Eigen::Vector2i cells = Eigen::Vector2i::Ones();  // along a leg, across it
+};
+
+/// The directions of a tissue's fibres at the start: exactly one of these.
+struct Fibres {
+  std::optional<Vec3> direction;                     // the same everywhere, unit vector
+  std::optional<std::string> array;                  // a cell array of the mesh, three components
+  std::optional<std::pair<Region, Region>> between;  // along the gradient of the harmonic field
+  Location where;
+};
+
+struct TissueMaterial {
+  std::shared_ptr<const fem::AnyMaterial> law;
+  std::optional<Fibres> fibres;  // where the law has them
+  /// Plain linear tetrahedra, or smoothed ones that do not lock.
+  enum class Element { Plain, Smoothed } element = Element::Plain;
+  double mass_damping = 0;       // α [1/s] of Rayleigh damping
+  double stiffness_damping = 0;  // β [s]
+  std::vector<fem::PronyTerm> relaxation;
+  Location where;
+};
+
+/// A compliant layer on a rigid surface (cartilage, periodontal ligament): an elastic foundation of
+/// stiffness (1-nu)E / ((1+nu)(1-2nu)h) per area, in series with the contact stiffness [EFM].
+struct Layer {
+  double thickness = 0;      // [m]
+  double young_modulus = 0;  // [Pa]
+  double poisson_ratio = 0;
+};
+
+/// A rigid change of frame of everything a body reads from files: x -> scale * R (x - about) +
+/// about + translation.
+struct Placement {
+  Vec3 rotation = Vec3::Zero();     // rotation vector [rad]
+  Vec3 about = Vec3::Zero();        // [m]
+  Vec3 translation = Vec3::Zero();  // [m]
+  double scale = 1;
+};
+
+/// How a contact surface goes on where it was cut off, see mesh_continue.hpp.
+struct Continuation {
+  Vec3 at = Vec3::Zero();          // [m], a point of the plane of the cut, in the placed frame
+  Vec3 direction = Vec3::UnitX();  // unit vector, across that plane
+  double length = 0;               // [m]
+  double easing = 0;               // [m], over which the slope at the cut fades out
+};
+
+/// A mesh file of a body. For contact of bones: only faces whose normal is within 80 degrees of
+/// `facing` (if given) take part.
+struct MeshFile {
+  std::filesystem::path path;  // as resolved against the scenario's folder, variables replaced
+  double unit = 1e-3;          // [m] per unit of the file
+  Placement placement;
+  std::optional<int> faces;    // contact: simplify to about this many triangles (after `facing`)
+  std::optional<Vec3> facing;  // unit vector, in the placed frame
+  std::optional<Continuation> continued;  // contact: after `faces`
+  std::string made_by;                    // what makes the file: told when it is missing
+  Location where;
+};
+
+/// Freedoms of a rigid body that are held: of the motion of its point `at`, along axes that stand
+/// in space.
+struct Hold {
+  std::array<bool, 6> held{};  // translation along each axis, rotation about each
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // columns
+  std::optional<Vec3> at;  // [m], world at the start; default: the centre of mass
+};
+
+struct Body {
+  enum class Kind { Fixed, Rigid, Tissue };
+  std::string name;
+  Kind kind = Kind::Tissue;
+  // Exactly one of these, or none for a fixed body that only carries points:
+  std::optional<MeshFile> mesh;
+  std::optional<BoxGeometry> box;
+  std::optional<HexahedronGeometry> hexahedron;
+  std::optional<SphereGeometry> sphere;
+  std::optional<VShapeGeometry> v_shape;
+  Placement placement;  // of a built-in geometry
+
+  std::vector<MeshFile> contact_meshes;  // bones: surfaces that touch, in place of the mesh
+  bool collides = true;
+  std::optional<TissueMaterial> material;  // tissue: needed
+  std::optional<double> density;           // [kg/m^3]; tissue: needed; rigid: or mass
+  std::optional<double> mass;              // [kg], rigid
+  std::optional<Vec3> center_of_mass;      // [m], rigid, world at the start; default from the mesh
+  std::optional<Eigen::Matrix3d>
+      inertia;  // [kg m^2], rigid, about the centre of mass; default from the mesh
+  std::optional<Layer> layer;
+  std::optional<double>
+      shell_thickness;           // [m], depth of the collision elements under a bone's surface
+  Vec3 velocity = Vec3::Zero();  // [m/s] at the start
+  Vec3 angular_velocity = Vec3::Zero();  // [rad/s] at the start, rigid
+  std::optional<Hold> hold;              // rigid
+  Location where;
+};
+
+/// Tissue nodes of a region move with a bone.
+struct Attachment {
+  std::string body;  // tissue
+  std::string to;    // fixed or rigid
+  Region region;
+  Location where;
+};
+
+/// A point of a line or a load: a point of a bone, or the nearest surface node of a tissue, spread
+/// over the tissue's surface nodes within `radius` if radius > 0 (equal weights).
+struct Anchor {
+  std::string body;
+  Vec3 point = Vec3::Zero();  // [m], world at the start
+  double radius = 0;          // [m]
+  Location where;
+};
+
+struct Muscle {
+  std::string name;
+  std::string tissue;        // whose fibres it activates; empty: a line, for which the rest is
+  std::vector<Anchor> path;  // from origin to insertion, via points between; at least 2
+  double max_force = 0;      // [N], isometric, at full activation
+  std::optional<double> optimal_length;  // [m]; default: length of the path at the start
+  double max_length_ratio =
+      1.3;  // length at which the passive force reaches its maximum / optimal length
+  double tendon_ratio = 0;           // tendon length / optimal length (Peck)
+  double passive_fraction = 0.015;   // passive force at maximal length / max_force
+  double max_velocity = 10;          // [optimal lengths / s]
+  bool force_length = true;          // false: activation times max_force, at any length and speed
+  double activation_time = 0.015;    // [s]
+  double deactivation_time = 0.050;  // [s]
+  Curve excitation;                  // 0..1; empty = 0
+  Location where;
+};
+
+struct Ligament {
+  enum class Law { Linear, Blankevoort };
+  std::string name;
+  std::vector<Anchor> path;  // at least 2
+  Law law = Law::Linear;
+  double stiffness = 0;      // Linear: [N/m]; Blankevoort: [N] per unit strain
+  double toe_strain = 0.03;  // Blankevoort's eps_l
+  double damping = 0;        // [N s/m], while stretching; at most the elastic tension
+  // Slack length: the first one given of these, else the length at the start.
+  std::optional<double> slack_length;      // [m]
+  std::optional<double> slack_extension;   // [m], added to the length at the start
+  std::optional<double> reference_strain;  // slack length = length at the start / (1 + strain)
+  Location where;
+};
+
+struct Load {
+  enum class Kind { Gravity, Force, Motion };
+  Kind kind = Kind::Gravity;
+  Vec3 acceleration = Vec3::Zero();  // Gravity [m/s^2]
+  Anchor anchor;                 // Force: where it acts (a region of a tissue: `region` instead)
+  std::optional<Region> region;  // Force on a tissue: spread over these nodes, equal shares
+  Vec3 force = Vec3::Zero();     // Force [N], dead
+  Curve profile;                 // Force: factor over time
+  std::string body;  // Motion: a fixed body, or a rigid one with hold; Force with region: a tissue
+  Motion motion;     // Motion
+  Location where;
+};
+
+/// Without any of these every pair of bodies can meet, and none meets itself.
+struct ContactPair {
+  std::string a, b;                 // a == b: the body with itself
+  std::optional<double> stiffness;  // [Pa/m]; default: chosen from the tissue
+  Location where;
+  double friction = 0;                       // coefficient; dynamic analysis only
+  std::optional<double> slip_velocity = {};  // [m/s] that friction takes for rest; default: chosen
+  double damping = 0;                        // pressure per closing velocity [Pa s/m]
+  std::optional<double> max_penetration = {};  // [m]; default: see ContactModel
+};
+
+/// A body's axes at the start for joint coordinates, see joint_coordinates.hpp.
+struct JointSide {
+  std::string body;
+  Vec3 origin = Vec3::Zero();   // [m], world
+  Vec3 lateral = Vec3::Zero();  // unit vectors, world, not parallel
+  Vec3 up = Vec3::Zero();
+};
+
+struct Probe {
+  enum class Kind { Point, Angle, Contact, Line, Energy, Reaction, Attachment, Share, Joint };
+  std::string name;
+  Kind kind = Kind::Point;
+  Anchor anchor;                   // Point
+  std::string body;                // Angle, Reaction, Contact (first body), Attachment (tissue)
+  std::string other;               // Contact: second body; Attachment: the bone
+  std::optional<Region> region;    // Contact: only through this part of the first body's surface
+  Vec3 axis = Vec3::UnitX();       // Angle: rotation of a rigid body about this unit axis [rad]
+  std::string line;                // Line: a muscle or ligament: force and length
+  std::vector<std::string> part;   // Share: probes with forces, of which it divides the sums
+  std::vector<std::string> whole;  // along a direction
+  Vec3 direction = Vec3::Zero();   // unit vector
+  JointSide proximal, distal;      // Joint
+  bool is_right = true;            // Joint: of the right side of the body
+  Location where;
+};
+
+struct Integrator {
+  enum class Scheme { ImplicitEuler, TrBdf2, Dirk3, Bdf, Explicit };
+  enum class Solver { Auto, Cholesky, ConjugateGradients, Multigrid };
+  Scheme scheme = Scheme::ImplicitEuler;
+  Solver solver = Solver::Auto;
+  double step = 1e-3;  // [s]
+  /// [m], of the Newton iteration; default: `element_tolerance` of the elements' size.
+  std::optional<double> position_tolerance;
+  double element_tolerance = 5e-4;
+  int max_iterations = 20;  // Newton iterations before the step is halved
+  double min_step = 1e-7;   // [s], below which the run stops
+};
+
+struct Detection {
+  bool lagged = false;           // a dynamic analysis looks anew only when things have moved
+  std::optional<double> margin;  // [m], least distance at which pairs are kept as candidates
+  collision::NarrowTest narrow_test = collision::NarrowTest::SeparatingAxes;
+};
+
+struct Output {
+  double interval = 10e-3;    // [s] between frames
+  double length_unit = 1e-3;  // [m] per unit in the files
+  std::string length_unit_name = "mm";
+  std::optional<std::filesystem::path> directory;
+  bool contact_surfaces = false;  // a file of its own for the surface that each body touches with
+  std::optional<double> checkpoint_interval;  // [s]; none: see run.cpp
+};
+
+struct Scenario {
+  std::filesystem::path file;
+  std::string title;
+  std::string name;     // file name without ending: names the results
+  double duration = 0;  // [s]
+  enum class Analysis { Dynamic, Static } analysis = Analysis::Dynamic;
+  enum class Accuracy { Fast, Balanced, Accurate } accuracy = Accuracy::Balanced;
+  Integrator integrator;
+  Detection detection;
+  int threads = 1;  // of the run, not of the file: results have the same bits with any number
+  std::vector<Body> bodies;
+  std::vector<Attachment> attachments;
+  std::vector<Muscle> muscles;
+  std::vector<Ligament> ligaments;
+  std::vector<Load> loads;
+  bool contact = true;  // `contact = false`: nothing touches
+  /// Of a dynamic analysis: depths count point by point, everywhere or at samples of each triangle,
+  /// or as averages at nodes, which is what a static one does.
+  enum class Response { Pointwise, Sampled, Averaged } contact_response = Response::Averaged;
+  bool settling = true;  // bodies that overlap at the start are pushed apart first
+  std::vector<ContactPair> contacts;
+  std::vector<Probe> probes;
+  Output output;
+  /// The words of [choice], by name: see scenario_choices.hpp.
+  std::vector<std::pair<std::string, std::string>> choices;
+  /// The settings after presets and overrides, as JSON text, for summary.json.
+  std::string settings_json;
+  /// What the file says after overrides, without comments and layout: checkpoints belong to it.
+  std::string content;
+};
+
+/// Index into its bodies. @throws InputError when there is none of that name
+int body_index(const Scenario& scenario, const std::string& name);
+
+/// Reads and checks a scenario file.
+/// @param overrides  "path=value", e.g. "duration=0.1 s",
+/// "body.disc_left.material.poisson_ratio=0.3",
+///                   "integrator.step=0.5 ms"; entries of arrays of tables by their name or number
+/// @throws InputError with file:line:column for anything that is not a valid scenario
+Scenario read_scenario(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides = {});
+
+}  // namespace articular::sim

@@ -1,0 +1,252 @@
+// Muscles and ligaments: what pulls along a path of points.
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "sim/scenario/data_path.hpp"
+#include "sim/scenario/muscle_table.hpp"
+#include "sim/scenario/scenario_reader.hpp"
+
+namespace articular::sim {
+namespace {
+
+constexpr Range kMoreThanOne{1, kInfinity, true, "must be greater than 1"};
+constexpr Range kMoreThanMinusOne{-1, kInfinity, true, "must be greater than -1"};
+
+double read_tendon_ratio(const Node& node) {
+  const double ratio = read_number(node, kFraction);
+  if (ratio == 1)
+    fail(node, "a tendon as long as the muscle leaves no fibers, found " + found(node));
+  return ratio;
+}
+
+std::vector<Anchor> read_path(const TableReader& line, const Context& context) {
+  const Node& node = line.at("path");
+  const Node::List& list = read_list(
+      node, "a list of points such as [{ body = \"skull\", point = \"57 -4 74 mm\" }, ...]");
+  if (list.size() < 2)
+    fail(node, fmt::format("{} has no insertion: its path needs at least two points", line.what()));
+  std::vector<Anchor> path;
+  double length = 0;
+  for (const Node& element : list) {
+    const TableReader table(element, fmt::format("point of {}", line.what()),
+                            {"body", "point", "radius"});
+    path.push_back(read_anchor(table, context));
+    if (path.size() > 1) length += (path.back().point - path[path.size() - 2].point).norm();
+  }
+  if (!(length > 0)) fail(node, fmt::format("the path of {} has no length", line.what()));
+  return path;
+}
+
+/// The parameters that a muscle and a table of muscles share.
+void read_dynamics(const TableReader& table, Muscle& muscle) {
+  table.may("passive_fraction", muscle.passive_fraction, as_number(kNotNegative));
+  table.may("max_velocity", muscle.max_velocity, as_quantity(kRate, kPositive));
+  table.may("force_length", muscle.force_length, read_boolean);
+  if (!muscle.force_length)
+    table.refuse(
+        {"passive_fraction", "max_velocity", "optimal_length", "max_length_ratio", "tendon_ratio"},
+        "with force_length = false the force depends on activation alone");
+  table.may("activation_time", muscle.activation_time, as_quantity(kTime, kPositive));
+  table.may("deactivation_time", muscle.deactivation_time, as_quantity(kTime, kPositive));
+}
+
+Curve read_excitation(const Node& node) { return read_curve(node, kFraction); }
+
+Muscle read_muscle(const TableReader& table, const Context& context) {
+  Muscle muscle;
+  muscle.where = table.node().where;
+  muscle.name = read_name(table.at("name")) + side_suffix(table, context.side);
+  table.exactly_one({"path", "tissue"});
+  if (const Node* tissue = table.find("tissue")) {
+    table.refuse({"max_force", "optimal_length", "max_length_ratio", "tendon_ratio",
+                  "passive_fraction", "max_velocity", "force_length"},
+                 "the muscle is made of a tissue's fibres, whose material says how they pull");
+    const Body& body = read_body_reference(*tissue, context);
+    if (!body.material || !body.material->fibres)
+      fail(*tissue, fmt::format("body `{}` has no fibres", body.name));
+    muscle.tissue = body.name;
+    table.may("excitation", muscle.excitation, read_excitation);
+    read_dynamics(table, muscle);
+    return muscle;
+  }
+  muscle.path = read_path(table, context);
+  muscle.max_force = read_quantity(table.at("max_force"), kForce, kPositive);
+  table.may("optimal_length", muscle.optimal_length, as_quantity(kLength, kPositive));
+  table.may("max_length_ratio", muscle.max_length_ratio, as_number(kMoreThanOne));
+  table.may("tendon_ratio", muscle.tendon_ratio, read_tendon_ratio);
+  table.may("excitation", muscle.excitation, read_excitation);
+  read_dynamics(table, muscle);
+  return muscle;
+}
+
+/// The excitations of a table by muscle name; every name must be one of the rows'.
+std::vector<std::pair<std::string, Curve>> read_excitations(const TableReader& table,
+                                                            const std::vector<MuscleRow>& rows) {
+  std::vector<std::pair<std::string, Curve>> curves;
+  const Node* node = table.find("excitation");
+  if (node == nullptr) return curves;
+  std::vector<std::string> names;
+  for (const MuscleRow& row : rows)
+    if (std::find(names.begin(), names.end(), row.muscle) == names.end())
+      names.push_back(row.muscle);
+  if (node->table() == nullptr)
+    fail(*node, fmt::format("expected a table of curves by muscle name, found {}", found(*node)));
+  for (const Member& member : node->table()->members) {
+    if (std::find(names.begin(), names.end(), member.key) == names.end())
+      throw InputError(member.key_where,
+                       fmt::format("the muscle table has no muscle `{}`{}", one_line(member.key),
+                                   suggestion(member.key, names)));
+    curves.emplace_back(member.key, read_excitation(member.node));
+  }
+  return curves;
+}
+
+/// The bodies of the scenario for the body names of a table.
+class TableBodies {
+ public:
+  TableBodies(const TableReader& table, const std::vector<MuscleRow>& rows, const Context& context)
+      : context_(context), renames_(table.find("bodies")) {
+    if (renames_ == nullptr) return;
+    std::vector<std::string> names;
+    for (const MuscleRow& row : rows)
+      for (const std::string& name : {row.upper_body, row.lower_body})
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (renames_->table() == nullptr)
+      fail(*renames_, fmt::format("expected a table such as {{ hyoid = \"skull\" }}, found {}",
+                                  found(*renames_)));
+    for (const Member& member : renames_->table()->members) {
+      if (std::find(names.begin(), names.end(), member.key) == names.end())
+        throw InputError(member.key_where,
+                         fmt::format("the muscle table has no body `{}`{}", one_line(member.key),
+                                     suggestion(member.key, names)));
+      read_body_reference(member.node, context);
+    }
+  }
+
+  /// The scenario's name for a body of a row.
+  std::string find(const std::string& name, const Location& row) const {
+    const Node* renamed = renames_ == nullptr ? nullptr : renames_->find(name);
+    if (renamed != nullptr) return read_body_reference(*renamed, context_).name;
+    std::vector<std::string> names;
+    for (const Body& body : context_.bodies) {
+      if (body.name == name) return name;
+      names.push_back(body.name);
+    }
+    throw InputError(
+        row, fmt::format("the scenario has no body `{0}` (`bodies = {{ {0} = \"...\" }}` of the "
+                         "[[muscle_table]] can rename it){1}",
+                         name, suggestion(name, names)));
+  }
+
+ private:
+  const Context& context_;
+  const Node* renames_;
+};
+
+Vec3 placed(const double (&point_mm)[3], const Placement& placement) {
+  const Vec3 point = 1e-3 * Vec3(point_mm[0], point_mm[1], point_mm[2]);
+  const double angle = placement.rotation.norm();
+  const Vec3 axis = angle > 0 ? Vec3(placement.rotation / angle) : Vec3::UnitX();
+  return placement.scale * (Eigen::AngleAxisd(angle, axis) * (point - placement.about)) +
+         placement.about + placement.translation;
+}
+
+void append_table(const Node& node, const Context& context, std::vector<Muscle>& muscles) {
+  const TableReader table(node, "[[muscle_table]]",
+                          {"file", "place", "bodies", "passive_fraction", "max_velocity",
+                           "force_length", "activation_time", "deactivation_time", "excitation"});
+  const Node& file = table.at("file");
+  const std::vector<MuscleRow> rows =
+      read_muscle_table(read_path(file, context.folder), file.where);
+  const TableBodies bodies(table, rows, context);
+  const auto excitations = read_excitations(table, rows);
+  Placement placement;
+  table.may("place", placement, read_placement);
+  for (const MuscleRow& row : rows) {
+    const Node id{row.id, "id", row.where};
+    Muscle muscle;
+    muscle.where = row.where;
+    muscle.name = read_name(id);
+    check_new_name(id, "muscle", muscle.name, muscles);
+    muscle.path = {
+        {bodies.find(row.upper_body, row.where), placed(row.upper_mm, placement), 0, row.where},
+        {bodies.find(row.lower_body, row.where), placed(row.lower_mm, placement), 0, row.where}};
+    muscle.max_force = row.max_force;
+    muscle.max_length_ratio = row.max_length_ratio;
+    muscle.tendon_ratio = row.tendon_ratio;
+    read_dynamics(table, muscle);
+    for (const auto& [name, curve] : excitations)
+      if (name == row.muscle) muscle.excitation = curve;
+    muscles.push_back(std::move(muscle));
+  }
+}
+
+void read_slack(const TableReader& table, Ligament& ligament) {
+  table.at_most_one({"slack_length", "slack_extension", "reference_strain"});
+  table.may("slack_length", ligament.slack_length, as_quantity(kLength, kPositive));
+  table.may("slack_extension", ligament.slack_extension, as_quantity(kLength, kAny));
+  table.may("reference_strain", ligament.reference_strain, as_number(kMoreThanMinusOne));
+}
+
+Ligament read_ligament(const TableReader& table, const Context& context) {
+  Ligament ligament;
+  ligament.where = table.node().where;
+  ligament.name = read_name(table.at("name")) + side_suffix(table, context.side);
+  ligament.path = read_path(table, context);
+  table.exactly_one({"stiffness", "stiffness_per_strain"});
+  table.may("stiffness", ligament.stiffness, as_quantity(kStiffness, kPositive));
+  if (table.find("stiffness_per_strain") != nullptr) {
+    ligament.law = Ligament::Law::Blankevoort;
+    table.may("stiffness_per_strain", ligament.stiffness, as_quantity(kForce, kPositive));
+    table.may("toe_strain", ligament.toe_strain, as_number(kPositive));
+  } else {
+    table.refuse({"toe_strain"},
+                 "a ligament with `stiffness` is linear; `stiffness_per_strain` has a toe");
+  }
+  table.may("damping", ligament.damping, as_quantity(kDamping, kNotNegative));
+  read_slack(table, ligament);
+  return ligament;
+}
+
+}  // namespace
+
+std::vector<Muscle> read_muscles(const TableReader& document, const Context& context) {
+  std::vector<Muscle> muscles;
+  for (const Node& node : entries(document, "muscle")) {
+    const TableReader table(node, label(node, "muscle"),
+                            {"name", "mirror", "tissue", "path", "max_force", "optimal_length",
+                             "max_length_ratio", "tendon_ratio", "passive_fraction", "max_velocity",
+                             "force_length", "activation_time", "deactivation_time", "excitation"});
+    for (const Side side : read_sides(table)) {
+      Context here = context;
+      here.side = side;
+      Muscle muscle = read_muscle(table, here);
+      check_new_name(table.at("name"), "muscle", muscle.name, muscles);
+      muscles.push_back(std::move(muscle));
+    }
+  }
+  for (const Node& node : entries(document, "muscle_table")) append_table(node, context, muscles);
+  return muscles;
+}
+
+std::vector<Ligament> read_ligaments(const TableReader& document, const Context& context,
+                                     const std::vector<Muscle>& muscles) {
+  std::vector<Ligament> ligaments;
+  for (const Node& node : entries(document, "ligament")) {
+    const TableReader table(
+        node, label(node, "ligament"),
+        {"name", "mirror", "path", "stiffness", "stiffness_per_strain", "toe_strain", "damping",
+         "slack_length", "slack_extension", "reference_strain"});
+    for (const Side side : read_sides(table)) {
+      Context here = context;
+      here.side = side;
+      Ligament ligament = read_ligament(table, here);
+      check_new_name(table.at("name"), "ligament", ligament.name, ligaments);
+      check_new_name(table.at("name"), "line (muscle or ligament)", ligament.name, muscles);
+      ligaments.push_back(std::move(ligament));
+    }
+  }
+  return ligaments;
+}
+
+}  // namespace articular::sim

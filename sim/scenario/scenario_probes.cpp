@@ -1,0 +1,193 @@
+// What is recorded.
+#include <algorithm>
+
+#include "sim/scenario/scenario_reader.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Of muscles and ligaments, which probes may name.
+using Names = std::vector<std::string>;
+
+std::string read_body_of_kind(const Node& node, const Context& context, Body::Kind kind,
+                              std::string_view expected) {
+  const Body& body = read_body_reference(node, context);
+  if (body.kind != kind)
+    fail(node, fmt::format("expected a {} body, body `{}` is none", expected, body.name));
+  return body.name;
+}
+
+std::string read_line_reference(const Node& node, const Context& context, const Names& lines) {
+  const std::string line = context.name(read_text(node));
+  if (std::find(lines.begin(), lines.end(), line) == lines.end())
+    fail(node, fmt::format("no muscle or ligament is called `{}`{}", one_line(line),
+                           suggestion(line, lines)));
+  return line;
+}
+
+/// A body that something outside the scene holds, wholly or in part.
+std::string read_held_body(const Node& node, const Context& context) {
+  const Body& body = read_body_reference(node, context);
+  if (body.kind != Body::Kind::Fixed && !body.hold)
+    fail(node, fmt::format("expected a fixed body or a rigid one with `hold`, body `{}` is {}",
+                           body.name, body.kind == Body::Kind::Rigid ? "free" : "tissue"));
+  return body.name;
+}
+
+/// Refuses keys of other kinds of probe.
+void keep_only(const TableReader& table, std::initializer_list<std::string_view> keys) {
+  for (const std::string_view key : {"body", "point", "axis", "bodies", "line", "region", "part",
+                                     "whole", "direction", "proximal", "distal", "side"})
+    if (std::find(keys.begin(), keys.end(), key) == keys.end())
+      table.refuse({key}, fmt::format("the probe is of kind {}", found(table.at("kind"))));
+}
+
+/// Names of probes, which may come later in the file: see check_forces().
+Names read_probe_names(const Node& node, const Context& context) {
+  Names names;
+  for (const Node& element : read_list(node, "the names of probes with forces"))
+    names.push_back(context.name(read_text(element)));
+  return names;
+}
+
+JointSide read_joint_side(const Node& node, const Context& context) {
+  const TableReader table(node, fmt::format("`{}`", node.name), {"body", "point", "lateral", "up"});
+  JointSide side;
+  const Body& body = read_body_reference(table.at("body"), context);
+  if (body.kind == Body::Kind::Tissue)
+    fail(table.at("body"),
+         fmt::format("expected a fixed or rigid body, body `{}` is tissue", body.name));
+  side.body = body.name;
+  side.origin = read_vector(table.at("point"), kLength);
+  side.lateral = read_direction(table.at("lateral"));
+  side.up = read_direction(table.at("up"));
+  return side;
+}
+
+/// What a probe of its kind observes.
+void read_target(const TableReader& table, const Context& context, const Names& lines,
+                 Probe& probe) {
+  switch (probe.kind) {
+    case Probe::Kind::Point:
+      keep_only(table, {"body", "point"});
+      probe.anchor = read_anchor(table, context);
+      break;
+    case Probe::Kind::Angle:
+      keep_only(table, {"body", "axis"});
+      probe.body = read_body_of_kind(table.at("body"), context, Body::Kind::Rigid, "rigid");
+      table.may("axis", probe.axis, read_direction);
+      break;
+    case Probe::Kind::Contact: {
+      keep_only(table, {"bodies", "region"});
+      const Node::List& bodies = read_list(table.at("bodies"), "the names of two bodies", 2);
+      probe.body = read_touching_body(bodies[0], context).name;
+      probe.other = read_touching_body(bodies[1], context).name;
+      table.may("region", probe.region, [&](const Node& n) { return read_region(n, context); });
+      if (probe.region && probe.body == probe.other)
+        fail(table.at("region"), "needs two bodies: of one with itself it names no side");
+      break;
+    }
+    case Probe::Kind::Attachment: {
+      keep_only(table, {"bodies"});
+      const Node::List& bodies = read_list(table.at("bodies"), "a tissue and a bone", 2);
+      probe.body = read_body_of_kind(bodies[0], context, Body::Kind::Tissue, "tissue");
+      const Body& rigid = read_body_reference(bodies[1], context);
+      if (rigid.kind == Body::Kind::Tissue)
+        fail(bodies[1],
+             fmt::format("expected a fixed or rigid body, body `{}` is tissue", rigid.name));
+      probe.other = rigid.name;
+      break;
+    }
+    case Probe::Kind::Line:
+      keep_only(table, {"line"});
+      probe.line = read_line_reference(table.at("line"), context, lines);
+      break;
+    case Probe::Kind::Energy:
+      keep_only(table, {});
+      break;
+    case Probe::Kind::Reaction:
+      keep_only(table, {"body"});
+      probe.body = read_held_body(table.at("body"), context);
+      break;
+    case Probe::Kind::Share:
+      keep_only(table, {"part", "whole", "direction"});
+      probe.part = read_probe_names(table.at("part"), context);
+      probe.whole = read_probe_names(table.at("whole"), context);
+      probe.direction = read_direction(table.at("direction"));
+      break;
+    case Probe::Kind::Joint:
+      keep_only(table, {"proximal", "distal", "side"});
+      table.refuse({"mirror"}, "axes of a joint are directions, which are not mirrored");
+      probe.proximal = read_joint_side(table.at("proximal"), context);
+      probe.distal = read_joint_side(table.at("distal"), context);
+      if (probe.proximal.body == probe.distal.body)
+        fail(table.at("distal"), "a joint needs two bodies");
+      probe.is_right = read_choice<bool>(table.at("side"), {{"right", true}, {"left", false}});
+      break;
+  }
+}
+
+Probe read_probe(const TableReader& table, const Context& context, const Names& lines) {
+  Probe probe;
+  probe.where = table.node().where;
+  probe.name = read_name(table.at("name")) + side_suffix(table, context.side);
+  probe.kind = read_choice<Probe::Kind>(table.at("kind"), {{"point", Probe::Kind::Point},
+                                                           {"angle", Probe::Kind::Angle},
+                                                           {"contact", Probe::Kind::Contact},
+                                                           {"line", Probe::Kind::Line},
+                                                           {"energy", Probe::Kind::Energy},
+                                                           {"reaction", Probe::Kind::Reaction},
+                                                           {"attachment", Probe::Kind::Attachment},
+                                                           {"share", Probe::Kind::Share},
+                                                           {"joint", Probe::Kind::Joint}});
+  read_target(table, context, lines, probe);
+  return probe;
+}
+
+bool has_force(const Probe& probe) {
+  return probe.kind == Probe::Kind::Contact || probe.kind == Probe::Kind::Attachment ||
+         probe.kind == Probe::Kind::Reaction;
+}
+
+/// Shares are of probes that have a force.
+void check_forces(const std::vector<Probe>& probes) {
+  Names with_force;
+  for (const Probe& probe : probes)
+    if (has_force(probe)) with_force.push_back(probe.name);
+  for (const Probe& probe : probes)
+    for (const Names* names : {&probe.part, &probe.whole})
+      for (const std::string& name : *names)
+        if (std::find(with_force.begin(), with_force.end(), name) == with_force.end())
+          throw InputError(probe.where,
+                           fmt::format("[[probe]] `{}`: expected names of contact, attachment or "
+                                       "reaction probes, found `{}`{}",
+                                       probe.name, one_line(name), suggestion(name, with_force)));
+}
+
+}  // namespace
+
+std::vector<Probe> read_probes(const TableReader& document, const Context& context,
+                               const std::vector<Muscle>& muscles,
+                               const std::vector<Ligament>& ligaments) {
+  Names lines;
+  for (const Muscle& muscle : muscles)
+    if (muscle.tissue.empty()) lines.push_back(muscle.name);
+  for (const Ligament& ligament : ligaments) lines.push_back(ligament.name);
+  std::vector<Probe> probes;
+  for (const Node& node : entries(document, "probe")) {
+    const TableReader table(node, label(node, "probe"),
+                            {"name", "kind", "body", "point", "axis", "bodies", "line", "region",
+                             "part", "whole", "direction", "proximal", "distal", "side", "mirror"});
+    for (const Side side : read_sides(table)) {
+      Context here = context;
+      here.side = side;
+      Probe probe = read_probe(table, here, lines);
+      check_new_name(table.at("name"), "probe", probe.name, probes);
+      probes.push_back(std::move(probe));
+    }
+  }
+  check_forces(probes);
+  return probes;
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/scenario/scenario.hpp"
+#include "sim/scenario/toml_reader.hpp"
+
+/// The parts of read_scenario(): each reads one kind of entry and checks it against what was read
+/// before.
+namespace articular::sim {
+
+/// The right side of an entry with `mirror = "x"`: x is negated, `_left` in names becomes `_right`.
+enum class Side { AsWritten, Mirrored };
+
+/// What the reading of an entry refers to.
+struct Context {
+  std::filesystem::path folder;     // of the scenario file
+  const std::vector<Body>& bodies;  // complete
+  Side side = Side::AsWritten;
+
+  std::string name(const std::string& written) const;  // on this side
+  Vec3 point(const Vec3& written) const;
+};
+
+/// "body `skull`" for messages about an entry, or "[[body]]" if it has no name.
+std::string label(const Node& entry, std::string_view list);
+
+/// A name of an entry: letters, digits, `_`, `-` and inner spaces, since results carry it in file
+/// names and table headers.
+std::string read_name(const Node& node);
+
+/// "jaw.toml:12", for messages that point at a second place.
+std::string place(const Location& where);
+
+/// Throws at `node` if one of the entries so far has the name.
+template <class Entry>
+void check_new_name(const Node& node, std::string_view what, const std::string& name,
+                    const std::vector<Entry>& so_far) {
+  for (const Entry& entry : so_far)
+    if (entry.name == name)
+      fail(node, fmt::format("a second {} is called `{}`, the first is at {}", what, name,
+                             place(entry.where)));
+}
+
+/// The sides on which an entry exists: as written, and mirrored if it has `mirror = "x"`.
+std::vector<Side> read_sides(const TableReader& table);
+
+/// "_left", "_right" for an entry that is mirrored, or "".
+std::string side_suffix(const TableReader& table, Side side);
+
+/// "translation.x" to "rotation.z", by Hold::held.
+std::string_view freedom_name(std::size_t freedom);
+
+/// The body that a node names. @throws InputError  if there is none, with the nearest name
+const Body& read_body_reference(const Node& node, const Context& context);
+
+bool has_surface(const Body& body);
+
+/// The body that a node names, which can touch something.
+const Body& read_touching_body(const Node& node, const Context& context);
+
+Placement read_placement(const Node& node);
+Region read_region(const Node& node, const Context& context);
+
+TissueMaterial read_material(const Node& node);
+
+/// `body`, `point` and `radius` of a table.
+Anchor read_anchor(const TableReader& table, const Context& context);
+
+/// `time` and `value` of a node. @param range  of the values
+Curve read_curve(const Node& node, const Range& range);
+
+/// Strictly increasing times.
+std::vector<double> read_times(const Node& node);
+
+std::vector<Body> read_bodies(const TableReader& document, const std::filesystem::path& folder);
+std::vector<Attachment> read_attachments(const TableReader& document, const Context& context);
+std::vector<Muscle> read_muscles(const TableReader& document, const Context& context);
+std::vector<Ligament> read_ligaments(const TableReader& document, const Context& context,
+                                     const std::vector<Muscle>& muscles);
+std::vector<Load> read_loads(const TableReader& document, const Context& context);
+void read_contacts(const TableReader& document, const Context& context, Scenario& scenario);
+std::vector<Probe> read_probes(const TableReader& document, const Context& context,
+                               const std::vector<Muscle>& muscles,
+                               const std::vector<Ligament>& ligaments);
+
+/// Title, duration, accuracy, integrator, detection and output.
+void read_settings(const TableReader& document, Scenario& scenario);
+
+/// The settings as JSON text, see Scenario::settings_json.
+std::string settings_as_json(const Scenario& scenario);
+
+}  // namespace articular::sim

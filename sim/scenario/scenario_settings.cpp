@@ -1,0 +1,177 @@
+// Title, times, presets, integrator, detection and output of a scenario, and the record of them.
+#include <nlohmann/json.hpp>
+
+#include "sim/scenario/preset.hpp"
+#include "sim/scenario/scenario_reader.hpp"
+
+namespace articular::sim {
+namespace {
+
+using Accuracy = Scenario::Accuracy;
+
+constexpr std::pair<std::string_view, Integrator::Scheme> kSchemes[] = {
+    {"implicit-euler", Integrator::Scheme::ImplicitEuler},
+    {"tr-bdf2", Integrator::Scheme::TrBdf2},
+    {"dirk-3", Integrator::Scheme::Dirk3},
+    {"bdf", Integrator::Scheme::Bdf},
+    {"explicit", Integrator::Scheme::Explicit}};
+
+constexpr const char* kSolvers[] = {"auto", "cholesky", "conjugate-gradients", "multigrid"};
+
+void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& integrator) {
+  constexpr int kMostIterations = 1000;
+  const TableReader table(
+      node, "[integrator]",
+      {"scheme", "step", "solver", "position_tolerance", "max_iterations", "min_step"});
+  table.may("scheme", integrator.scheme, [](const Node& n) {
+    return read_choice<Integrator::Scheme>(
+        n, {kSchemes[0], kSchemes[1], kSchemes[2], kSchemes[3], kSchemes[4]});
+  });
+  if (analysis == Scenario::Analysis::Static)
+    table.refuse({"scheme"}, "a static analysis has no time integration");
+  table.may("solver", integrator.solver, [](const Node& n) {
+    return read_choice<Integrator::Solver>(
+        n, {{"auto", Integrator::Solver::Auto},
+            {"cholesky", Integrator::Solver::Cholesky},
+            {"conjugate-gradients", Integrator::Solver::ConjugateGradients},
+            {"multigrid", Integrator::Solver::Multigrid}});
+  });
+  table.may("step", integrator.step, as_quantity(kTime, kPositive));
+  table.may("position_tolerance", integrator.position_tolerance, as_quantity(kLength, kPositive));
+  table.may("max_iterations", integrator.max_iterations,
+            [](const Node& n) { return read_integer(n, 1, kMostIterations); });
+  table.may("min_step", integrator.min_step, as_quantity(kTime, kPositive));
+  if (integrator.min_step > integrator.step)
+    throw InputError(node.where,
+                     fmt::format("[integrator]: `min_step` ({} s) must not exceed `step` ({} s)",
+                                 integrator.min_step, integrator.step));
+}
+
+void read_detection(const Node& node, Scenario::Analysis analysis, Detection& detection) {
+  const TableReader table(node, "[detection]", {"lagged", "margin", "narrow_test"});
+  if (analysis == Scenario::Analysis::Static)
+    table.refuse({"lagged"}, "a static analysis looks wherever its iteration has come to");
+  table.may("lagged", detection.lagged, read_boolean);
+  table.may("margin", detection.margin, as_quantity(kLength, kPositive));
+  table.may("narrow_test", detection.narrow_test, [](const Node& n) {
+    return read_choice<collision::NarrowTest>(
+        n, {{"separating-axes", collision::NarrowTest::SeparatingAxes},
+            {"gjk", collision::NarrowTest::Gjk}});
+  });
+}
+
+void read_output(const Node& node, Output& output) {
+  const TableReader table(
+      node, "[output]",
+      {"interval", "length_unit", "directory", "contact_surfaces", "checkpoint_interval"});
+  table.may("interval", output.interval, as_quantity(kTime, kPositive));
+  if (const Node* unit = table.find("length_unit")) {
+    output.length_unit = read_choice<double>(*unit, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
+    output.length_unit_name = *unit->text();
+  }
+  table.may("directory", output.directory, read_text);
+  table.may("contact_surfaces", output.contact_surfaces, read_boolean);
+  table.may("checkpoint_interval", output.checkpoint_interval, as_quantity(kTime, kPositive));
+}
+
+nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
+  if (!scenario.contact) return false;
+  if (scenario.contacts.empty()) return "every pair";
+  auto pairs = nlohmann::ordered_json::array();
+  for (const ContactPair& pair : scenario.contacts) {
+    nlohmann::ordered_json entry{{"bodies", {pair.a, pair.b}}};
+    if (pair.stiffness) entry["stiffness_Pa_per_m"] = *pair.stiffness;
+    if (pair.friction > 0) entry["friction"] = pair.friction;
+    if (pair.slip_velocity) entry["slip_velocity_m_per_s"] = *pair.slip_velocity;
+    if (pair.damping > 0) entry["damping_Pa_s_per_m"] = pair.damping;
+    if (pair.max_penetration) entry["max_penetration_m"] = *pair.max_penetration;
+    pairs.push_back(std::move(entry));
+  }
+  return pairs;
+}
+
+/// What other programs leave to trial and we choose: how many of it the scenario sets all the same.
+int contact_parameters_set(const Scenario& scenario) {
+  int count = scenario.detection.margin ? 1 : 0;
+  for (const ContactPair& pair : scenario.contacts)
+    count +=
+        (pair.stiffness ? 1 : 0) + (pair.max_penetration ? 1 : 0) + (pair.slip_velocity ? 1 : 0);
+  return count;
+}
+
+}  // namespace
+
+void read_settings(const TableReader& document, Scenario& scenario) {
+  scenario.title = scenario.name;
+  document.may("title", scenario.title, read_text);
+  scenario.duration = read_quantity(document.at("duration"), kTime, kPositive);
+  document.may("accuracy", scenario.accuracy, [](const Node& n) {
+    return read_choice<Accuracy>(n, {{"fast", Accuracy::Fast},
+                                     {"balanced", Accuracy::Balanced},
+                                     {"accurate", Accuracy::Accurate}});
+  });
+  document.may("analysis", scenario.analysis, [](const Node& n) {
+    return read_choice<Scenario::Analysis>(
+        n, {{"dynamic", Scenario::Analysis::Dynamic}, {"static", Scenario::Analysis::Static}});
+  });
+  document.may("settling", scenario.settling, read_boolean);
+  if (scenario.analysis == Scenario::Analysis::Static)
+    document.refuse({"contact_response"}, "a static analysis averages depths");
+  const Preset chosen = preset(scenario.accuracy);
+  scenario.contact_response = chosen.contact_response;
+  document.may("contact_response", scenario.contact_response, [](const Node& n) {
+    return read_choice<Scenario::Response>(n, {{"pointwise", Scenario::Response::Pointwise},
+                                               {"sampled", Scenario::Response::Sampled},
+                                               {"averaged", Scenario::Response::Averaged}});
+  });
+  scenario.integrator = chosen.integrator;
+  if (const Node* node = document.find("integrator"))
+    read_integrator(*node, scenario.analysis, scenario.integrator);
+  if (const Node* node = document.find("detection"))
+    read_detection(*node, scenario.analysis, scenario.detection);
+  if (const Node* node = document.find("output")) read_output(*node, scenario.output);
+}
+
+std::string settings_as_json(const Scenario& scenario) {
+  const Integrator& integrator = scenario.integrator;
+  const Output& output = scenario.output;
+  constexpr const char* kAccuracies[] = {"fast", "balanced", "accurate"};
+  constexpr const char* kResponses[] = {"pointwise", "sampled", "averaged"};
+  nlohmann::ordered_json json;
+  json["title"] = scenario.title;
+  for (const auto& [name, word] : scenario.choices) json["choice"][name] = word;
+  json["duration_s"] = scenario.duration;
+  json["accuracy"] = kAccuracies[static_cast<int>(scenario.accuracy)];
+  json["analysis"] = scenario.analysis == Scenario::Analysis::Static ? "static" : "dynamic";
+  json["settling"] = scenario.settling;
+  json["contact"] = contact_as_json(scenario);
+  json["contact_response"] = scenario.analysis == Scenario::Analysis::Static
+                                 ? "averaged"
+                                 : kResponses[static_cast<int>(scenario.contact_response)];
+  json["contact_parameters_set"] = contact_parameters_set(scenario);
+  json["integrator"] = {{"scheme", kSchemes[static_cast<int>(integrator.scheme)].first},
+                        {"step_s", integrator.step},
+                        {"solver", kSolvers[static_cast<int>(integrator.solver)]},
+                        {"max_iterations", integrator.max_iterations},
+                        {"min_step_s", integrator.min_step}};
+  if (integrator.position_tolerance)
+    json["integrator"]["position_tolerance_m"] = *integrator.position_tolerance;
+  else
+    json["integrator"]["position_tolerance_of_element"] = integrator.element_tolerance;
+  json["detection"] = {
+      {"lagged", scenario.detection.lagged},
+      {"margin_m", nullptr},  // chosen by the elements
+      {"narrow_test",
+       scenario.detection.narrow_test == collision::NarrowTest::Gjk ? "gjk" : "separating-axes"}};
+  if (scenario.detection.margin) json["detection"]["margin_m"] = *scenario.detection.margin;
+  json["output"] = {{"interval_s", output.interval},
+                    {"length_unit", output.length_unit_name},
+                    {"contact_surfaces", output.contact_surfaces}};
+  if (output.directory) json["output"]["directory"] = output.directory->string();
+  if (output.checkpoint_interval)
+    json["output"]["checkpoint_interval_s"] = *output.checkpoint_interval;
+  // Text that is not UTF-8 (a file name may be anything) is replaced rather than refused.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,95 @@
+#include "sim/scenario/toml_override.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <vector>
+
+#include "sim/base/message_text.hpp"
+
+namespace articular::sim {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return "";
+  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+/// "a."b.c".d" -> a, b.c, d
+std::vector<std::string> split_path(std::string_view path, const Location& where) {
+  std::vector<std::string> parts(1);
+  bool inside = false;
+  for (const char c : path) {
+    if (c == '"')
+      inside = !inside;
+    else if (c == '.' && !inside)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  for (const std::string& part : parts)
+    if (part.empty())
+      throw InputError(where, "expected PATH=VALUE with a path such as `integrator.step`");
+  return parts;
+}
+
+/// The entry of a list by name or number.
+Node& list_entry(Node& list, const std::string& key, const Location& where) {
+  std::vector<std::string> names;
+  for (Node& entry : *list.list()) {
+    const Node* name = entry.find("name");
+    if (name == nullptr || name->text() == nullptr) continue;
+    if (*name->text() == key) return entry;
+    names.push_back(*name->text());
+  }
+  const std::size_t count = list.list()->size();
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number);
+  const bool is_number = error == std::errc() && end == key.data() + key.size();
+  if (is_number && number < count) return (*list.list())[number];
+  if (is_number || names.empty())
+    throw InputError(where, fmt::format("no {} `{}`; there {} {}, numbered from 0", list.name, key,
+                                        count == 1 ? "is" : "are", count));
+  throw InputError(where, fmt::format("no {} `{}`{}", list.name, key, suggestion(key, names)));
+}
+
+Node& add_member(Node& table, const std::string& key, const Location& where) {
+  std::vector<Member>& members = table.table()->members;
+  const auto after =
+      std::upper_bound(members.begin(), members.end(), key,
+                       [](const std::string& a, const Member& b) { return a < b.key; });
+  return members.insert(after, {key, where, Node{TomlTable{}, key, where}})->node;
+}
+
+/// The child of a node, which is made if it is a member of a table that was absent.
+Node& child(Node& node, const std::string& key, bool is_root, bool is_last, const Location& where) {
+  if (node.list() != nullptr) return list_entry(node, key, where);
+  if (node.table() == nullptr)
+    throw InputError(where,
+                     fmt::format("`{}` is a single value, it has no part `{}`", node.name, key));
+  if (Node* member = node.find(key)) return *member;
+  const bool is_entry_list =
+      is_root && std::find(kEntryLists.begin(), kEntryLists.end(), key) != kEntryLists.end();
+  if (is_entry_list && !is_last)
+    throw InputError(where, fmt::format("the scenario has no [[{}]]", key));
+  return add_member(node, key, where);
+}
+
+}  // namespace
+
+void apply_override(Node& document, std::string_view override_text) {
+  const Location where{"--set " + one_line(override_text)};
+  const std::size_t equals = override_text.find('=');
+  if (equals == std::string_view::npos)
+    throw InputError(where, "expected PATH=VALUE, such as `duration=0.1 s`");
+  const std::vector<std::string> path = split_path(trimmed(override_text.substr(0, equals)), where);
+  Node* node = &document;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    node = &child(*node, path[i], i == 0, i + 1 == path.size(), where);
+  *node = parse_toml_value(trimmed(override_text.substr(equals + 1)), node->name, where);
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,418 @@
+#include "sim/statics/equilibrium.hpp"
+
+#include <kinsol/kinsol.h>
+#include <kinsol/kinsol_ls.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "sim/assembly/line_search.hpp"
+#include "sim/assembly/solver_setup.hpp"
+#include "sim/base/error.hpp"
+#include "sim/base/stopwatch.hpp"
+#include "sim/base/sundials.hpp"
+#include "sim/model/constrained_rigid_body.hpp"
+#include "sim/model/newton_weights.hpp"
+
+namespace articular::sim {
+namespace {
+
+using sundials::check;
+using sundials::guarded;
+using sundials::view;
+
+/// A full correction below this part of what may move in one changes nothing: where nothing is
+/// strained, forces are round-off, and their balance says nothing.
+constexpr double kNoMotion = 1e-10;
+/// The largest force is that at the solution: it is known there only.
+constexpr int kMostRounds = 4;
+/// Iterations with contact as stiff as it should be, before it is tried softer: they take a dozen
+/// where they get there at all.
+constexpr int kMostFromAfar = 20;
+/// Where they don't, the line search says so early: this often in a row it takes but this part of
+/// the correction.
+constexpr int kMostShort = 3;
+constexpr double kShort = 0.05;
+
+struct FreeKinsol {
+  void operator()(void* memory) const { KINFree(&memory); }
+};
+struct FreeMatrix {
+  void operator()(SUNMatrix matrix) const { SUNMatFreeEmpty(matrix); }
+};
+
+/// What a rotation vector θ gains by a small rotation on top of exp(θ): the inverse of the tangent
+/// map of SO(3).
+Mat3 inverse_tangent_map(const Vec3& theta) {
+  const double angle = theta.norm();
+  const Mat3 S = skew(theta);
+  const double c =
+      angle < 1e-4 ? 1.0 / 12 : (1 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
+  return Mat3::Identity() - 0.5 * S + c * S * S;
+}
+
+}  // namespace
+
+class Equilibrium::Solver {
+ public:
+  Solver(const Model& model, Dynamics& dynamics);
+  bool solve(Eigen::VectorXd& y, double t, double damping);
+  bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
+  void restart() { linear_ = make_linear_solver(model_); }
+  /// The largest force, or moment by the bone's size, of a vector of block forces [N].
+  double largest(const Eigen::VectorXd& f) const;
+  double residual() const { return largest(dynamics_.forces()); }
+  double largest_acceleration() const;
+
+  std::vector<NewtonIteration> iterations;
+  SolverCounts counts;
+  double seconds = 0;
+  IterationWatch watch;
+
+ private:
+  static int residual(N_Vector u, N_Vector r, void* data);
+  static int assemble(N_Vector u, N_Vector, SUNMatrix, void* data, N_Vector, N_Vector);
+  static int correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype);
+  int run(double tolerance);
+  void set_most_iterations(int most) {
+    check(KINSetNumMaxIters(kinsol_.get(), most), "KINSetNumMaxIters");
+  }
+  [[nodiscard]] bool balance(bool soft);
+  [[nodiscard]] bool balance_within_bounds();
+  void move(const Eigen::VectorXd& u, Eigen::VectorXd& y) const;
+  /// r at u; kept, as KINSOL asks again for what the line search has seen.
+  const Eigen::VectorXd& residual_at(const Eigen::VectorXd& u);
+  bool prepare(fem::Tangent tangent);
+  bool solve_linear();
+  /// How far things move [m].
+  double motion_scale() const {
+    return std::isfinite(dynamics_.trusted_motion()) ? dynamics_.trusted_motion() : 1;
+  }
+  double largest_displacement(const Eigen::VectorXd& u) const;
+  const Eigen::VectorXd& searched_residual(double part);
+  double line_search(const Eigen::VectorXd& direction);
+
+  const Model& model_;
+  Dynamics& dynamics_;
+  std::unique_ptr<fem::LinearSolver> linear_;
+  Eigen::VectorXd start_, y_, u_, r_, before_, r_before_, trial_, rhs_, correction_, inertia_;
+  double t_ = 0, damping_ = 0;
+  fem::Tangent tangent_ = fem::Tangent::Consistent;  // of the last matrix
+  bool known_ = false;                               // r_ belongs to u_
+  bool from_afar_ = false;                           // contact is stiff, and things may be far off
+  int short_in_a_row_ = 0;                           // corrections of which little was taken
+  std::optional<double> predicted_part_;  // of the pressures that the last correction took
+  std::exception_ptr error_;
+  sundials::Context context_;
+  sundials::Vector solution_, u_scale_, r_scale_;
+  sundials::Owned<SUNMatrix, FreeMatrix> matrix_;
+  sundials::Solver solver_;
+  sundials::Owned<void*, FreeKinsol> kinsol_;
+};
+
+Equilibrium::Solver::Solver(const Model& model, Dynamics& dynamics)
+    : model_(model),
+      dynamics_(dynamics),
+      linear_(make_linear_solver(model)),
+      context_(sundials::make_context()) {
+  const Eigen::Index n = 3 * model.layout.num_unknown_blocks();
+  solution_ = sundials::make_vector(n, context_);
+  u_scale_ = sundials::make_vector(n, context_);
+  r_scale_ = sundials::make_vector(n, context_);
+  N_VConst(1 / motion_scale(), u_scale_.get());
+  // The matrix is ours: KINSOL only passes its handle on.
+  matrix_.reset(SUNMatNewEmpty(context_.get()));
+  matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+  matrix_->ops->zero = [](SUNMatrix) { return 0; };
+  solver_ = sundials::make_solver(
+      context_, this, [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; }, correct);
+  kinsol_.reset(KINCreate(context_.get()));
+  if (!kinsol_) throw std::runtime_error("KINCreate failed");
+  void* kinsol = kinsol_.get();
+  check(KINSetErrHandlerFn(kinsol, sundials::ignore_message, nullptr), "KINSetErrHandlerFn");
+  check(KINInit(kinsol, residual, solution_.get()), "KINInit");
+  check(KINSetUserData(kinsol, this), "KINSetUserData");
+  check(KINSetLinearSolver(kinsol, solver_.get(), matrix_.get()), "KINSetLinearSolver");
+  check(KINSetJacFn(kinsol, assemble), "KINSetJacFn");
+  check(KINSetMaxSetupCalls(kinsol, 1), "KINSetMaxSetupCalls");
+  check(KINSetScaledStepTol(kinsol, kNoMotion), "KINSetScaledStepTol");
+  check(KINSetMaxNewtonStep(kinsol, 1e300), "KINSetMaxNewtonStep");
+}
+
+/// y = start moved by u.
+void Equilibrium::Solver::move(const Eigen::VectorXd& u, Eigen::VectorXd& y) const {
+  const Layout& layout = model_.layout;
+  y = start_;
+  y.head(3 * layout.num_free_nodes) += u.head(3 * layout.num_free_nodes);
+  for (int r = 0; r < layout.num_rigid; ++r) {
+    const int row = 3 * model_.rigid_bodies[static_cast<std::size_t>(r)].block;
+    y.segment<3>(layout.rigid_p(r)) += u.segment<3>(row);
+    turn(y.data() + layout.rigid_q(r), u.segment<3>(row + 3));
+  }
+}
+
+const Eigen::VectorXd& Equilibrium::Solver::residual_at(const Eigen::VectorXd& u) {
+  if (known_ && u == u_) return r_;
+  ++counts.force_evaluations;
+  u_ = u;
+  move(u, y_);
+  dynamics_.evaluate(y_.data(), t_);
+  r_ = -dynamics_.forces().head(u.size());
+  if (damping_ > 0) {
+    dynamics_.multiply_mass(u, inertia_);
+    r_ += damping_ * inertia_;
+  }
+  known_ = true;
+  return r_;
+}
+
+int Equilibrium::Solver::residual(N_Vector u, N_Vector r, void* data) {
+  auto& self = *static_cast<Solver*>(data);
+  return guarded(self.error_, [&] {
+    view(r) = self.residual_at(view(u));
+    return view(r).allFinite() ? 0 : 1;
+  });
+}
+
+/// What the line search looks at, at trial_: the pressures go along with the displacements, as both
+/// are unknowns of Newton's method. Those of the positions alone are steep where ν is near 0.5, and
+/// would stop every search.
+const Eigen::VectorXd& Equilibrium::Solver::searched_residual(double part) {
+  if (!dynamics_.has_pressures()) return residual_at(trial_);
+  dynamics_.take_prediction(part);
+  const Eigen::VectorXd& r = residual_at(trial_);
+  dynamics_.drop_prediction();
+  known_ = false;
+  return r;
+}
+
+bool Equilibrium::Solver::prepare(fem::Tangent tangent) {
+  if (predicted_part_) dynamics_.predict_for_matrix(*predicted_part_);
+  const fem::BlockMatrix& A = dynamics_.matrix({damping_, 0, 1}, tangent);
+  const Stopwatch watch(seconds);
+  ++counts.factorizations;
+  tangent_ = tangent;
+  if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
+  return prepare_linear(*linear_, A, dynamics_.configuration().x, dynamics_.pressure_part());
+}
+
+bool Equilibrium::Solver::solve_linear() {
+  const Stopwatch watch(seconds);
+  correction_.setZero(rhs_.size());
+  const fem::SolveReport report = linear_->solve(rhs_, correction_);
+  ++counts.linear_solves;
+  counts.linear_iterations += report.iterations;
+  return report.converged && correction_.allFinite();
+}
+
+int Equilibrium::Solver::assemble(N_Vector u, N_Vector, SUNMatrix, void* data, N_Vector, N_Vector) {
+  auto& self = *static_cast<Solver*>(data);
+  return guarded(self.error_, [&] {
+    self.residual_at(view(u));
+    const bool ready =
+        self.prepare(fem::Tangent::Consistent) || self.prepare(fem::Tangent::Projected);
+    return ready ? 0 : 1;
+  });
+}
+
+double Equilibrium::Solver::largest_displacement(const Eigen::VectorXd& u) const {
+  double largest = 0;
+  for (int block = 0; block < model_.layout.num_free_nodes; ++block)
+    largest = std::max(largest, u.segment<3>(3 * block).norm());
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(r)];
+    largest = std::max({largest, u.segment<3>(3 * rigid.block).norm(),
+                        turning_radius(rigid) * u.segment<3>(3 * rigid.block + 3).norm()});
+  }
+  return largest;
+}
+
+/// The part of a correction from before_ to take.
+double Equilibrium::Solver::line_search(const Eigen::VectorXd& direction) {
+  const double motion = largest_displacement(direction);
+  const double most = motion > dynamics_.trusted_motion() ? dynamics_.trusted_motion() / motion : 1;
+  return searched_part(most, direction.dot(r_before_), [&](double part) {
+    trial_ = before_ + part * direction;
+    return direction.dot(searched_residual(part));
+  });
+}
+
+int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b,
+                                 realtype) {
+  auto& self = *static_cast<Solver*>(solver->content);
+  return guarded(self.error_, [&] {
+    ++self.counts.newton_iterations;
+    self.rhs_ = view(b);
+    // Not positive definite: a factorization says so at once, iterations when they meet it.
+    const bool solved =
+        self.solve_linear() || (self.tangent_ == fem::Tangent::Consistent &&
+                                self.prepare(fem::Tangent::Projected) && self.solve_linear());
+    if (!solved) return 1;
+    keep_free_part(self.model_, self.correction_);  // round-off out of what is held
+    self.dynamics_.predict_pressures(self.correction_);
+    // A bone's correction is a rotation on top of where it is.
+    for (int r = 0; r < self.model_.layout.num_rigid; ++r) {
+      const int row = 3 * self.model_.rigid_bodies[static_cast<std::size_t>(r)].block + 3;
+      self.correction_.segment<3>(row) =
+          inverse_tangent_map(self.u_.segment<3>(row)) * self.correction_.segment<3>(row);
+    }
+    self.before_ = self.u_;
+    self.r_before_ = self.r_;
+    const double residual = self.largest(self.r_) / self.dynamics_.largest_force();
+    const double s = self.line_search(self.correction_);
+    self.predicted_part_ = s;
+    view(x) = s * self.correction_;
+    self.short_in_a_row_ = s <= kShort ? self.short_in_a_row_ + 1 : 0;
+    if (self.from_afar_ && self.short_in_a_row_ == kMostShort) return 1;
+    self.iterations.push_back({residual, s * self.largest_displacement(self.correction_), s});
+    if (self.watch && self.watch(self.t_, self.iterations.back())) throw Interruption();
+    return 0;
+  });
+}
+
+double Equilibrium::Solver::largest(const Eigen::VectorXd& f) const {
+  double largest = 0;
+  for (int block = 0; block < model_.layout.num_free_nodes; ++block)
+    largest = std::max(largest, f.segment<3>(3 * block).norm());
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(r)];
+    largest = std::max({largest, f.segment<3>(3 * rigid.block).norm(),
+                        f.segment<3>(3 * rigid.block + 3).norm() / turning_radius(rigid)});
+  }
+  return largest;
+}
+
+double Equilibrium::Solver::largest_acceleration() const {
+  const Eigen::VectorXd& f = dynamics_.forces();
+  double largest = 0;
+  for (int block = 0; block < model_.layout.num_free_nodes; ++block)
+    largest = std::max(largest, f.segment<3>(3 * block).norm() / dynamics_.mass_of(block));
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(r)];
+    const double moment = f.segment<3>(3 * rigid.block + 3).norm() / turning_radius(rigid);
+    largest = std::max({largest, f.segment<3>(3 * rigid.block).norm() / rigid.mass.mass,
+                        moment / rigid.mass.mass});
+  }
+  return largest;
+}
+
+/// KINSOL from u = 0. @param tolerance  [N]
+int Equilibrium::Solver::run(double tolerance) {
+  auto scale = view(r_scale_);
+  scale.setConstant(1 / tolerance);
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(r)];
+    scale.segment<3>(3 * rigid.block + 3).setConstant(1 / (tolerance * turning_radius(rigid)));
+  }
+  check(KINSetFuncNormTol(kinsol_.get(), 1), "KINSetFuncNormTol");
+  const int flag = KINSol(kinsol_.get(), solution_.get(), KIN_NONE, u_scale_.get(), r_scale_.get());
+  sundials::rethrow(error_);
+  return flag;
+}
+
+/// From where solution_ is. @param soft  contact is, and about balanced will do
+bool Equilibrium::Solver::balance(bool soft) {
+  constexpr double kAboutBalanced = 1e-3;
+  const double tolerance = soft ? kAboutBalanced : kBalanced;
+  dynamics_.set_soft_contact(soft);
+  known_ = false;
+  predicted_part_.reset();
+  residual_at(view(solution_));
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (!(dynamics_.largest_force() > 0)) break;  // nothing acts
+    const int flag = run(tolerance * dynamics_.largest_force());
+    const bool stuck = flag == KIN_STEP_LT_STPTOL && iterations.back().fraction < 1;
+    if (flag < 0 || stuck || !r_.allFinite()) {
+      dynamics_.set_soft_contact(false);
+      return false;
+    }
+    residual_at(view(solution_));
+    if (flag == KIN_STEP_LT_STPTOL) break;
+    if (largest(r_) <= 2 * tolerance * dynamics_.largest_force()) break;
+  }
+  dynamics_.set_soft_contact(false);
+  return true;
+}
+
+/// With multipliers where contact penetrates too much.
+bool Equilibrium::Solver::balance_within_bounds() {
+  constexpr int kMostUpdates = 20;
+  if (!balance(false)) return false;
+  for (int update = 0; update < kMostUpdates && dynamics_.augment_contact(); ++update)
+    if (!balance(false)) return false;
+  return true;
+}
+
+bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
+  predicted_part_.reset();
+  start_ = y;
+  t_ = t;
+  damping_ = damping;
+  known_ = false;
+  iterations.clear();
+  view(solution_).setZero();
+  if (view(solution_).size() == 0) {  // only driven bones
+    dynamics_.evaluate(y.data(), t);
+    ++counts.steps;
+    return true;
+  }
+  dynamics_.drop_multipliers();
+  residual_at(view(solution_));
+  // From afar, contact that is as stiff as it should be throws iterations back and forth.
+  const bool touches = dynamics_.touches();
+  const int most = model_.scenario.integrator.max_iterations;
+  from_afar_ = touches;
+  short_in_a_row_ = 0;
+  set_most_iterations(touches ? std::min(most, kMostFromAfar) : most);
+  bool balanced = balance_within_bounds();
+  set_most_iterations(most);
+  from_afar_ = false;
+  if (!balanced && touches) {
+    view(solution_).setZero();
+    if (!balance(true)) view(solution_).setZero();
+    dynamics_.drop_multipliers();
+    balanced = balance_within_bounds();
+  }
+  if (!balanced) {
+    ++counts.rejected_newton;
+    return false;
+  }
+  ++counts.steps;
+  y = y_;
+  for (int r = 0; r < model_.layout.num_rigid; ++r)
+    y.segment<4>(model_.layout.rigid_q(r)).normalize();
+  return true;
+}
+
+bool Equilibrium::Solver::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y) {
+  predicted_part_.reset();
+  damping_ = damping;
+  if (!prepare(fem::Tangent::Consistent) && !prepare(fem::Tangent::Projected)) return false;
+  rhs_ = f.head(view(solution_).size());
+  if (!solve_linear()) return false;
+  start_ = y;
+  move(correction_, y);
+  return true;
+}
+
+Equilibrium::Equilibrium(const Model& model, Dynamics& dynamics)
+    : solver_(std::make_unique<Solver>(model, dynamics)) {}
+Equilibrium::~Equilibrium() = default;
+
+bool Equilibrium::solve(Eigen::VectorXd& y, double t, double damping) {
+  return solver_->solve(y, t, damping);
+}
+bool Equilibrium::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y) {
+  return solver_->yield(f, damping, y);
+}
+void Equilibrium::set_watch(IterationWatch watch) { solver_->watch = std::move(watch); }
+void Equilibrium::restart() { solver_->restart(); }
+double Equilibrium::residual() const { return solver_->residual(); }
+double Equilibrium::largest_acceleration() const { return solver_->largest_acceleration(); }
+const std::vector<NewtonIteration>& Equilibrium::iterations() const { return solver_->iterations; }
+const SolverCounts& Equilibrium::counts() const { return solver_->counts; }
+double Equilibrium::solve_seconds() const { return solver_->seconds; }
+
+}  // namespace articular::sim

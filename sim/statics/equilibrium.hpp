@@ -1,0 +1,73 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "sim/assembly/dynamics.hpp"
+#include "sim/model/state.hpp"
+
+namespace articular::sim {
+
+/// One iteration of Newton's method.
+struct NewtonIteration {
+  double residual = 0;    // largest force that is not balanced, relative to the largest force
+  double correction = 0;  // [m] largest displacement
+  double fraction = 1;    // of the correction that the line search took
+};
+
+/// Told of each iteration, towards the loads of t [s]; true asks to stop: Interruption is thrown.
+using IterationWatch = std::function<bool(double t, const NewtonIteration&)>;
+
+/// Equilibrium of forces by KINSOL: Newton's iteration on the displacements u of nodes and bones
+/// (rotations: rotation vectors) from where they are,
+///
+///   r(u) = −f(u) + d M u = 0,
+///
+/// with the matrix K + d M renewed in each iteration, and a line search on the work of the residual
+/// along the correction, δ·r, which for conservative forces is the slope of the potential energy
+/// [Crisfield 1991, ch. 9.4]. d = 0 is equilibrium; d > 0 is one step of pseudo-time of length
+/// d^(−1/2) from rest, for what nothing holds.
+///
+/// [Crisfield 1991] Crisfield. Non-linear Finite Element Analysis of Solids and Structures, vol. 1.
+class Equilibrium {
+ public:
+  Equilibrium(const Model& model, Dynamics& dynamics);
+  ~Equilibrium();
+  Equilibrium(const Equilibrium&) = delete;
+  Equilibrium& operator=(const Equilibrium&) = delete;
+
+  /// @param y        where to begin on entry, the solution on exit; velocities are not touched
+  /// @param t        [s] of loads and motions
+  /// @param damping  d [1/s²]
+  /// @return false when the iteration did not converge; y is as before
+  [[nodiscard]] bool solve(Eigen::VectorXd& y, double t, double damping);
+  /// Moves y by (K + d M)⁻¹ f, where the last Dynamics::evaluate() was.
+  /// @param f        block forces [N]
+  /// @param damping  d [1/s²]
+  /// @return false when that can't be solved; y is as before
+  [[nodiscard]] bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
+  void set_watch(IterationWatch watch);
+  /// Drops what the linear solver knows of earlier ones.
+  void restart();
+
+  /// Largest force, or moment by the bone's size, that is not balanced at the last
+  /// Dynamics::evaluate() [N].
+  double residual() const;
+  /// The largest acceleration of a node or bone there [m/s²].
+  double largest_acceleration() const;
+
+  /// Of the last solve().
+  const std::vector<NewtonIteration>& iterations() const;
+  const SolverCounts& counts() const;
+  double solve_seconds() const;
+
+ private:
+  class Solver;
+  std::unique_ptr<Solver> solver_;
+};
+
+/// A residual below this part of the largest force is equilibrium.
+constexpr double kBalanced = 1e-6;
+
+}  // namespace articular::sim

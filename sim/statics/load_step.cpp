@@ -1,0 +1,162 @@
+#include "sim/statics/load_step.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/assembly/rigid_body_modes.hpp"
+#include "sim/statics/load_prediction.hpp"
+#include "sim/statics/pseudo_time.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Detections in a row without contacts that hold where the solution ends.
+constexpr int kMostDetections = 20;
+/// Solutions in pseudo-time before the load step is given up.
+constexpr int kMostSolutions = 400;
+/// Where nothing limits the motion (no tissue, no contact) [m].
+constexpr double kLooseMotion = 1e-3;
+
+class LoadStep {
+ public:
+  LoadStep(const Model& model, Dynamics& dynamics, Equilibrium& equilibrium,
+           const ContactHooks& contacts, double t_before, double t,
+           std::vector<ConvergenceRow>& convergence)
+      : model_(model),
+        dynamics_(dynamics),
+        equilibrium_(equilibrium),
+        contacts_(contacts),
+        t_before_(t_before),
+        t_(t),
+        convergence_(convergence),
+        reach_(std::isfinite(dynamics.trusted_motion()) ? dynamics.trusted_motion()
+                                                        : kLooseMotion) {}
+
+  LoadStepResult take(Eigen::VectorXd& y) {
+    begin(y);
+    LoadStepResult result;
+    result.loose = find_rigid_body_mode(model_, dynamics_);
+    result.reached = !result.loose && balance(y);
+    if (!result.reached) settle(y, result);
+    return result;
+  }
+
+ private:
+  /// The prediction, or, where a linear one is worse, where things were. What contact follows on a
+  /// round surface is curved: there it is.
+  void begin(Eigen::VectorXd& y) {
+    dynamics_.evaluate(y.data(), t_before_);
+    if (contacts_.find) contacts_.find(dynamics_.configuration(), 0);
+    const std::optional<Eigen::VectorXd> predicted =
+        predict_load_step(model_, dynamics_, equilibrium_, t_before_, t_, y);
+    if (predicted && soft_residual(*predicted) < soft_residual(y)) y = *predicted;
+    look(y, 0);
+  }
+
+  /// The largest unbalanced force with soft contact [N]: stiff contact would hide what else is.
+  double soft_residual(const Eigen::VectorXd& y) {
+    dynamics_.set_soft_contact(true);
+    look(y, 0);
+    dynamics_.set_soft_contact(false);
+    const double residual = equilibrium_.residual();
+    return std::isfinite(residual) ? residual : std::numeric_limits<double>::infinity();
+  }
+
+  /// Finds contacts at y, for things that will move so far [m], and evaluates there.
+  void look(const Eigen::VectorXd& y, double motion) {
+    dynamics_.evaluate(y.data(), t_);
+    if (!contacts_.find) return;
+    contacts_.find(dynamics_.configuration(), motion);
+    dynamics_.evaluate(y.data(), t_);
+  }
+
+  bool solve(Eigen::VectorXd& y, double damping) {
+    const bool solved = equilibrium_.solve(y, t_, damping);
+    int k = 0;
+    for (const NewtonIteration& newton : equilibrium_.iterations())
+      convergence_.push_back({t_, solution_, damping, k++, newton});
+    ++solution_;
+    if (solved) dynamics_.evaluate(y.data(), t_);
+    return solved;
+  }
+
+  /// Without damping, until the contacts hold where it ends.
+  bool balance(Eigen::VectorXd& y) {
+    Eigen::VectorXd trial = y;
+    for (int k = 0; k < kMostDetections; ++k) {
+      if (!solve(trial, 0)) return false;
+      if (!contacts_.covered || contacts_.covered()) {
+        y = trial;
+        return true;
+      }
+      look(trial, 0);
+    }
+    return false;
+  }
+
+  void settle(Eigen::VectorXd& y, LoadStepResult& result) {
+    double motion = kFirstMotion * reach_;  // of the node that the forces accelerate most [m]
+    for (int k = 0; k < kMostSolutions; ++k) {
+      look(y, motion);
+      const double damping = equilibrium_.largest_acceleration() / motion;
+      const Eigen::VectorXd before = dynamics_.forces();
+      Eigen::VectorXd trial = y;
+      if (!solve(trial, damping) || (contacts_.covered && !contacts_.covered())) {
+        motion *= kMotionFall;
+        continue;
+      }
+      if (result.loose) result.settling_loss += work(y, before, trial, dynamics_.forces());
+      y = trial;
+      look(y, 0);
+      result.loose = find_rigid_body_mode(model_, dynamics_);
+      result.reached = equilibrium_.residual() <= 2 * kBalanced * dynamics_.largest_force() ||
+                       (!result.loose && balance(y));
+      if (result.reached) return;
+      motion = std::min(kMotionRise * motion, reach_);
+    }
+  }
+
+  /// Of the unbalanced forces f on the way from y to z, by the trapezoidal rule [J].
+  double work(const Eigen::VectorXd& y, const Eigen::VectorXd& f_y, const Eigen::VectorXd& z,
+              const Eigen::VectorXd& f_z) const {
+    const Layout& layout = model_.layout;
+    double sum = 0;
+    const auto add = [&](int row, const Vec3& motion) {
+      sum += 0.5 * (f_y.segment<3>(row) + f_z.segment<3>(row)).dot(motion);
+    };
+    for (int block = 0; block < layout.num_free_nodes; ++block)
+      add(3 * block, z.segment<3>(layout.node_x(block)) - y.segment<3>(layout.node_x(block)));
+    for (int r = 0; r < layout.num_rigid; ++r) {
+      const int row = 3 * model_.rigid_bodies[static_cast<std::size_t>(r)].block;
+      add(row, z.segment<3>(layout.rigid_p(r)) - y.segment<3>(layout.rigid_p(r)));
+      const auto rotation = [&](const Eigen::VectorXd& at) {
+        const double* q = at.data() + layout.rigid_q(r);
+        return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+      };
+      const Eigen::AngleAxisd turn(rotation(z) * rotation(y).conjugate());
+      add(row + 3, turn.angle() * turn.axis());
+    }
+    return sum;
+  }
+
+  const Model& model_;
+  Dynamics& dynamics_;
+  Equilibrium& equilibrium_;
+  const ContactHooks& contacts_;
+  double t_before_, t_;
+  std::vector<ConvergenceRow>& convergence_;
+  double reach_;
+  int solution_ = 0;
+};
+
+}  // namespace
+
+LoadStepResult take_load_step(const Model& model, Dynamics& dynamics, Equilibrium& equilibrium,
+                              const ContactHooks& contacts, double t_before, double t,
+                              Eigen::VectorXd& y, std::vector<ConvergenceRow>& convergence) {
+  return LoadStep(model, dynamics, equilibrium, contacts, t_before, t, convergence).take(y);
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/contact/contact_summary.hpp"
+#include "sim/model/configuration.hpp"
+
+namespace articular::sim {
+
+/// Where the trouble is when a step can't be made: the most squeezed element where it was tried,
+/// and the node or bone that was fastest where it began. "; the most squeezed element is ...".
+std::string failure_diagnosis(const Model& model, const Configuration& start,
+                              const Configuration& tried);
+
+/// The two bodies whose contact has stored the most energy: "; contact of `a` and `b` holds 2 J,
+/// 3 mm deep: ...". Empty where nothing touches.
+std::string deepest_contact(const Model& model, const std::vector<ContactSummary>& contacts);
+
+}  // namespace articular::sim

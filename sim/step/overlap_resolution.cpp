@@ -1,0 +1,251 @@
+#include "sim/step/overlap_resolution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/build/build_model.hpp"
+#include "sim/contact/initial_overlap.hpp"
+#include "sim/statics/contact_hooks.hpp"
+#include "sim/statics/pseudo_time.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Of the allowance, in elements at the surface.
+constexpr double kStepOfElement = 0.25;
+constexpr int kMostHalvings = 3;
+constexpr double kRoundOff = 1e-9;
+/// Solutions in pseudo-time for one step.
+constexpr int kMostEquilibria = 50;
+/// Of the largest force, what is left unbalanced where tissue is held between bodies.
+constexpr double kMostUnbalanced = 1e-3;
+
+/// Without velocities and activation: dampers and muscles rest.
+Eigen::VectorXd at_rest(const Model& model, const Eigen::VectorXd& y) {
+  Eigen::VectorXd resting = y;
+  resting.tail(y.size() - model.layout.velocities()).setZero();
+  return resting;
+}
+
+std::string names(const Model& model, const ContactModel& contact) {
+  return fmt::format("`{}` and `{}`", model.bodies[static_cast<std::size_t>(contact.a)].name,
+                     model.bodies[static_cast<std::size_t>(contact.b)].name);
+}
+
+/// Tissue that is tied to the other body belongs there.
+bool are_tied(const Model& model, const ContactModel& contact) {
+  const auto tied = [&](int tissue, int rigid) {
+    const BodyModel& body = model.bodies[static_cast<std::size_t>(tissue)];
+    const int index = model.bodies[static_cast<std::size_t>(rigid)].rigid;
+    return body.tissue >= 0 && index >= 0 &&
+           std::any_of(body.collider->nodes.begin(), body.collider->nodes.end(),
+                       [&](const NodeRef& node) { return node.rigid == index; });
+  };
+  return tied(contact.a, contact.b) || tied(contact.b, contact.a);
+}
+
+/// What lies so deep in another body that contact can't tell the way out is no start.
+/// @param seen  by contact: depths that contact finds a face for [m]
+void refuse_lost_bodies(const Model& model, const std::vector<double>& seen) {
+  for (const InitialOverlap& overlap : initial_overlaps(model)) {
+    const auto same = [&](const ContactModel& c) { return c.a == overlap.a && c.b == overlap.b; };
+    const auto contact = std::find_if(model.contacts.begin(), model.contacts.end(), same);
+    if (overlap.depth <= contact->max_penetration || are_tied(model, *contact)) continue;
+    if (seen[static_cast<std::size_t>(contact - model.contacts.begin())] > 0) continue;
+    throw SimulationError(
+        fmt::format("{} overlap at the start by {:.3g} mm, at ({:.3f} {:.3f} {:.3f}) mm, and "
+                    "contact can't tell the way out: move one of them, or start as they are with "
+                    "settling = false",
+                    names(model, *contact), 1e3 * overlap.depth, 1e3 * overlap.place.x(),
+                    1e3 * overlap.place.y(), 1e3 * overlap.place.z()));
+  }
+}
+
+class OverlapResolver {
+ public:
+  OverlapResolver(const Model& model, const IterationWatch& watch)
+      : model_(model),
+        dynamics_(model),
+        search_(model),
+        equilibrium_(model, dynamics_),
+        margin_(model.detection_margin) {
+    dynamics_.set_unloaded(true);
+    equilibrium_.set_watch(watch);
+    hooks_ = contact_hooks(model, search_, dynamics_, margin_, rejected_);
+  }
+
+  /// Deeper than they may be.
+  std::vector<ResolvedOverlap> overlaps(const Eigen::VectorXd& y) {
+    const std::vector<double> depth = depths(at_rest(model_, y));
+    // Where depths are averaged, facets of a round surface may cut into another and carry nothing.
+    refuse_lost_bodies(model_, dynamics_.contact().point_depths());
+    std::vector<ResolvedOverlap> overlaps;
+    for (std::size_t c = 0; c < depth.size(); ++c)
+      if (depth[c] > model_.contacts[c].max_penetration)
+        overlaps.push_back({static_cast<int>(c), depth[c], 0});
+    return overlaps;
+  }
+
+  OverlapResolution resolve(Eigen::VectorXd& y) {
+    resolution_.overlaps = overlaps(y);
+    Eigen::VectorXd moving = at_rest(model_, y);
+    const Eigen::VectorXd start = moving;
+    double done = 0, step = 1.0 / num_steps();
+    for (int halvings = 0; done < 1;) {
+      const double target = done + step > 1 - kRoundOff ? 1 : done + step;
+      if (relax(1 - target, moving)) {
+        done = target;
+      } else if (++halvings > kMostHalvings) {
+        fail(fmt::format("could not push them apart by more than {:.3g} mm",
+                         1e3 * done * deepest().before));
+      } else {
+        step *= 0.5;
+      }
+    }
+    finish(start, moving);
+    y.head(model_.layout.velocities()) = moving.head(model_.layout.velocities());
+    return resolution_;
+  }
+
+ private:
+  std::vector<double> depths(const Eigen::VectorXd& y) {
+    dynamics_.set_allowances({});
+    look(y, 0);
+    std::vector<double> depths(model_.contacts.size(), 0);
+    for (const ContactSummary& contact : dynamics_.contacts())
+      depths[static_cast<std::size_t>(contact.contact)] = contact.max_point_depth;
+    return depths;
+  }
+
+  double num_steps() const {
+    double count = 1;
+    for (const ResolvedOverlap& overlap : resolution_.overlaps) {
+      const ContactModel& contact = model_.contacts[static_cast<std::size_t>(overlap.contact)];
+      const auto size = [&](int body) {
+        return model_.bodies[static_cast<std::size_t>(body)].collider->size;
+      };
+      const double step = kStepOfElement * std::min(size(contact.a), size(contact.b));
+      count = std::max(count, std::ceil(overlap.before / step));
+    }
+    return count;
+  }
+
+  /// Moves bodies on from rest in pseudo-time, each solution by no more than an element, until what
+  /// is deeper than this part of the overlaps is gone, or held by bodies that can't give way.
+  bool relax(double allowed, Eigen::VectorXd& y) {
+    std::vector<double> allowances(model_.contacts.size(), 0);
+    for (const ResolvedOverlap& overlap : resolution_.overlaps)
+      allowances[static_cast<std::size_t>(overlap.contact)] = allowed * overlap.before;
+    dynamics_.set_allowances(std::move(allowances));
+    const double reach = dynamics_.trusted_motion();
+    double motion = kFirstMotion * reach;
+    for (int k = 0; k < kMostEquilibria; ++k) {
+      look(y, motion);
+      if (is_settled()) return true;
+      Eigen::VectorXd trial = y;
+      const bool solved =
+          equilibrium_.solve(trial, 0, equilibrium_.largest_acceleration() / motion);
+      ++resolution_.solutions;
+      if (solved) dynamics_.evaluate(trial.data(), 0);
+      if (!solved || !hooks_.covered()) {
+        motion *= kMotionFall;
+        continue;
+      }
+      y = trial;
+      motion = std::min(kMotionRise * motion, reach);
+    }
+    return false;
+  }
+
+  bool is_settled() const {
+    const std::vector<ContactSummary> contacts = dynamics_.contacts();
+    const bool apart =
+        std::all_of(contacts.begin(), contacts.end(), [this](const ContactSummary& contact) {
+          const auto c = static_cast<std::size_t>(contact.contact);
+          return contact.max_point_depth <= model_.contacts[c].max_penetration;
+        });
+    return apart || equilibrium_.residual() <= kMostUnbalanced * dynamics_.largest_force();
+  }
+
+  /// Finds contacts at y, for things that will move so far [m], and evaluates there.
+  void look(const Eigen::VectorXd& y, double motion) {
+    dynamics_.evaluate(y.data(), 0);
+    hooks_.find(dynamics_.configuration(), motion);
+    dynamics_.evaluate(y.data(), 0);
+  }
+
+  void finish(const Eigen::VectorXd& start, const Eigen::VectorXd& y) {
+    const std::vector<double> depth = depths(y);
+    for (ResolvedOverlap& overlap : resolution_.overlaps)
+      overlap.after = depth[static_cast<std::size_t>(overlap.contact)];
+    Configuration before;
+    read_state(model_, start.data(), 0, before);
+    refuse_turned_elements(before);
+    for (const BodyModel& body : model_.bodies)
+      if (body.collider)
+        for (const NodeRef& node : body.collider->nodes)
+          resolution_.largest_motion =
+              std::max(resolution_.largest_motion,
+                       (dynamics_.configuration().position(node) - before.position(node)).norm());
+  }
+
+  /// A surface that has been turned inside out touches nothing: it only looks as if it were apart.
+  void refuse_turned_elements(const Configuration& before) const {
+    for (const Tissue& tissue : model_.tissues) {
+      Eigen::Index element = 0;
+      const auto least = [&](const Configuration& configuration) {
+        Positions x;
+        positions_of(configuration, tissue.nodes, x);
+        return tissue.elements.volume_ratio(x).minCoeff(&element);
+      };
+      if (least(before) > 0 && !(least(dynamics_.configuration()) > 0))
+        fail(fmt::format("would turn tetrahedron {} of `{}` inside out", element,
+                         model_.bodies[static_cast<std::size_t>(tissue.body)].name));
+    }
+  }
+
+  const ResolvedOverlap& deepest() const {
+    return *std::max_element(
+        resolution_.overlaps.begin(), resolution_.overlaps.end(),
+        [](const ResolvedOverlap& p, const ResolvedOverlap& q) { return p.before < q.before; });
+  }
+
+  [[noreturn]] void fail(const std::string& how) const {
+    throw SimulationError(fmt::format(
+        "{} overlap at the start by {:.3g} mm, and settling {}: move one of them, or start as they "
+        "are with settling = false",
+        names(model_, model_.contacts[static_cast<std::size_t>(deepest().contact)]),
+        1e3 * deepest().before, how));
+  }
+
+  const Model& model_;
+  Dynamics dynamics_;
+  ContactSearch search_;
+  Equilibrium equilibrium_;
+  ContactHooks hooks_;
+  double margin_;
+  std::int64_t rejected_ = 0;
+  OverlapResolution resolution_;
+};
+
+}  // namespace
+
+OverlapResolution resolve_overlaps(const Model& model, Eigen::VectorXd& y,
+                                   const IterationWatch& watch) {
+  if (model.contacts.empty() || y.size() == 0) return {};
+  OverlapResolver resolver(model, watch);
+  if (resolver.overlaps(y).empty()) return {};
+  if (std::none_of(model.contacts.begin(), model.contacts.end(),
+                   [](const ContactModel& contact) { return contact.averaged; }))
+    return resolver.resolve(y);
+  // Soft pointwise contact gets bodies out of each other more easily, and edges and corners too.
+  Scenario scenario = model.scenario;
+  scenario.analysis = Scenario::Analysis::Dynamic;
+  scenario.contact_response = Scenario::Response::Pointwise;
+  const Model pointwise = build_model(std::move(scenario));
+  return OverlapResolver(pointwise, watch).resolve(y);
+}
+
+}  // namespace articular::sim

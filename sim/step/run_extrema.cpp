@@ -1,0 +1,76 @@
+#include "sim/step/run_extrema.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/contact/contact_search.hpp"
+#include "sim/model/tissue.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// What is deeper is not found by the usual search: half an element, or a bone's shell [m].
+double followed_depth(const Model& model, const ContactModel& contact) {
+  const Collider& a = *model.bodies[static_cast<std::size_t>(contact.a)].collider;
+  const Collider& b = *model.bodies[static_cast<std::size_t>(contact.b)].collider;
+  return std::max(depth_range(a, b, contact.averaged).reach,
+                  depth_range(b, a, contact.averaged).reach);
+}
+
+double work_done(const EnergyLedger& l) {
+  return std::abs(l.muscle_work) + std::abs(l.load_work) + std::abs(l.motion_work);
+}
+
+}  // namespace
+
+void note_balance(double numerical_loss, State& state) {
+  state.extrema.made = std::max(state.extrema.made, -numerical_loss);
+}
+
+void note_extrema(const Model& model, const Dynamics& dynamics, State& state) {
+  RunExtrema& extrema = state.extrema;
+  Positions x;
+  for (std::size_t t = 0; t < model.tissues.size(); ++t) {
+    positions_of(dynamics.configuration(), model.tissues[t].nodes, x);
+    Eigen::Index element = 0;
+    const double least = model.tissues[t].elements.volume_ratio(x).minCoeff(&element);
+    if (!(least < extrema.volume_ratio)) continue;
+    extrema.volume_ratio = least;
+    extrema.tissue = static_cast<int>(t);
+    extrema.element = element;
+    extrema.squeezed_at = state.t;
+  }
+  for (const ContactSummary& contact : dynamics.contacts()) {
+    if (!(contact.max_depth > 0)) continue;
+    state.max_penetration = std::max(state.max_penetration, contact.max_depth);
+    const ContactModel& pair = model.contacts[static_cast<std::size_t>(contact.contact)];
+    const double overlap = contact.max_depth / followed_depth(model, pair);
+    if (!(overlap > extrema.overlap)) continue;
+    extrema.overlap = overlap;
+    extrema.contact = contact.contact;
+    extrema.overlap_at = state.t;
+  }
+  extrema.kinetic = std::max(extrema.kinetic, dynamics.kinetic_energy());
+  extrema.work = std::max(extrema.work, work_done(state.energy));
+  const double gravity = dynamics.gravity_energy();
+  extrema.gravity_low = std::min(extrema.gravity_low, gravity);
+  extrema.gravity_high = std::max(extrema.gravity_high, gravity);
+}
+
+double turned_over(const State& state) {
+  return std::max({state.extrema.kinetic, state.extrema.gravity_high - state.extrema.gravity_low,
+                   state.extrema.work, work_done(state.energy)});
+}
+
+double energy_of_tolerance(const Model& model) {
+  double mass = 0;  // [kg]
+  for (const Tissue& tissue : model.tissues) mass += tissue.lumped_mass.sum();
+  for (const RigidBody& rigid : model.rigid_bodies)
+    if (rigid.unknown) mass += rigid.mass.mass;
+  constexpr double kNewtonFraction = 0.1;  // of the tolerance, at which the iteration ends
+  const double speed =
+      kNewtonFraction * model.position_tolerance / model.scenario.integrator.step;  // [m/s]
+  return 0.5 * mass * speed * speed;
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "sim/assembly/dynamics.hpp"
+#include "sim/model/state.hpp"
+
+namespace articular::sim {
+
+/// Notes in state.extrema, and max_penetration, what is worse than it has been, at the last
+/// evaluate().
+void note_extrema(const Model& model, const Dynamics& dynamics, State& state);
+
+/// Notes what the balance of energy lacks: what numerical_loss() is below zero [J].
+void note_balance(double numerical_loss, State& state);
+
+/// What moved, fell or was put in at any time since the start [J]: what a loss is much or little
+/// of. A press that was lifted again has taken back what it had put in.
+double turned_over(const State& state);
+
+/// Kinetic energy at velocities that Newton's iteration does not tell from rest [J].
+double energy_of_tolerance(const Model& model);
+
+}  // namespace articular::sim

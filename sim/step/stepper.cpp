@@ -1,0 +1,406 @@
+#include "sim/step/stepper.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/scenario/curve.hpp"
+#include "sim/statics/contact_hooks.hpp"
+#include "sim/step/failure_diagnosis.hpp"
+#include "sim/step/run_extrema.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Some contact of a dynamic analysis may not penetrate farther than the scenario says.
+bool has_bounds_in_time(const Model& model) {
+  return model.scenario.analysis == Scenario::Analysis::Dynamic &&
+         std::any_of(model.contacts.begin(), model.contacts.end(),
+                     [](const ContactModel& contact) { return contact.is_bounded; });
+}
+
+const char* words_for(Rejection why) {
+  switch (why) {
+    case Rejection::NoConvergence:
+      return "Newton's iteration did not converge with a step";
+    case Rejection::NoEquilibrium:
+      return "no equilibrium was found with a load step";
+    case Rejection::TooFast:
+      return "bodies move by more than an element, or past each other, in a step";
+    case Rejection::NotFinite:
+      return "forces are not finite after a step";
+  }
+  return "";
+}
+
+}  // namespace
+
+double numerical_loss(const State& state, const StoredEnergy& now) {
+  const EnergyLedger& l = state.energy;
+  return l.start + l.muscle_work + l.load_work + l.motion_work - l.ligament_loss - l.tissue_loss -
+         l.contact_loss - l.settling_loss - now.total();
+}
+
+Stepper::Stepper(const Model& model) : model_(model) {
+  dynamics_ = std::make_unique<Dynamics>(model);
+  if (model.scenario.analysis == Scenario::Analysis::Static)
+    equilibrium_ = std::make_unique<Equilibrium>(model, *dynamics_);
+  else
+    integrator_ = make_time_integrator(model, *dynamics_);
+  if (!model.contacts.empty()) search_ = std::make_unique<ContactSearch>(model);
+}
+
+State Stepper::initial() {
+  State state;
+  state.y = initial_state(model_);
+  state.next_step = model_.scenario.integrator.step;
+  state.next_margin = model_.detection_margin;
+  state.stiffening = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(model_.contacts.size()));
+  restart(state);
+  state.energy.start = stored_energy().total();
+  note_extrema(model_, *dynamics_, state);
+  return state;
+}
+
+void Stepper::set_watch(IterationWatch watch) {
+  if (equilibrium_) equilibrium_->set_watch(std::move(watch));
+}
+
+void Stepper::set_stop(std::function<bool()> is_to_stop) {
+  if (integrator_) integrator_->set_stop(std::move(is_to_stop));
+}
+
+void Stepper::restart(const State& state) {
+  dynamics_->forget();
+  dynamics_->set_stiffening(state.stiffening);
+  if (integrator_) integrator_->restart(state.next_step);
+  if (equilibrium_) equilibrium_->restart();
+  Configuration now;
+  read_state(model_, state.y.data(), state.t, now);
+  find_contacts(now, state.next_margin);
+  found_in_step_ = false;
+  dynamics_->evaluate(state.y.data(), state.t);
+}
+
+void Stepper::find_contacts(const Configuration& where, double margin) {
+  if (!search_) return;
+  search_->find(where, margin);
+  found_in_step_ = true;
+  dynamics_->set_candidates(search_->candidates());
+}
+
+/// What the last step's detection found will do for one that ends about here.
+bool Stepper::is_still_found(const Configuration& end) const {
+  if (!model_.scenario.detection.lagged || !search_ || !found_in_step_) return false;
+  constexpr double kPartOfMargin = 0.25;  // half of it covers a step, which may end elsewhere
+  const double most = kPartOfMargin * search_->margin();
+  return search_->motion_since(start_) <= most && search_->motion_since(end) <= most;
+}
+
+void Stepper::step(State& state, double t_target) {
+  const double nominal = model_.scenario.integrator.step;
+  const double remaining = t_target - state.t;
+  const bool free_steps = integrator_ && integrator_->next_step();
+  double h = std::min(free_steps ? nominal : std::min(state.next_step, nominal), remaining);
+  if (!free_steps) h = remaining / std::max(1.0, std::ceil(remaining / h - 1e-9));
+  const bool last = h >= remaining * (1 - 1e-12);
+
+  const SearchCounts search_before = search_ ? search_->counts() : SearchCounts{};
+  const SolverCounts solver_before = solver_counts();
+  const EvaluationCounts evaluations_before = evaluations();
+  dynamics_->set_step_start(state.t);
+  remember_start(state);
+
+  double tried = h;
+  const double t_start = state.t;
+  for (;;) {
+    if (try_step(state, tried)) break;
+    tried *= 0.5;
+    if (tried < model_.scenario.integrator.min_step) fail(state, tried);
+  }
+  if (last && state.t - t_start >= remaining * (1 - 1e-12)) state.t = t_target;
+  if (free_steps)
+    state.next_step = *integrator_->next_step();
+  else
+    state.next_step = tried < h ? tried : std::min(nominal, 2 * state.next_step);
+
+  state.counts.evaluations += evaluations();
+  state.counts.evaluations -= evaluations_before;
+  if (integrator_) stop_where_energy_is_made(state);
+  static_cast<SolverCounts&>(state.counts) = state.counts + (solver_counts() - solver_before);
+  if (search_) {
+    state.counts.tree_updates += search_->counts().tree_updates - search_before.tree_updates;
+    state.counts.narrow_tests += search_->counts().narrow_tests - search_before.narrow_tests;
+    state.counts.reported_pairs += search_->counts().reported_pairs - search_before.reported_pairs;
+    state.counts.deep_pairs += search_->counts().deep_pairs - search_before.deep_pairs;
+  }
+}
+
+EvaluationCounts Stepper::evaluations() const {
+  EvaluationCounts sum = dynamics_->evaluations();
+  if (search_) sum += search_->counts().evaluations;
+  return sum;
+}
+
+SolverCounts Stepper::solver_counts() const {
+  return integrator_ ? integrator_->counts() : equilibrium_->counts();
+}
+
+void Stepper::remember_start(const State& state) {
+  lines_before_ = dynamics_->lines();
+  forces_before_ = dynamics_->forces();
+  start_ = dynamics_->configuration();
+  t_before_ = state.t;
+  damping_before_ = dynamics_->damping_power();
+  contact_power_before_ = dynamics_->contact_power();
+  fibre_energy_before_.assign(model_.tissues.size(), 0);
+  for (std::size_t t = 0; t < model_.tissues.size(); ++t)
+    if (model_.tissues[t].muscle >= 0)
+      fibre_energy_before_[t] = dynamics_->energy_per_activation(t);
+  if (has_bounds_in_time(model_)) {
+    contact_energy_before_.assign(model_.contacts.size(), 0);
+    for (const ContactSummary& contact : dynamics_->contacts())
+      contact_energy_before_[static_cast<std::size_t>(contact.contact)] = contact.energy;
+  }
+  reactions_before_.assign(model_.rigid_bodies.size(), Vec6::Zero());
+  for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b)
+    if (model_.rigid_bodies[b].motion && model_.rigid_bodies[b].unknown)
+      reactions_before_[b] = dynamics_->reaction(static_cast<int>(b));
+  loads_before_.clear();
+  for (const ForceModel& force : model_.forces)
+    loads_before_.push_back(start_.position(force.point));
+}
+
+bool Stepper::try_step(State& state, double h) {
+  if (!(integrator_ ? try_time_step(state, h) : try_load_step(state, h))) return false;
+  account(state);
+  return true;
+}
+
+bool Stepper::try_time_step(State& state, double h) {
+  // Implicit Euler and BDF need contacts where the step ends: they are looked for where everything
+  // will be if it moves on as now. A scheme with stages between needs them on the whole way, and
+  // looks from its middle.
+  const Integrator::Scheme scheme = model_.scenario.integrator.scheme;
+  const bool only_end =
+      scheme == Integrator::Scheme::ImplicitEuler || scheme == Integrator::Scheme::Bdf;
+  const Configuration end = predicted(model_, start_, h);
+  if (search_ && search_->passes_unseen(start_, end)) {
+    ++state.counts.rejected_motion;
+    why_ = Rejection::TooFast;
+    return false;
+  }
+  const Configuration where = only_end ? end : predicted(model_, start_, 0.5 * h);
+  bool internal_variables = is_still_found(end);
+  state.counts.lagged_steps += internal_variables ? 1 : 0;
+  for (;;) {
+    if (!internal_variables) find_contacts(where, state.next_margin);
+    y_ = state.y;
+    const std::optional<double> reached =
+        y_.size() == 0 ? std::optional(state.t + h)  // only driven bones move
+                       : integrator_->advance(y_, state.t, h);
+    if (!reached) {
+      why_ = Rejection::NoConvergence;
+      return false;
+    }
+    dynamics_->evaluate(y_.data(), *reached);
+    if (!dynamics_->forces().allFinite()) {
+      why_ = Rejection::NotFinite;
+      return false;
+    }
+    bool covered = true;
+    if (search_) {
+      double stray = search_->motion_since(dynamics_->configuration());
+      if (!only_end) stray = std::max(stray, search_->motion_since(start_));
+      if (stray > dynamics_->trusted_motion()) {
+        ++state.counts.rejected_motion;
+        why_ = Rejection::TooFast;
+        return false;
+      }
+      covered = stray <= 0.5 * search_->margin();
+      if (!internal_variables) state.next_margin = margin_for(model_, stray);
+      internal_variables = internal_variables && covered;
+    }
+    if (covered && !stiffen(state)) {
+      state.y = y_;
+      state.t = *reached;
+      return true;
+    }
+    state.counts.rejected_motion += covered ? 0 : 1;
+  }
+}
+
+/// Doubles the stiffness of contacts that penetrate by more than they may. What that adds to the
+/// energy stored at the start of the step is a loss below zero.
+bool Stepper::stiffen(State& state) const {
+  if (!has_bounds_in_time(model_)) return false;
+  constexpr double kMostStiffening =
+      128;  // beyond, Newton's tolerance would be all of the pressure
+  bool any = false;
+  for (const ContactSummary& contact : dynamics_->contacts()) {
+    const auto c = static_cast<std::size_t>(contact.contact);
+    double& factor = state.stiffening[static_cast<Eigen::Index>(c)];
+    if (!model_.contacts[c].is_bounded || factor >= kMostStiffening) continue;
+    if (contact.max_depth <= model_.contacts[c].max_penetration) continue;
+    factor *= 2;
+    state.energy.contact_loss -= contact_energy_before_[c];
+    any = true;
+  }
+  state.counts.stiffened += any ? 1 : 0;
+  if (any) dynamics_->set_stiffening(state.stiffening);
+  return any;
+}
+
+bool Stepper::try_load_step(State& state, double h) {
+  y_ = state.y;
+  for (std::size_t m = 0; m < model_.muscles.size(); ++m)
+    y_[model_.layout.activations() + static_cast<int>(m)] =
+        steady_activation(model_.muscles[m], state.t + h);
+  ContactHooks contacts;
+  if (search_)
+    contacts = contact_hooks(model_, *search_, *dynamics_, state.next_margin,
+                             state.counts.rejected_motion);
+  const LoadStepResult result = take_load_step(model_, *dynamics_, *equilibrium_, contacts, state.t,
+                                               state.t + h, y_, convergence_);
+  loose_ = result.loose;
+  if (!result.reached) {
+    why_ = Rejection::NoEquilibrium;
+    if (loose_) fail(state, h);  // a smaller load would not hold it either
+    return false;
+  }
+  const auto same_body = [&](const RigidBodyMode& other) { return other.body == loose_->body; };
+  if (loose_ && std::none_of(indifferent_.begin(), indifferent_.end(), same_body))
+    indifferent_.push_back(*loose_);
+  state.energy.settling_loss += result.settling_loss;
+  state.y = y_;
+  state.t += h;
+  return true;
+}
+
+void Stepper::account(State& after) {
+  const Configuration& now = dynamics_->configuration();
+  EnergyLedger& ledger = after.energy;
+  for (std::size_t l = 0; l < model_.lines.size(); ++l) {
+    const LineState &a = lines_before_[l], &b = dynamics_->lines()[l];
+    const double stretch = b.length - a.length;
+    ledger.muscle_work -= 0.5 * (a.active + b.active) * stretch;
+    ledger.ligament_loss += 0.5 * (a.damping + b.damping) * stretch;
+  }
+  for (std::size_t t = 0; t < model_.tissues.size(); ++t) {
+    const int muscle = model_.tissues[t].muscle;
+    if (muscle < 0) continue;
+    const double rise = now.activation[muscle] - start_.activation[muscle];
+    ledger.muscle_work +=
+        0.5 * (fibre_energy_before_[t] + dynamics_->energy_per_activation(t)) * rise;
+  }
+  ledger.tissue_loss +=
+      0.5 * (damping_before_ + dynamics_->damping_power()) * (after.t - t_before_);
+  ledger.contact_loss +=
+      0.5 * (contact_power_before_ + dynamics_->contact_power()) * (after.t - t_before_);
+  for (std::size_t i = 0; i < model_.forces.size(); ++i) {
+    const ForceModel& force = model_.forces[i];
+    const double factor =
+        0.5 * (value_at(force.profile, t_before_) + value_at(force.profile, after.t));
+    ledger.load_work += factor * force.force.dot(now.position(force.point) - loads_before_[i]);
+  }
+  for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b) {
+    const RigidBody& rigid = model_.rigid_bodies[b];
+    if (!rigid.motion) continue;
+    if (rigid.unknown) {
+      const Vec6 reaction = dynamics_->reaction(static_cast<int>(b));
+      ledger.motion_work -=
+          0.5 * (reactions_before_[b].dot(
+                     driven_way(rigid, t_before_, after.t, start_.poses[b].R, t_before_)) +
+                 reaction.dot(driven_way(rigid, t_before_, after.t, now.poses[b].R, after.t)));
+      continue;
+    }
+    const Eigen::AngleAxisd turn(now.poses[b].R * start_.poses[b].R.transpose());
+    const Eigen::VectorXd& f = dynamics_->forces();
+    const Vec3 force =
+        0.5 * (forces_before_.segment<3>(3 * rigid.block) + f.segment<3>(3 * rigid.block));
+    const Vec3 moment =
+        0.5 * (forces_before_.segment<3>(3 * rigid.block + 3) + f.segment<3>(3 * rigid.block + 3));
+    ledger.motion_work -=
+        force.dot(now.poses[b].p - start_.poses[b].p) + moment.dot(turn.angle() * turn.axis());
+  }
+  note_extrema(model_, *dynamics_, after);
+}
+
+/// What moves has had its energy at the start, from gravity or from what drives it. Where it is
+/// twice that, or as much was made by then, be it gone again, what follows means nothing. The work
+/// of a driven motion that strikes something within a step is known to about itself.
+void Stepper::stop_where_energy_is_made(const State& state) const {
+  constexpr double kMost = 2;                // the ledger's sums are trapezoids,
+  constexpr double kOfLedger = 0.01;         // each known to about this part
+  constexpr double kFarFromTolerance = 1e4;  // a hundred times its velocity
+  const EnergyLedger& ledger = state.energy;
+  const double kinetic = dynamics_->kinetic_energy();
+  const double given = ledger.start - dynamics_->gravity_energy() + std::abs(ledger.muscle_work) +
+                       std::abs(ledger.load_work) + std::abs(ledger.motion_work);
+  const double floor =
+      kFarFromTolerance * energy_of_tolerance(model_) + kOfLedger * turned_over(state);
+  const double source = std::max(given, 0.0);
+  std::string what;
+  if (kinetic > kMost * source + floor)
+    what = fmt::format(
+        "bodies move with {:.2g} J and were given {:.2g} J, the rest was made out of "
+        "nothing",
+        kinetic, given);
+  else if (state.extrema.made > source + std::abs(ledger.motion_work) + floor)
+    what = fmt::format("{:.2g} J were made out of nothing, bodies were given {:.2g} J",
+                       state.extrema.made, given);
+  else
+    return;
+  throw SimulationError(
+      fmt::format("the simulation cannot go on at t = {:.6g} s: {}{}{}; results are valid until "
+                  "shortly before",
+                  state.t, what, deepest_contact(model_, dynamics_->contacts()),
+                  failure_diagnosis(model_, start_, dynamics_->configuration())));
+}
+
+void Stepper::fail(const State& state, double h) {
+  // Of a load step nothing has a speed: what is loose says more.
+  const std::string cause =
+      loose_ ? fmt::format("; {}: a support is missing, or contact is not made", loose_->words)
+             : failure_diagnosis(model_, start_, dynamics_->configuration());
+  // Back to the last state, for what the summary says of it.
+  find_contacts(start_, state.next_margin);
+  dynamics_->evaluate(state.y.data(), state.t);
+  throw SimulationError(fmt::format(
+      "the simulation cannot go on at t = {:.6g} s: {} of {:.3g} s{}; results are valid until then",
+      state.t, words_for(why_), h, cause));
+}
+
+StoredEnergy Stepper::stored_energy() const {
+  StoredEnergy energy;
+  energy.kinetic = dynamics_->kinetic_energy();
+  energy.elastic = dynamics_->elastic_energy();
+  energy.gravity = dynamics_->gravity_energy();
+  for (const ContactSummary& contact : dynamics_->contacts()) energy.contact += contact.energy;
+  for (const LineState& line : dynamics_->lines()) energy.lines += line.stored;
+  return energy;
+}
+
+std::vector<Positions> Stepper::contact_forces() const {
+  if (!search_) return std::vector<Positions>(model_.bodies.size());
+  return nodal_contact_forces(model_, dynamics_->contact());
+}
+
+PhaseTimes Stepper::times() {
+  PhaseTimes times;
+  if (search_) {
+    times.collision_update = search_->counts().update_seconds;
+    times.collision_traversal = search_->counts().traversal_seconds;
+    times.collision_narrow = search_->counts().narrow_seconds;
+  }
+  times.elastic_force = dynamics_->times().elastic_force;
+  times.contact_force = dynamics_->times().contact_force;
+  times.assembly = dynamics_->times().assembly;
+  times.solve = integrator_ ? integrator_->solve_seconds() : equilibrium_->solve_seconds();
+  return times;
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,104 @@
+#pragma once
+
+#include "sim/assembly/dynamics.hpp"
+#include "sim/contact/contact_search.hpp"
+#include "sim/model/state.hpp"
+#include "sim/statics/load_step.hpp"
+#include "sim/time/time_integrator.hpp"
+
+namespace articular::sim {
+
+/// Energies stored now [J].
+struct StoredEnergy {
+  double kinetic = 0, elastic = 0, gravity = 0, contact = 0;
+  double lines = 0;  // ligaments and passive muscles
+  double total() const { return kinetic + elastic + gravity + contact + lines; }
+};
+
+/// What the balance start + work − losses = stored energy leaves: dissipation of the time
+/// integration (positive: lost) [J].
+double numerical_loss(const State& state, const StoredEnergy& now);
+
+/// Wall time by phase [s].
+struct PhaseTimes {
+  double collision_update = 0, collision_traversal = 0, collision_narrow = 0;
+  double elastic_force = 0, contact_force = 0, assembly = 0, solve = 0;
+};
+
+/// Why a step was not taken.
+enum class Rejection { NoConvergence, NoEquilibrium, TooFast, NotFinite };
+
+/// Scratch memory, trees, integrator and factors for one model.
+class Stepper {
+ public:
+  explicit Stepper(const Model& model);
+
+  State initial();
+
+  /// One step of Listing 1.5.1 towards t_target: find contacts, advance (or, in a static analysis,
+  /// find equilibrium under the loads of its end), check, account. Halves the step as often as
+  /// needed.
+  /// @throws SimulationError when the step would get smaller than the scenario's least one
+  void step(State& state, double t_target);
+
+  /// Of a static analysis: told of each iteration, see Equilibrium. step() then throws Interruption
+  /// where it asks to stop: the state is as before, but for counts; go on with restart().
+  void set_watch(IterationWatch watch);
+  /// Of an analysis in time: asked at each evaluation of the rate; likewise.
+  void set_stop(std::function<bool()> is_to_stop);
+
+  /// A restart point: drops everything that a run resumed from `state` would not have.
+  void restart(const State& state);
+
+  /// Forces, lines and contacts at the state of the last step() or restart().
+  const Dynamics& dynamics() const { return *dynamics_; }
+  StoredEnergy stored_energy() const;
+  std::vector<Positions> contact_forces() const;  // at colliders' nodes, by body [N]
+  PhaseTimes times();
+  /// Since it was made; those of State::counts are of the steps alone.
+  EvaluationCounts evaluations() const;
+
+  /// Of a static analysis: every iteration since the last call.
+  std::vector<ConvergenceRow> take_convergence() { return std::exchange(convergence_, {}); }
+  /// Bodies that nothing holds, though nothing drives them either: they stay where they were.
+  const std::vector<RigidBodyMode>& indifferent() const { return indifferent_; }
+
+ private:
+  void find_contacts(const Configuration& where, double margin);
+  bool is_still_found(const Configuration& end) const;
+  void remember_start(const State& state);
+  bool try_step(State& state, double h);
+  bool try_time_step(State& state, double h);
+  bool try_load_step(State& state, double h);
+  bool stiffen(State& state) const;
+  SolverCounts solver_counts() const;
+  void account(State& after);
+  void stop_where_energy_is_made(const State& state) const;
+  [[noreturn]] void fail(const State& state, double h);
+
+  const Model& model_;
+  std::unique_ptr<ContactSearch> search_;
+  std::unique_ptr<Dynamics> dynamics_;
+  std::unique_ptr<TimeIntegrator> integrator_;  // dynamic analysis
+  std::unique_ptr<Equilibrium> equilibrium_;    // static analysis
+  std::vector<ConvergenceRow> convergence_;
+  std::optional<RigidBodyMode> loose_;  // in the last load step: what nothing holds
+  std::vector<RigidBodyMode> indifferent_;
+  bool found_in_step_ = false;                // the candidates, not by restart()
+  Eigen::VectorXd y_;                         // being tried
+  Rejection why_ = Rejection::NoConvergence;  // the last step that was not taken
+
+  /// What the step started from, for the prediction and the ledger.
+  Configuration start_;
+  std::vector<LineState> lines_before_;
+  std::vector<Vec3> loads_before_;
+  std::vector<Vec6> reactions_before_;  // of held bones that are driven, by bone
+  Eigen::VectorXd forces_before_;
+  std::vector<double> contact_energy_before_;  // [J] of each contact
+  double t_before_ = 0;
+  double damping_before_ = 0;                // [W]
+  double contact_power_before_ = 0;          // [W]
+  std::vector<double> fibre_energy_before_;  // [J] per activation, of each tissue
+};
+
+}  // namespace articular::sim

@@ -1,0 +1,276 @@
+#include "sim/time/newton_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/assembly/contact_imbalance.hpp"
+#include "sim/assembly/line_search.hpp"
+#include "sim/base/stopwatch.hpp"
+#include "sim/model/constrained_rigid_body.hpp"
+#include "sim/model/newton_weights.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// A residual that falls by less than this asks for a new matrix.
+constexpr double kSlowFall = 0.1;
+
+Eigen::Quaterniond quaternion(const double* q) { return {q[0], q[1], q[2], q[3]}; }
+
+/// How much longer a line gets when the blocks move by `shift` (bones: p, rotation vector).
+double lengthening(const Line& line, const Configuration& now, const Eigen::VectorXd& shift) {
+  const auto move = [&](const WeightedPoint& point) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 0; k < point.nodes.size(); ++k) {
+      const NodeRef& node = point.nodes[k];
+      Vec3 d = shift.segment<3>(3 * node.block);
+      if (node.rigid >= 0) d += shift.segment<3>(3 * node.block + 3).cross(now.lever(node));
+      sum += point.weights[k] * d;
+    }
+    return sum;
+  };
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < line.path.size(); ++i) {
+    const Vec3 d = now.position(line.path[i + 1]) - now.position(line.path[i]);
+    if (const double length = d.norm(); length > 0)
+      sum += d.dot(move(line.path[i + 1]) - move(line.path[i])) / length;
+  }
+  return sum;
+}
+
+}  // namespace
+
+NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
+    : model_(model), dynamics_(dynamics), solver_(make_linear_solver(model)) {}
+
+void NewtonSystem::restart() {
+  solver_ = make_linear_solver(model_);
+  gamma_ = 0;
+}
+
+void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
+  iteration_ = 0;
+  first_ = tangent;
+  used_consistent_ = false;
+  may_accelerate_ = false;
+  dynamics_.drop_friction_duals();
+  if (!keep_matrix) gamma_ = 0;
+}
+
+void NewtonSystem::begin_iteration() {
+  may_accelerate_ = true;
+  dynamics_.drop_friction_duals();
+  correction_ = 0;
+  anderson_.restart();
+}
+
+bool NewtonSystem::needs_matrix(double gamma) const {
+  if (gamma != gamma_ || pattern_ != dynamics_.pattern_id() || has_parted()) return true;
+  return iteration_ > 0 && residual_ > kSlowFall * last_residual_;
+}
+
+bool NewtonSystem::has_parted() const {
+  const std::vector<double>& now = dynamics_.contact().force_on_bodies();
+  for (std::size_t b = 0; b < touching_.size(); ++b)
+    if (touching_[b] > 0 && now[b] == 0) return true;
+  return false;
+}
+
+bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, SolverCounts& counts) {
+  const fem::BlockMatrix& A = dynamics_.matrix({1, gamma, gamma * gamma, gamma}, tangent);
+  const Stopwatch watch(solve_seconds_);
+  ++counts.factorizations;
+  if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
+  const bool ready =
+      prepare_linear(*solver_, A, dynamics_.configuration().x, dynamics_.pressure_part());
+  gamma_ = ready ? gamma : 0;
+  pattern_ = A.pattern_id();
+  touching_ = dynamics_.contact().force_on_bodies();
+  tangent_ = tangent;
+  return ready;
+}
+
+bool NewtonSystem::solve_symmetric(const Eigen::VectorXd& r, Eigen::VectorXd& w,
+                                   SolverCounts& counts) {
+  w.setZero(r.size());
+  const fem::SolveReport report = solver_->solve(r, w);
+  ++counts.linear_solves;
+  counts.linear_iterations += report.iterations;
+  return report.converged && w.allFinite();
+}
+
+bool NewtonSystem::solve_linear(SolverCounts& counts) {
+  const Stopwatch watch(solve_seconds_);
+  const auto solve = [&](Eigen::VectorXd& r, Eigen::VectorXd& w) {
+    keep_free_part(model_, r);
+    return solve_symmetric(r, w, counts);
+  };
+  const FrictionCoupling& coupling = dynamics_.friction_coupling();
+  const bool solved =
+      solve_symmetric(mass_rhs_, w_, counts) &&
+      (coupling.num_sheets() == 0 || solve_with_friction(coupling, solve, mass_rhs_, w_));
+  used_consistent_ |= solved && tangent_ == fem::Tangent::Consistent;
+  return solved;
+}
+
+bool NewtonSystem::find_correction(double gamma, SolverCounts& counts) {
+  bool ready = !needs_matrix(gamma) || prepare(gamma, first_, counts);
+  ++iteration_;
+  if (ready && solve_linear(counts)) return true;
+  // Not positive definite: Cholesky says so at once, conjugate gradients when they meet it.
+  if (tangent_ == fem::Tangent::Projected) return false;
+  // Where the iteration is slow besides, the other one is not asked again in this step.
+  if (anderson_.is_slow()) first_ = fem::Tangent::Projected;
+  ready = prepare(gamma, fem::Tangent::Projected, counts);
+  return ready && solve_linear(counts);
+}
+
+double NewtonSystem::largest_motion(double gamma) const {
+  double largest = 0;  // displacement of a node or bone [m]
+  for (int block = 0; block < model_.layout.num_free_nodes; ++block)
+    largest = std::max(largest, w_.segment<3>(3 * block).squaredNorm());
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(r)];
+    const double radius = turning_radius(rigid);
+    largest = std::max({largest, w_.segment<3>(3 * rigid.block).squaredNorm(),
+                        radius * radius * w_.segment<3>(3 * rigid.block + 3).squaredNorm()});
+  }
+  return gamma * std::sqrt(largest);
+}
+
+bool NewtonSystem::is_at_end(double gamma) const {
+  constexpr double kOfTolerance = 0.1;
+  return imbalance_ <= 1 && largest_motion(gamma) <= kOfTolerance * model_.position_tolerance;
+}
+
+double NewtonSystem::step_fraction(double gamma) const {
+  const double motion = largest_motion(gamma);
+  return motion > dynamics_.trusted_motion() ? dynamics_.trusted_motion() / motion : 1;
+}
+
+bool NewtonSystem::accelerate(double gamma) {
+  // Tissue alone is left to Newton's method: a block that was inside out was accelerated into an
+  // equilibrium that is none to stay in.
+  if (!dynamics_.touches()) {
+    anderson_.restart();
+    return false;
+  }
+  dynamics_.multiply_mass(w_, mass_rhs_);
+  anderson_.see(w_, mass_rhs_);
+  if (!anderson_.is_slow()) return false;
+  if (is_at_end(gamma)) return false;  // by Newton's own correction
+  anderson_.improve(w_);
+  return true;
+}
+
+/// The energy is the one that an implicit step makes least. Its slope along w is −wᵀ r with the
+/// right hand side r of solve(), which along w changes by γ times the forces' change less part * M
+/// w.
+double NewtonSystem::searched_fraction(double most, const double* y, double gamma, const double* x,
+                                       SolverCounts& counts) {
+  if (!dynamics_.touches() || is_at_end(gamma)) return most;
+  const Eigen::Map<const Eigen::VectorXd> start(y, model_.layout.size());
+  const Eigen::Map<const Eigen::VectorXd> way(x, model_.layout.size());
+  const double t = dynamics_.configuration().t;
+  dynamics_.multiply_mass(w_, weighted_);
+  const double slope = -w_.dot(mass_rhs_), inertia = w_.dot(weighted_);
+  forces_ = dynamics_.forces().head(w_.size());
+  return searched_part(most, slope, [&](double part) {
+    ++counts.force_evaluations;
+    trial_ = start + part * way;
+    dynamics_.evaluate(trial_.data(), t);
+    return slope + part * inertia - gamma * w_.dot(dynamics_.forces().head(w_.size()) - forces_);
+  });
+}
+
+bool NewtonSystem::solve(const double* y, double gamma, const double* b, double* x,
+                         SolverCounts& counts) {
+  const Layout& layout = model_.layout;
+  const int num_velocities = 3 * layout.num_unknown_blocks();
+  // b_x by blocks, a bone's as a rotation vector; then b_v + b_x/γ.
+  shift_.setZero(3 * model_.num_blocks);
+  shift_.head(3 * layout.num_free_nodes) =
+      Eigen::Map<const Eigen::VectorXd>(b, 3 * layout.num_free_nodes);
+  for (int r = 0; r < layout.num_rigid; ++r) {
+    const int row = 3 * model_.rigid_bodies[static_cast<std::size_t>(r)].block;
+    shift_.segment<3>(row) = Eigen::Map<const Vec3>(b + layout.rigid_p(r));
+    const Eigen::Quaterniond q = quaternion(y + layout.rigid_q(r));
+    const Eigen::Quaterniond turn = quaternion(b + layout.rigid_q(r)) * q.conjugate();
+    shift_.segment<3>(row + 3) = 2 / q.squaredNorm() * turn.vec();
+  }
+  velocity_rhs_ = Eigen::Map<const Eigen::VectorXd>(b + layout.velocities(), num_velocities) +
+                  shift_.head(num_velocities) / gamma;
+  dynamics_.multiply_mass(velocity_rhs_, mass_rhs_);
+
+  // Activations are on their own; their change pulls on the lines' points.
+  pull_.setZero(3 * model_.num_blocks);
+  for (int m = 0; m < layout.num_muscles; ++m) {
+    const int i = layout.activations() + m;
+    const double tau = dynamics_.activation_time(y, dynamics_.configuration().t, m);
+    x[i] = b[i] / (1 + gamma / tau);
+    // What fibres in tissue pull more is left to the next iteration.
+    const int index = model_.muscles[static_cast<std::size_t>(m)].line;
+    const auto line = static_cast<std::size_t>(index);
+    if (x[i] != 0 && index >= 0)
+      add_line_force(model_.lines[line], dynamics_.configuration(),
+                     dynamics_.lines()[line].tension_per_activation * x[i], pull_);
+  }
+  // D b_x: dampers depend on δv = w − b_x/γ.
+  const Configuration& now = dynamics_.configuration();
+  for (std::size_t l = 0; l < model_.lines.size(); ++l)
+    if (const double viscosity = dynamics_.lines()[l].viscosity; viscosity != 0)
+      add_line_force(model_.lines[l], now,
+                     -viscosity / gamma * lengthening(model_.lines[l], now, shift_), pull_);
+  dynamics_.add_damping_product(shift_, 1 / gamma, pull_);
+  dynamics_.add_internal_variable_force(b, gamma, pull_);
+  mass_rhs_ += gamma * pull_.head(num_velocities);
+  keep_free_part(model_, mass_rhs_);
+
+  imbalance_ = contact_imbalance(model_, dynamics_, mass_rhs_, gamma);
+  last_residual_ = residual_;
+  residual_ = mass_rhs_.norm();
+  w_.resize(num_velocities);
+  if (num_velocities > 0 && !find_correction(gamma, counts)) return false;
+  // The rows of held freedoms are δv = b_v. With w = 0 there instead, the round-off of axes that
+  // are turned would be predicted on and on, twice as large in each step.
+  for (const RigidBody& rigid : model_.rigid_bodies) {
+    if (!rigid.hold) continue;
+    const Vec6 given = velocity_rhs_.segment<6>(3 * rigid.block);
+    auto own = w_.segment<6>(3 * rigid.block);
+    own = (free_part(rigid, own) + given - free_part(rigid, given)).eval();
+  }
+  const bool searches = correction_++ >= searches_from_;
+  const bool accelerated = may_accelerate_ && !searches && accelerate(gamma);
+
+  Eigen::Map<Eigen::VectorXd>(x, 3 * layout.num_free_nodes) =
+      gamma * w_.head(3 * layout.num_free_nodes);
+  Eigen::Map<Eigen::VectorXd> velocity_change(x + layout.velocities(), num_velocities);
+  velocity_change = w_ - shift_.head(num_velocities) / gamma;
+  for (int r = 0; r < layout.num_rigid; ++r) {
+    const int row = 3 * model_.rigid_bodies[static_cast<std::size_t>(r)].block;
+    Eigen::Map<Vec3>(x + layout.rigid_p(r)) = gamma * w_.segment<3>(row);
+    // δq = ½ δθ ⊗ q, and the part of b_q along q that changes its length.
+    const Eigen::Quaterniond q = quaternion(y + layout.rigid_q(r));
+    const Eigen::Quaterniond b_q = quaternion(b + layout.rigid_q(r));
+    const Vec3 theta = 0.5 * gamma * w_.segment<3>(row + 3);
+    const Eigen::Quaterniond dq = Eigen::Quaterniond(0, theta.x(), theta.y(), theta.z()) * q;
+    const double growth = b_q.dot(q) / q.squaredNorm();
+    double* x_q = x + layout.rigid_q(r);
+    x_q[0] = dq.w() + growth * q.w();
+    x_q[1] = dq.x() + growth * q.x();
+    x_q[2] = dq.y() + growth * q.y();
+    x_q[3] = dq.z() + growth * q.z();
+  }
+  velocity_change_.setZero(3 * model_.num_blocks);
+  velocity_change_.head(num_velocities) = velocity_change;
+  dynamics_.update_friction_duals(velocity_change_);
+  dynamics_.correct_internal_variables(b, gamma, w_, x);
+  double scale = step_fraction(gamma);
+  if (searches) scale = searched_fraction(scale, y, gamma, x, counts);
+  if (may_accelerate_ && !searches) anderson_.took(scale, w_);
+  changed_ = accelerated || scale < 1;
+  if (scale < 1) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;
+  return true;
+}
+
+}  // namespace articular::sim

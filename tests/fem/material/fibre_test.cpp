@@ -1,0 +1,250 @@
+#include "fem/material/fibre.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "fem/material/any_material.hpp"
+#include "fem/material/blemker_muscle.hpp"
+#include "fem/material/transversely_isotropic.hpp"
+#include "fem/material/veronda_westmann.hpp"
+#include "fem/material/yeoh.hpp"
+#include "tests/fem/support/laws.hpp"
+
+namespace articular::fem::fibre_test {
+
+constexpr double kRoundOff = 1e-12;  // [-] relative
+
+/// ∫ of a function with kinks, by the midpoint rule: error about 1e-9 of its slope.
+double integral(const std::function<double(double)>& f, double from, double to) {
+  constexpr int kSteps = 20000;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) sum += f(from + (to - from) * (i + 0.5) / kSteps);
+  return sum * (to - from) / kSteps;
+}
+
+TEST(ToeLinearFibre, CauchyStressIsThePublishedOne) {
+  // Constants of the cruciate ligament; numbers by hand from the formulas.
+  const ToeLinearFibre fibre = cruciate_fibre();
+  for (const double slack : {0.3, 0.9, 1.0}) EXPECT_EQ(fibre.cauchy_stress(slack, 0), 0);
+  EXPECT_NEAR(fibre.cauchy_stress(1.03, 0), 0.0139e6 * (std::exp(3.4866) - 1), 1e-6);
+  const double end = 0.0139e6 * (std::exp(116.22 * 0.046) - 1);  // 2.902 MPa
+  EXPECT_NEAR(end, 2.902e6, 1e3);
+  EXPECT_NEAR(fibre.cauchy_stress(1.046, 0), end, 1e-12 * 535e6);
+  EXPECT_NEAR(fibre.cauchy_stress(1.1, 0), end + 535.039e6 * 0.054, 1e-12 * 535e6);
+  EXPECT_NEAR(fibre.cauchy_stress(3, 0), end + 535.039e6 * 1.954, 1e-12 * 1e9);  // no exponential
+  EXPECT_NEAR(fibre.cauchy_stress(1.03, 0.5) - fibre.cauchy_stress(1.03, 0), 2.5e6, 1e-6);
+}
+
+TEST(MuscleFibre, ForceLengthCurveIsThePublishedOne) {
+  EXPECT_EQ(MuscleFibre::active(1), 1);
+  for (const double out : {0.2, 0.39, 1.61, 3.0}) EXPECT_EQ(MuscleFibre::active(out), 0);
+  EXPECT_NEAR(MuscleFibre::active(0.5), 0.09, kRoundOff);
+  EXPECT_NEAR(MuscleFibre::active(1.5), 0.09, kRoundOff);
+  EXPECT_NEAR(MuscleFibre::active(0.8), 0.84, kRoundOff);
+  EXPECT_NEAR(MuscleFibre::active(1.2), 0.84, kRoundOff);
+  for (const double corner : {0.4, 0.6, 1.4, 1.6}) {  // no jump
+    EXPECT_NEAR(MuscleFibre::active(corner - 1e-9), MuscleFibre::active(corner + 1e-9), 1e-8);
+  }
+}
+
+TEST(MuscleFibre, PassiveTensionIsExponentialAndThenLinear) {
+  const MuscleFibre fibre({.max_stress = 1, .optimal_stretch = 1.1});
+  const auto passive = [&](double n) { return 1.1 * fibre.tension(1.1 * n, 0); };
+  EXPECT_EQ(passive(0.9), 0);
+  EXPECT_NEAR(passive(1.2), 0.05 * (std::exp(6.6 * 0.2) - 1), kRoundOff);
+  const double end = 0.05 * (std::exp(6.6 * 0.4) - 1), slope = 0.05 * 6.6 * std::exp(6.6 * 0.4);
+  EXPECT_NEAR(passive(1.4), end, kRoundOff);
+  EXPECT_NEAR(passive(2.4), end + slope, kRoundOff);
+  EXPECT_NEAR(1.1 * fibre.tension(1.1, 0.5), 0.5, kRoundOff);  // the isometric force
+}
+
+template <class Law>
+void expect_consistent(const Law& law, double scale) {
+  for (const double activation : {0.0, 0.6}) {
+    for (const double stretch : {0.35, 0.5, 0.8, 0.97, 1.02, 1.04, 1.2, 1.5, 1.7, 3.0}) {
+      const double energy = law.energy(stretch, activation) - law.energy(0.3, activation);
+      EXPECT_NEAR(integral([&](double s) { return law.tension(s, activation); }, 0.3, stretch),
+                  energy, 1e-7 * scale)
+          << stretch;
+      const double h = 1e-5;
+      const double slope =
+          (law.tension(stretch + h, activation) - law.tension(stretch - h, activation)) / (2 * h);
+      EXPECT_NEAR(law.stiffness(stretch, activation), slope, 1e-5 * scale) << stretch;
+    }
+  }
+}
+
+TEST(FibreLaw, EnergyTensionAndStiffnessBelongTogether) {
+  expect_consistent(cruciate_fibre(), 535e6);
+  expect_consistent(MuscleFibre({}), 0.3e6);
+  expect_consistent(MuscleFibre({.optimal_stretch = 1.1}), 0.3e6);
+}
+
+Mat3 along_fibre(double stretch) {
+  Mat3 frame;
+  frame << kFibre, kAcross, kFibre.cross(kAcross);
+  const double side = 1 / std::sqrt(stretch);
+  return frame * Vec3(stretch, side, side).asDiagonal() * frame.transpose();
+}
+
+template <class Law>
+double stress_along_fibre(const Law& law, double stretch) {
+  const Mat3 F = along_fibre(stretch);
+  const Mat3 sigma = law.first_piola(F) * F.transpose();
+  return kFibre.dot(sigma * kFibre) - kAcross.dot(sigma * kAcross);
+}
+
+// Incompressible uniaxial stress along the fibres: σ = 2 (λ² − 1/λ)(c10 + c01/λ) + λ dW/dλ.
+TEST(TransverselyIsotropic, StressAlongTheFibreAddsThatOfGroundAndFibre) {
+  const ToeLinearFibre fibre = cruciate_fibre();
+  for (const double activation : {0.0, 0.4}) {
+    const auto law = TransverselyIsotropic<>(1.95e6, 0.5e6, fibre, 146e6).along(kFibre, activation);
+    for (const double s : {0.8, 1.0, 1.03, 1.1, 1.5}) {
+      const double expected =
+          2 * (s * s - 1 / s) * (1.95e6 + 0.5e6 / s) + fibre.cauchy_stress(s, activation);
+      EXPECT_NEAR(stress_along_fibre(law, s), expected, 1e-11 * 1e8);
+    }
+  }
+}
+
+// Just taut, a fibre adds c3 c4 to the stiffness along it; just slack, nothing.
+TEST(TransverselyIsotropic, SmallStrainModulusAlongTheFibreJumpsWhereItBecomesTaut) {
+  const double c10 = 1.95e6, c3 = 0.0139e6, c4 = 116.22, strain = 1e-7;
+  const auto law = TransverselyIsotropic<>(c10, 0, cruciate_fibre(), 146e6).along(kFibre, 0);
+  EXPECT_NEAR(stress_along_fibre(law, 1 + strain) / strain, 6 * c10 + c3 * c4, 1e-4 * c10);
+  EXPECT_NEAR(stress_along_fibre(law, 1 - strain) / -strain, 6 * c10, 1e-4 * c10);
+}
+
+constexpr double kG1 = 500, kG2 = 800, kC10 = 200;  // [Pa]
+auto muscle(double activation, double c10 = kC10) {
+  return BlemkerMuscle<>(MuscleFibre({}), {.G1 = kG1, .G2 = kG2, .c10 = c10})
+      .along(kFibre, activation);
+}
+
+// The five deviatoric modes of small strain: two shears along the fibre, two across, and the
+// stretch along the fibre with even sides, which meets the ground substance and, taut, the fibre:
+// the passive slope at n = 1 is σ_max P1 P2.
+TEST(BlemkerMuscle, SmallStrainModuliAreThoseOfAlongAndAcross) {
+  const Mat9 C = muscle(0).tangent(Mat3::Identity());
+  const Vec3 n = kFibre.cross(kAcross);
+  const auto modulus = [&C](const Vec3& a, const Vec3& b) {  // per engineering shear
+    const Vec9 shear = (0.5 * (a * b.transpose() + b * a.transpose())).eval().reshaped();
+    return shear.dot(C * shear);
+  };
+  EXPECT_NEAR(modulus(kFibre, kAcross), 2 * (kG1 + kC10), 1e-8 * kG1);
+  EXPECT_NEAR(modulus(kFibre, n), 2 * (kG1 + kC10), 1e-8 * kG1);
+  EXPECT_NEAR(modulus(kAcross, n), 2 * (kG2 + kC10), 1e-8 * kG1);
+  EXPECT_NEAR(modulus((kAcross + n) / std::sqrt(2.0), (kAcross - n) / std::sqrt(2.0)),
+              2 * (kG2 + kC10), 1e-8 * kG1);
+  const double strain = 1e-7, passive_slope = 0.3e6 * 0.05 * 6.6;
+  EXPECT_NEAR(stress_along_fibre(muscle(0), 1 - strain) / strain, -6 * kC10, 0.1);
+  EXPECT_NEAR(stress_along_fibre(muscle(0), 1 + strain) / strain, 6 * kC10 + passive_slope, 1);
+}
+
+// Fibres that slide along each other by γ keep their length: σ = 2 (G1 + c10) γ, B2 stays 0. A
+// cross section drawn to η, 1/η: B2 = 2 ln η, and the stresses differ by 8 G2 ln η + 2 c10 (η² −
+// η⁻²).
+TEST(BlemkerMuscle, LargeShearsFollowTheClosedForms) {
+  const Vec3 n = kFibre.cross(kAcross);
+  for (const double shear : {0.1, 1.0, 3.0}) {
+    const Mat3 F = Mat3::Identity() + shear * kFibre * kAcross.transpose();
+    const Mat3 sigma = muscle(0).first_piola(F) * F.transpose();
+    EXPECT_NEAR(kFibre.dot(sigma * kAcross), 2 * (kG1 + kC10) * shear, 1e-8 * kG1);
+    EXPECT_NEAR(kAcross.dot(sigma * kAcross) - n.dot(sigma * n), 0, 1e-8 * kG1);
+  }
+  for (const double eta : {0.5, 0.99, 1.2, 2.0}) {
+    const Mat3 F = kFibre * kFibre.transpose() + eta * kAcross * kAcross.transpose() +
+                   1 / eta * n * n.transpose();
+    const Mat3 sigma = muscle(0).first_piola(F) * F.transpose();
+    EXPECT_NEAR(kAcross.dot(sigma * kAcross) - n.dot(sigma * n),
+                8 * kG2 * std::log(eta) + 2 * kC10 * (eta * eta - 1 / (eta * eta)), 1e-8 * kG2);
+  }
+}
+
+// As published nothing resists a slack fibre that shortens with even sides; c10 does.
+TEST(BlemkerMuscle, PassiveShorteningMeetsOnlyTheGroundSubstance) {
+  for (const double s : {0.6, 0.8, 0.95}) {
+    EXPECT_NEAR(stress_along_fibre(muscle(0, 0), s), 0, 1e-8 * kG1);
+    EXPECT_NEAR(stress_along_fibre(muscle(0), s), 2 * kC10 * (s * s - 1 / s), 1e-8 * kG1);
+    EXPECT_NEAR(stress_along_fibre(muscle(1, 0), s), 0.3e6 * s * MuscleFibre::active(s), 1e-6);
+  }
+}
+
+// acosh² by its series and by its closed form.
+TEST(FibreShear, SquaredAcoshIsSmoothAtOne) {
+  for (const double y : {1.0999999, 1.1000001, 1.5, 4.0}) {
+    const double a = std::acosh(y), s = std::sqrt(y * y - 1);
+    const auto [value, first, second] = squared_acosh(y);
+    EXPECT_NEAR(value, a * a, 1e-14);
+    EXPECT_NEAR(first, 2 * a / s, 1e-13);
+    EXPECT_NEAR(second, 2 * (1 - y * a / s) / (s * s), 1e-12);
+  }
+  const auto [value, first, second] = squared_acosh(1);
+  EXPECT_EQ(value, 0);
+  EXPECT_EQ(first, 2);
+  EXPECT_NEAR(second, -2.0 / 3, 1e-15);
+}
+
+std::string message_of(const std::function<void()>& make) {
+  try {
+    make();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+/// That the message has each of these parts.
+void expect_refusal(const std::function<void()>& make, std::initializer_list<const char*> parts) {
+  const std::string message = message_of(make);
+  EXPECT_NE(message, "");
+  for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+TEST(Materials, RefuseBadConstantsAndSayWhy) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(message_of([] { (void)cruciate_fibre(); }), "");
+  expect_refusal([] { (void)MooneyRivlin<>(-1, 2, 3); }, {"c10", "-1 Pa", "not negative"});
+  expect_refusal([] { (void)MooneyRivlin<>(0, 0, 3); }, {"c10 + c01", "0 Pa", "positive"});
+  expect_refusal([] { (void)MooneyRivlin<>(1, 0, 0); }, {"bulk modulus", "0 Pa", "positive"});
+  expect_refusal([] { (void)Yeoh<>(0, 1, 1); }, {"c10", "0 Pa", "positive"});
+  expect_refusal([] { (void)Yeoh<>(1, -2, 1); }, {"c20", "-2 Pa", "not negative"});
+  expect_refusal([] { (void)VerondaWestmann<>(0, 1, 1); }, {"c1", "0 Pa", "positive"});
+  expect_refusal([] { (void)VerondaWestmann<>(1, -3, 1); }, {"c2", "-3", "positive"});
+  expect_refusal([] { (void)ToeLinearFibre({.c3 = 0, .c4 = 1, .c5 = 1, .toe_end = 1.1}); },
+                 {"c3", "0 Pa"});
+  expect_refusal([] { (void)ToeLinearFibre({.c3 = 1, .c4 = -1, .c5 = 1, .toe_end = 1.1}); },
+                 {"c4", "-1"});
+  expect_refusal([] { (void)ToeLinearFibre({.c3 = 1, .c4 = 1, .c5 = -2, .toe_end = 1.1}); },
+                 {"c5", "-2 Pa"});
+  expect_refusal([] { (void)ToeLinearFibre({.c3 = 1, .c4 = 1, .c5 = 1, .toe_end = 1}); },
+                 {"toe", "above 1"});
+  expect_refusal([] { (void)ToeLinearFibre({.c3 = 1, .c4 = 1e3, .c5 = 1, .toe_end = 1.1}); },
+                 {"1100", "700"});
+  expect_refusal(
+      [] {
+        (void)ToeLinearFibre({.c3 = 1, .c4 = 1, .c5 = 1, .toe_end = 1.1, .active_stress = -5});
+      },
+      {"active stress", "-5 Pa"});
+  expect_refusal([] { (void)MuscleFibre({.max_stress = -1}); }, {"active stress", "-1 Pa"});
+  expect_refusal([] { (void)MuscleFibre({.p1 = 0}); }, {"P1", "positive"});
+  expect_refusal([] { (void)MuscleFibre({.p2 = 0}); }, {"P2", "positive"});
+  expect_refusal([] { (void)MuscleFibre({.p2 = 2000}); }, {"P2", "800", "700"});
+  expect_refusal([] { (void)MuscleFibre({.toe_end = 0.9}); }, {"toe", "0.9", "above 1"});
+  expect_refusal([] { (void)MuscleFibre({.optimal_stretch = 0.9}); }, {"0.9", "at least 1"});
+  expect_refusal([] { (void)BlemkerMuscle<>(MuscleFibre({}), {.G1 = 0}); }, {"G1", "0 Pa"});
+  expect_refusal([] { (void)BlemkerMuscle<>(MuscleFibre({}), {.G2 = -1}); }, {"G2", "-1 Pa"});
+  expect_refusal([] { (void)BlemkerMuscle<>(MuscleFibre({}), {.c10 = -1}); }, {"c10", "-1 Pa"});
+  expect_refusal([] { (void)BlemkerMuscle<>(MuscleFibre({}), {.kappa = 0}); },
+                 {"bulk modulus", "0 Pa"});
+  EXPECT_NE(message_of([&] { (void)Yeoh<>(nan, 0, 1); }), "");
+  EXPECT_NE(message_of([&] { (void)MuscleFibre({.toe_end = nan}); }), "");
+}
+
+}  // namespace articular::fem::fibre_test

@@ -1,0 +1,83 @@
+#include "fem/solver/solver_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/fem/support/clamped_box.hpp"
+#include "tests/fem/support/smoothed_box.hpp"
+
+namespace articular::fem::solver_choice_test {
+
+SolverProblem tissue(int num_nodes, double nu) {
+  return {.num_blocks = num_nodes, .num_nodes = num_nodes, .largest_nu = nu};
+}
+
+TEST(SolverChoice, FollowsTheSizeAndTheTissue) {
+  EXPECT_EQ(choose_solver(tissue(20, 0.3)).kind, SolverKind::Cholesky);
+  EXPECT_EQ(choose_solver(tissue(20'000, 0.45)).kind, SolverKind::Multigrid);
+  EXPECT_EQ(choose_solver(tissue(1'000, 0.499)).kind, SolverKind::Cholesky);
+  EXPECT_EQ(choose_solver(tissue(200'000, 0.499)).kind, SolverKind::Multigrid);
+  SolverProblem bones = tissue(1'000, 0.45);
+  bones.num_nodes = 0;
+  EXPECT_EQ(choose_solver(bones).kind, SolverKind::ConjugateGradients);
+}
+
+// A pattern that changes makes set-ups dear: factors, then nothing to set up where steps are short.
+TEST(SolverChoice, ContactAsksForLittleSetUp) {
+  SolverProblem problem = tissue(1'500, 0.45);
+  problem.in_time = problem.has_contact = true;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::Cholesky);
+  problem.has_pressure = true;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::SaddlePoint);
+  problem.num_blocks = problem.num_nodes = 20'000;
+  problem.elements_a_step = 10;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::ConjugateGradients);
+  problem.elements_a_step = 100;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::Multigrid);
+  problem.elements_a_step = 10;
+  problem.in_time = false;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::Multigrid);
+  // Contact may be hard to iterate on where mass does not help.
+  problem.num_blocks = problem.num_nodes = 5'000;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::SaddlePoint);
+  problem.in_time = true;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::ConjugateGradients);
+  problem.elements_a_step = 100;
+  EXPECT_EQ(choose_solver(problem).kind, SolverKind::SaddlePoint);
+}
+
+TEST(SolverChoice, KeepsSolutionsInTimeOnlyAndSaysWhy) {
+  for (const int size : {10, 1'000, 100'000}) {
+    for (const bool pressure : {false, true}) {
+      SolverProblem problem = tissue(size, 0.49);
+      problem.has_pressure = pressure;
+      EXPECT_EQ(choose_solver(problem).num_kept, 0);
+      EXPECT_FALSE(std::string(choose_solver(problem).reason).empty());
+      problem.in_time = true;
+      const SolverChoice choice = choose_solver(problem);
+      EXPECT_EQ(choice.num_kept > 0, choice.kind != SolverKind::Cholesky);
+    }
+  }
+}
+
+TEST(SolverChoice, MakesSolversThatCanDoIt) {
+  const TetMesh mesh = box_mesh({3, 3, 3}, Vec3::Constant(0.1));
+  SmoothedBox box = smoothed_box(mesh, 0.49);
+  for (const SolverKind kind :
+       {SolverKind::SaddlePoint, SolverKind::ConjugateGradients, SolverKind::Multigrid}) {
+    for (const int kept : {0, 3}) {
+      const auto solver = make_linear_solver({.kind = kind, .num_kept = kept}, 1e-8, 1000);
+      Eigen::VectorXd x;
+      ASSERT_EQ(solver->prepare_with_pressure(box.K, box.x, box.part()), FactorStatus::Ready);
+      EXPECT_TRUE(solver->solve(box.b, x).converged);
+    }
+  }
+  const ClampedBox plain = clamped_box(mesh, 0.3);
+  const auto solver = make_linear_solver(choose_solver(tissue(48, 0.3)), 1e-8, 1000);
+  Eigen::VectorXd x;
+  ASSERT_EQ(solver->prepare(plain.K, plain.X), FactorStatus::Ready);
+  EXPECT_TRUE(solver->solve(plain.b, x).converged);
+}
+
+}  // namespace articular::fem::solver_choice_test

@@ -1,0 +1,92 @@
+#include "fem/sparse/signed_cholesky.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <limits>
+
+#include "tests/fem/support/random_matrices.hpp"
+
+namespace articular::fem::signed_cholesky_test {
+
+/// A quasi-definite matrix with the graph of an n x n x n grid, signs at random.
+struct QuasiDefinite {
+  SymmetricMatrix A{.begin = {0}, .row = {}, .value = {}};
+  std::vector<int> signs;
+
+  explicit QuasiDefinite(int n, double share_negative) {
+    Random random;
+    const int size = n * n * n;
+    for (int j = 0; j < size; ++j) {
+      signs.push_back(random.uniform(0, 1) < share_negative ? -1 : 1);
+    }
+    for (int j = 0; j < size; ++j) {
+      for (const int distance : {n * n, n, 1}) {
+        if (j < distance) continue;
+        A.row.push_back(j - distance);
+        A.value.push_back(random.uniform(-1, 1));
+      }
+      A.row.push_back(j);
+      A.value.push_back(signs[j] * 7);  // dominates the six neighbours
+      A.begin.push_back(static_cast<int>(A.row.size()));
+    }
+  }
+
+  Eigen::MatrixXd dense() const {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(A.size(), A.size());
+    for (int j = 0; j < A.size(); ++j) {
+      for (int k = A.begin[j]; k < A.begin[j + 1]; ++k) {
+        result(A.row[k], j) = result(j, A.row[k]) = A.value[k];
+      }
+    }
+    return result;
+  }
+};
+
+TEST(SignedCholesky, AgreesWithADenseSolution) {
+  for (const double share_negative : {0.0, 0.3, 1.0}) {
+    const QuasiDefinite problem(8, share_negative);
+    const Eigen::VectorXd b = Random().matrix<Eigen::VectorXd>(problem.A.size(), 1);
+    SignedCholesky factor;
+    factor.analyze(problem.A, problem.signs);
+    ASSERT_TRUE(factor.factorize(problem.A));
+    Eigen::VectorXd x = b, y;
+    factor.solve(x);
+    const Eigen::VectorXd expected = problem.dense().lu().solve(b);
+    EXPECT_LT((x - expected).norm(), 1e-13 * expected.norm()) << share_negative;
+    problem.A.multiply(x, y);
+    EXPECT_LT((y - b).norm(), 1e-13 * b.norm());
+  }
+}
+
+TEST(SignedCholesky, FollowsNewValuesOfOnePattern) {
+  QuasiDefinite problem(6, 0.3);
+  SignedCholesky factor;
+  factor.analyze(problem.A, problem.signs);
+  for (const double scale : {1.0, 1e-9, 3.0}) {
+    QuasiDefinite scaled = problem;
+    for (double& value : scaled.A.value) value *= scale;
+    ASSERT_TRUE(factor.factorize(scaled.A));
+    const Eigen::VectorXd b = Eigen::VectorXd::Ones(scaled.A.size());
+    Eigen::VectorXd x = b, y;
+    factor.solve(x);
+    scaled.A.multiply(x, y);
+    EXPECT_LT((y - b).norm(), 1e-13 * b.norm());
+  }
+}
+
+TEST(SignedCholesky, ReportsAWrongSignAndValuesThatAreNotNumbers) {
+  const QuasiDefinite problem(6, 0.3);
+  SignedCholesky factor;
+  std::vector<int> wrong = problem.signs;
+  wrong[100] = -wrong[100];
+  factor.analyze(problem.A, wrong);
+  EXPECT_FALSE(factor.factorize(problem.A));
+  factor.analyze(problem.A, problem.signs);
+  QuasiDefinite poisoned = problem;
+  poisoned.A.value[200] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(factor.factorize(poisoned.A));
+  EXPECT_TRUE(factor.factorize(problem.A));
+}
+
+}  // namespace articular::fem::signed_cholesky_test

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "fem/element/elasticity.hpp"
+#include "fem/material/any_material.hpp"
+#include "fem/material/isochoric.hpp"
+
+/// One example of every law of the simulator, for the tests of properties that all have.
+namespace articular::fem {
+
+const Vec3 kFibre = Vec3(2, -1, 2) / 3;               // direction of the fibres at rest
+const Vec3 kAcross = Vec3(1, 2, 0) / std::sqrt(5.0);  // a direction across them
+
+/// What an example promises.
+struct Promise {
+  bool objective = true;          // not strained by rotations
+  bool shape_only = true;         // the distortion does not feel the volume; not defined for J <= 0
+  bool one_shear_modulus = true;  // at rest, in all directions
+};
+
+/// Ψ, P and ∂P/∂F at F and an activation. Erased types: what tests them compiles once.
+using Evaluate = std::function<Jet(const Mat3& F, double activation)>;
+
+struct LawExample {
+  std::string name;
+  AnyMaterial material;
+  bool fibred;
+  Promise promise;
+  double scale;  // of its stresses [Pa]
+  Evaluate law, distortion;
+  std::function<Jet(const Mat3&)> dilatation;
+  double bulk_modulus, shear_modulus;  // [Pa]
+};
+void PrintTo(const LawExample& example, std::ostream* out);  // found by the test framework
+
+/// Fibred ones have their fibres along kFibre.
+std::vector<LawExample> all_laws();
+
+/// Fibres of the anterior cruciate ligament, with an active stress of 5 MPa for the tests.
+ToeLinearFibre cruciate_fibre();
+
+}  // namespace articular::fem

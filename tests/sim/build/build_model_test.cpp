@@ -1,0 +1,108 @@
+#include "sim/build/build_model.hpp"
+#include "sim/model/model.hpp"
+#include "sim/scenario/curve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/sim/support/scene.hpp"
+
+namespace articular::sim::build_model_test {
+
+constexpr double kSide = 0.02;  // of the blocks [m]
+
+Body block() {
+  return box_body("block", Body::Kind::Tissue, {kSide, kSide, kSide}, Vec3::Zero(), {2, 2, 2});
+}
+
+std::ptrdiff_t num_attached(const Model& model) {
+  const auto& nodes = model.tissues[0].nodes;
+  return std::count_if(nodes.begin(), nodes.end(), [](const NodeRef& n) { return n.rigid >= 0; });
+}
+
+/// The block's nodes within 0.1 mm of a body.
+Model near(const Body& other, Body::Kind rigid) {
+  Scenario s = scene(1e-3);
+  Body holder = box_body("holder", rigid, {1e-3, 1e-3, 1e-3}, {0, 0, 0.5});
+  s.bodies = {block(), other, holder};
+  Attachment attachment;
+  attachment.body = "block";
+  attachment.to = "holder";
+  attachment.region.near_body = {other.name, 1e-4};
+  s.attachments = {attachment};
+  return build_model(s);
+}
+
+// The plate's corners are 20 mm away from the block that lies under its middle.
+TEST(Model, ARegionNearABodyIsMeasuredFromItsSurface) {
+  const Vec3 above(0, 0, 0.55 * kSide + 5e-5);
+  const Body plate =
+      box_body("plate", Body::Kind::Fixed, {3 * kSide, 3 * kSide, 0.1 * kSide}, above);
+  EXPECT_EQ(num_attached(near(plate, Body::Kind::Fixed)), 9);
+  Body tissue = plate;
+  tissue.kind = Body::Kind::Tissue;
+  tissue.density = 1000;
+  tissue.material = block().material;
+  EXPECT_EQ(num_attached(near(tissue, Body::Kind::Fixed)), 9);
+  EXPECT_THROW(near(box_body("plate", Body::Kind::Fixed, {3 * kSide, 3 * kSide, 0.1 * kSide},
+                             above + Vec3(0, 0, 1e-4)),
+                    Body::Kind::Fixed),
+               InputError);
+}
+
+TEST(Model, ARigidBoneTakesOverTheMassAndInertiaOfAttachedTissue) {
+  Scenario s = scene(1e-3);
+  s.bodies = {block(), mass_body("bone", 0.05, {0, 0, 0.1}, {1e-5, 1e-5, 1e-5})};
+  s.bodies[1].velocity = {1, 0, 0};
+  s.bodies[1].angular_velocity = {0, 2, 0};
+  s.attachments = {attach("block", "bone", {-1, -1, -1}, {1, 1, 1})};
+  const Model model = build_model(s);
+  const double tissue = 1000 * std::pow(kSide, 3);
+  EXPECT_EQ(model.layout.num_free_nodes, 0);
+  EXPECT_NEAR(model.rigid_bodies[0].mass.mass, 0.05 + tissue, 1e-15);
+  const double z = 0.05 * 0.1 / (0.05 + tissue);
+  EXPECT_NEAR((model.rigid_bodies[0].rest.p - Vec3(0, 0, z)).norm(), 0, 1e-15);
+  // The new centre moves as a point of the turning bone: 1 + 2 (z − 0.1).
+  EXPECT_NEAR((model.rigid_bodies[0].start.linear - Vec3(1 + 2 * (z - 0.1), 0, 0)).norm(), 0,
+              1e-15);
+  for (std::size_t i = 0; i < model.tissues[0].nodes.size(); ++i)
+    EXPECT_NEAR((model.tissues[0].nodes[i].local + model.rigid_bodies[0].rest.p -
+                 model.tissues[0].X.col(static_cast<Eigen::Index>(i)))
+                    .norm(),
+                0, 1e-15);
+}
+
+TEST(Model, AForceOnARegionIsSharedEquallyByItsNodes) {
+  Scenario s = scene(1e-3);
+  s.bodies = {block()};
+  Load load;
+  load.kind = Load::Kind::Force;
+  load.body = "block";
+  load.region = Region{};
+  load.region->box = {Vec3(-1, -1, 0.49 * kSide), Vec3(1, 1, 1)};
+  load.force = {0, 0, 9};
+  load.profile = {{0, 1}, {0.5, 1}};
+  s.loads = {load};
+  Simulation run(s);
+  const Eigen::VectorXd& f = run.stepper.dynamics().forces();
+  int loaded = 0;
+  for (Eigen::Index i = 0; i < f.size() / 3; ++i) {
+    if (f.segment<3>(3 * i).norm() < 1e-9) continue;  // round-off of the undeformed tissue
+    ++loaded;
+    EXPECT_NEAR(f[3 * i + 2], 0.5, 1e-9);
+  }
+  EXPECT_EQ(loaded, 9);
+}
+
+TEST(Model, ACurveIsLinearBetweenItsTimesAndConstantOutside) {
+  const Curve curve{{1, 2, 4}, {0, 10, 20}};
+  EXPECT_EQ(value_at(curve, 0), 0);
+  EXPECT_EQ(value_at(curve, 1.5), 5);
+  EXPECT_EQ(value_at(curve, 3), 15);
+  EXPECT_EQ(value_at(curve, 9), 20);
+  EXPECT_EQ(value_at({}, 3), 1);
+}
+
+}  // namespace articular::sim::build_model_test

@@ -1,0 +1,215 @@
+// The response of averaged depths from its energy to its tangent, between two tissues whose meshes
+// don't match.
+#include "sim/contact/contact_response.hpp"
+#include "sim/build/build_model.hpp"
+#include "sim/contact/contact_stencils.hpp"
+#include "sim/contact/contact_stiffness.hpp"
+#include "sim/contact/contact_summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/sim/support/contact_scene.hpp"
+
+namespace articular::sim::contact_response_test {
+
+constexpr double kSide = 0.02;  // [m]
+
+/// A block that has sunk into a wider one, all nodes displaced at random. The finer one's nodes
+/// carry.
+struct SunkBlock {
+  /// @param center  of the upper block [kSide]
+  /// @param uneven  how far nodes are displaced [kSide]
+  explicit SunkBlock(const Vec3& center = {0.1, 0.07, 0.96}, double uneven = 0.005)
+      : SunkBlock(scenario(center), uneven) {}
+  SunkBlock(const Scenario& scenario, double uneven)
+      : model(build_model(scenario)), search(model), response(model) {
+    Random random(1);
+    y = initial_state(model);
+    y.head(3 * model.layout.num_free_nodes) +=
+        uneven * kSide * random.vector(3 * model.layout.num_free_nodes);
+    search.find(at(y), 0.01 * kSide);
+  }
+
+  static Scenario scenario(const Vec3& center) {
+    Scenario s = scene(1e-3);
+    s.analysis = Scenario::Analysis::Static;
+    s.contact = true;
+    s.bodies = {
+        box_body("lower", Body::Kind::Tissue, {2 * kSide, 2 * kSide, kSide}, Vec3::Zero(),
+                 {3, 3, 1}),
+        box_body("upper", Body::Kind::Tissue, Vec3::Constant(kSide), center * kSide, {3, 3, 2})};
+    return s;
+  }
+
+  const Configuration& at(const Eigen::VectorXd& state) {
+    read_state(model, state.data(), 0, configuration);
+    return configuration;
+  }
+  double energy(const Eigen::VectorXd& state) {
+    response.evaluate(at(state), search.candidates());
+    return contact_summaries(model, response, configuration)[0].energy;
+  }
+  Eigen::VectorXd forces(const Eigen::VectorXd& state) {
+    response.evaluate(at(state), search.candidates());
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * model.num_blocks);
+    response.add_force(configuration, f);
+    return f;
+  }
+  /// A way for all free nodes to go; none for bones.
+  Eigen::VectorXd way(Random& random) const {
+    Eigen::VectorXd w = Eigen::VectorXd::Zero(3 * model.num_blocks);
+    w.head(3 * model.layout.num_free_nodes) = random.vector(3 * model.layout.num_free_nodes);
+    return w;
+  }
+  /// The state moved by w of all free nodes.
+  Eigen::VectorXd moved(const Eigen::VectorXd& w, double by) const {
+    Eigen::VectorXd there = y;
+    there.head(w.size()) += by * w;
+    return there;
+  }
+
+  const Model model;
+  ContactSearch search;
+  ContactResponse response;
+  Configuration configuration;
+  Eigen::VectorXd y;
+};
+
+constexpr double kMove = 2e-5 * kSide;
+
+/// The upper block's underside is folded into ridges of 45 degrees, so that each of its triangles
+/// there stands oblique to what it meets.
+/// @param lower  its kind: a fixed one is flat
+SunkBlock ridged_block(Body::Kind lower) {
+  constexpr int kCells = 12;
+  constexpr double kCell = kSide / kCells;
+  const TemporaryFolder folder;
+  Scenario s = SunkBlock::scenario(Vec3::Zero());
+  const BoxGeometry box{Vec3::Constant(kSide), {kCells, 3, 2}, {0.1 * kSide, 0.07 * kSide, kSide}};
+  const double bottom = 0.5 * kSide;
+  const auto fold = [&](Vec3 X) {
+    const long column = std::lround((X.x() - box.center.x() + 0.5 * kSide) / kCell);
+    if (X.z() < bottom + 1e-9) X.z() += column % 2 == 0 ? -0.9 * kCell : 0.1 * kCell;
+    return X;
+  };
+  s.bodies[0].kind = lower;
+  const Body upper = mesh_body("upper", Body::Kind::Tissue, bent(box, fold), folder);
+  s.bodies[1].box.reset();
+  s.bodies[1].mesh = upper.mesh;
+  return SunkBlock(s, 0.001);
+}
+
+TEST(AveragedContact, CarriesAtTheNodesOfOneSideOnly) {
+  SunkBlock block;
+  block.forces(block.y);
+  ASSERT_EQ(block.search.candidates().size(), 1U);
+  EXPECT_TRUE(block.model.contacts[0].reversed);  // the second body's
+  const ContactSummary sum = contact_summaries(block.model, block.response, block.configuration)[0];
+  EXPECT_NEAR(sum.area, kSide * kSide, 1e-12);
+  EXPECT_GT(sum.max_depth, 0.03 * kSide);
+}
+
+/// The largest difference between the forces along a way and differences of the energy, of their
+/// size.
+double error_of_forces(SunkBlock& block) {
+  Random random(2);
+  double error = 0;
+  for (int n = 0; n < 10; ++n) {
+    const Eigen::VectorXd w = block.way(random);
+    const double numeric =
+        (block.energy(block.moved(w, kMove)) - block.energy(block.moved(w, -kMove))) / (2 * kMove);
+    const Eigen::VectorXd f = block.forces(block.y);
+    error = std::max(error, std::abs(numeric + f.dot(w)) / f.norm());
+  }
+  return error;
+}
+
+TEST(AveragedContact, ForcesAreTheDerivativeOfTheEnergy) {
+  SunkBlock block;
+  EXPECT_LT(error_of_forces(block), 1e-6);
+}
+
+/// The largest difference between the tangent and differences of the forces, of these.
+double error_of_tangent(SunkBlock& block) {
+  Random random(3);
+  const std::vector<int> none, offsets{0};
+  Stencils stencils;
+  append_missing_stencils(block.model, block.search.candidates(),
+                          fem::BlockMatrix(block.model.num_blocks, none, offsets), stencils);
+  fem::BlockMatrix K(block.model.num_blocks, stencils.blocks, stencils.offsets);
+  K.set_zero();
+  block.response.evaluate(block.at(block.y), block.search.candidates());
+  SystemScale scale;
+  scale.stiffness = 1;
+  ContactStiffness stiffness(block.model);
+  FrictionCoupling friction;
+  for (const ContactPairState* direction : block.response.pair_states())
+    stiffness.add(*direction, block.configuration, fem::Tangent::Consistent, scale, K, friction);
+  double error = 0;
+  for (int n = 0; n < 5; ++n) {
+    const Eigen::VectorXd w = block.way(random);
+    const Eigen::VectorXd numeric =
+        -(block.forces(block.moved(w, kMove)) - block.forces(block.moved(w, -kMove))) / (2 * kMove);
+    Eigen::VectorXd product(w.size());
+    K.multiply(w, product);
+    const Eigen::Index free = 3 * block.model.layout.num_free_nodes;
+    error = std::max(error, (product - numeric).head(free).norm() / numeric.head(free).norm());
+  }
+  return error;
+}
+
+TEST(AveragedContact, TheTangentIsTheDerivativeOfTheForces) {
+  SunkBlock block;
+  EXPECT_LT(error_of_tangent(block), 1e-5);
+}
+
+// The means' areas A_a turn with the patches too, and the next face takes over but a part of what
+// an edge sweeps.
+TEST(AveragedContact, ForcesAreTheDerivativeOfTheEnergyWhereFacesStandOblique) {
+  SunkBlock block = ridged_block(Body::Kind::Tissue);
+  block.forces(block.y);
+  ASSERT_GT(block.response.pair_states()[0]->num_patches, 50U);
+  for (const ContactPairState::Patch& entry : block.response.pair_states()[0]->patches())
+    EXPECT_NE(entry.patch.turning, 0);
+  EXPECT_LT(error_of_forces(block), 1e-6);
+}
+
+TEST(AveragedContact, TheTangentIsTheDerivativeOfTheForcesWhereFacesStandOblique) {
+  SunkBlock block = ridged_block(Body::Kind::Fixed);
+  EXPECT_LT(error_of_tangent(block), 1e-5);
+}
+
+/// A block that has sunk in over an edge of the lower one [kSide], tilted along it.
+struct BlockOverAnEdge : SunkBlock {
+  BlockOverAnEdge(double depth, double tilt) : SunkBlock({0.8, 0.07, 1 - depth}, 0.1 * depth) {
+    for (const NodeRef& node : model.tissues[1].nodes)
+      y[3 * node.block + 2] += tilt * y[3 * node.block + 1];
+  }
+};
+
+// Where surfaces slip off each other, energy is kept only so.
+TEST(AveragedContact, OverAnEdgeForcesAreTheDerivativeOfTheEnergy) {
+  BlockOverAnEdge block(0.05, 0.2);
+  block.forces(block.y);
+  int at_rims = 0, open = 0;
+  for (const ContactPairState::Patch& entry : block.response.pair_states()[0]->patches())
+    for (int k = 0; k < entry.patch.num_edges; ++k) {
+      const PatchEdge& edge = entry.patch.edge[static_cast<std::size_t>(k)];
+      at_rims += edge.is_end && edge.m != PatchEdge::kOpen ? 1 : 0;
+      open += edge.m == PatchEdge::kOpen ? 1 : 0;
+    }
+  EXPECT_GT(at_rims, 3);
+  EXPECT_GT(open, 3);
+  EXPECT_LT(error_of_forces(block), 1e-6);
+}
+
+TEST(AveragedContact, OverAnEdgeTheTangentIsTheDerivativeOfTheForces) {
+  for (const double depth : {0.05, 0.01}) {
+    BlockOverAnEdge block(depth, 2 * depth);
+    EXPECT_LT(error_of_tangent(block), 1e-5);
+  }
+}
+
+}  // namespace articular::sim::contact_response_test

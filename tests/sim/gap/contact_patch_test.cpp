@@ -1,0 +1,633 @@
+#include "sim/gap/contact_patch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tests/sim/support/patch_triangles.hpp"
+#include "tests/sim/support/scene.hpp"
+
+namespace articular::sim::contact_patch_test {
+
+constexpr double kStiffness = 3, kRestArea = 0.7;
+constexpr DepthRange kRange{10, 10};
+
+/// A triangle with its normal along −z, and a face that looks along +z.
+struct Pair {
+  Mat3 s, f;
+};
+
+/// Triangles wholly behind a face that covers them.
+Pair covered_pair(Random& random) {
+  Pair pair{small_triangle(0.5), large_face()};
+  for (Mat3* m : {&pair.s, &pair.f})
+    for (int i = 0; i < 3; ++i) m->col(i) += 0.2 * random.vec3();
+  return pair;
+}
+
+/// Triangles and faces of like size that overlap in part and cross each other.
+Pair partial_pair(Random& random) {
+  Pair pair{small_triangle(0.1), large_face() / 20};
+  for (Mat3* m : {&pair.s, &pair.f})
+    for (int i = 0; i < 3; ++i) m->col(i) += 0.3 * random.vec3();
+  return pair;
+}
+
+/// One triangle's nodes carry with a third of its area each: E = ½ k Σ G_a²/A_a.
+constexpr double kNodeArea = kRestArea / 3;
+
+double energy_of(const Vec3& G) { return 0.5 * kStiffness * G.squaredNorm() / kNodeArea; }
+
+Vec3 depth_integrals_of(const Pair& pair) {
+  ContactPatch patch;
+  return contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kRange, patch)
+             ? depth_integrals(patch)
+             : Vec3::Zero();
+}
+
+/// Of Σ p_a G_a for numbers p that stay as they are.
+Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p) {
+  return sim::patch_gradient(patch, PatchSum{p});
+}
+
+double energy(const Pair& pair) { return energy_of(depth_integrals_of(pair)); }
+
+Vec18 gradient(const Pair& pair) {
+  ContactPatch patch;
+  if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kRange, patch))
+    return Vec18::Zero();
+  return patch_gradient(patch, kStiffness / kNodeArea * depth_integrals(patch));
+}
+
+using Mat18 = Eigen::Matrix<double, 18, 18>;
+
+Mat18 product(const PatchStiffness& stiffness) {
+  const Mat18 half = stiffness.left * stiffness.right.transpose();
+  return half + half.transpose();
+}
+Mat18 patch_hessian(const ContactPatch& patch) { return product(patch_stiffness(patch, 1)); }
+Mat18 patch_curvature(const ContactPatch& patch, const PatchSum& sum) {
+  PatchStiffness stiffness = patch_stiffness(patch, 0);
+  add_curvature(patch, sum, stiffness);
+  Mat18 H;
+  if (!end_stiffness(patch, sum, H)) H.setZero();
+  return H + product(stiffness);
+}
+
+/// ∇G_a, one a column.
+Eigen::Matrix<double, 18, 3> node_gradients(const ContactPatch& patch) {
+  Eigen::Matrix<double, 18, 3> gradients;
+  for (int a = 0; a < 3; ++a) gradients.col(a) = patch_gradient(patch, Vec3::Unit(a));
+  return gradients;
+}
+
+Mat18 tangent(const ContactPatch& patch) {
+  const auto n = node_gradients(patch);
+  return kStiffness / kNodeArea *
+         (n * n.transpose() + patch_curvature(patch, {depth_integrals(patch)}));
+}
+
+double& entry(Pair& pair, int i) { return i < 9 ? pair.s.reshaped()[i] : pair.f.reshaped()[i - 9]; }
+
+/// Central differences in one coordinate of the pair.
+template <class Result>
+Result difference(Result (*function)(const Pair&), const Pair& pair, int i, double h) {
+  Pair plus = pair, minus = pair;
+  entry(plus, i) += h;
+  entry(minus, i) -= h;
+  return (function(plus) - function(minus)) / (2 * h);
+}
+
+double gradient_error(const Pair& pair) {
+  const Vec18 g = gradient(pair);
+  double best = std::numeric_limits<double>::infinity();
+  for (const double h : {1e-4, 1e-5, 1e-6}) {
+    Vec18 numeric;
+    for (int i = 0; i < 18; ++i) numeric[i] = difference(energy, pair, i, h);
+    best = std::min(best, (numeric - g).norm() / g.norm());
+  }
+  return best;
+}
+
+TEST(ContactPatch, UnderALargeFaceTheGradientIsTheDerivativeOfTheEnergy) {
+  Random random(1);
+  for (int n = 0; n < 50; ++n) {
+    const Pair pair = covered_pair(random);
+    ASSERT_GT(energy(pair), 0);
+    EXPECT_LT(gradient_error(pair), 1e-8);
+  }
+}
+
+/// A triangle over a sheet of six faces about a node, all uneven: the depth is continuous from face
+/// to face.
+constexpr int kSheetNodes = 10;  // three of the triangle, the sheet's middle, its six outer nodes
+using SheetMatrix = Eigen::Matrix<double, 3 * kSheetNodes, 3 * kSheetNodes>;
+
+Positions uneven_sheet(Random& random) {
+  Positions x(3, kSheetNodes);
+  x.leftCols(3) = small_triangle(0.3);
+  x.leftCols(3).row(0).array() -= 0.3;
+  x.leftCols(3).row(1).array() -= 0.3;
+  x.col(3).setZero();
+  for (int k = 0; k < 6; ++k)
+    x.col(4 + k) = 3 * Vec3(std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0);
+  for (int i = 0; i < kSheetNodes; ++i) x.col(i) += 0.1 * random.vec3();
+  return x;
+}
+
+/// Calls visit(pair, nodes) for the triangle and each of the six faces.
+template <class Visit>
+void for_each_sheet_face(const Positions& x, Visit&& visit) {
+  for (int k = 0; k < 6; ++k) {
+    const std::array<int, 6> nodes = {0, 1, 2, 3, 4 + k, 4 + (k + 1) % 6};
+    Pair pair;
+    pair.s = x.leftCols(3);
+    for (int m = 0; m < 3; ++m) pair.f.col(m) = x.col(nodes[static_cast<std::size_t>(3 + m)]);
+    visit(pair, nodes);
+  }
+}
+
+Vec3 sheet_depth_integrals(const Positions& x) {
+  Vec3 sum = Vec3::Zero();
+  for_each_sheet_face(x, [&](const Pair& pair, const auto&) { sum += depth_integrals_of(pair); });
+  return sum;
+}
+
+double sheet_energy(const Positions& x) { return energy_of(sheet_depth_integrals(x)); }
+
+Positions sheet_gradient(const Positions& x) {
+  const Vec3 p = kStiffness / kNodeArea * sheet_depth_integrals(x);
+  Positions g = Positions::Zero(3, kSheetNodes);
+  for_each_sheet_face(x, [&](const Pair& pair, const std::array<int, 6>& nodes) {
+    ContactPatch patch;
+    if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kRange, patch))
+      return;
+    const Vec18 part = patch_gradient(patch, p);
+    for (int i = 0; i < 6; ++i) g.col(nodes[static_cast<std::size_t>(i)]) += part.segment<3>(3 * i);
+  });
+  return g;
+}
+
+/// @param rims  of the faces; of a sheet that goes on all around, 0
+SheetMatrix sheet_tangent(const Positions& x, unsigned rims) {
+  const Vec3 p = kStiffness / kNodeArea * sheet_depth_integrals(x);
+  SheetMatrix H = SheetMatrix::Zero();
+  Eigen::Matrix<double, 3 * kSheetNodes, 3> gradients = decltype(gradients)::Zero();
+  for_each_sheet_face(x, [&](const Pair& pair, const std::array<int, 6>& nodes) {
+    ContactPatch patch;
+    FlatTriangle f = flat_triangle(pair.f);
+    f.rims = rims;
+    if (!contact_patch(flat_triangle(pair.s), f, kRestArea, kRange, patch)) return;
+    const Mat18 part = patch_curvature(patch, {p});
+    const auto n = node_gradients(patch);
+    for (int i = 0; i < 6; ++i) {
+      const int row = 3 * nodes[static_cast<std::size_t>(i)];
+      gradients.middleRows<3>(row) += n.middleRows<3>(3 * i);
+      for (int j = 0; j < 6; ++j)
+        H.block<3, 3>(row, 3 * nodes[static_cast<std::size_t>(j)]) +=
+            part.block<3, 3>(3 * i, 3 * j);
+    }
+  });
+  return H + kStiffness / kNodeArea * gradients * gradients.transpose();
+}
+
+// Nothing is left over at the edges which move over the triangle.
+TEST(ContactPatch, UnderAnUnevenSheetTheSummedGradientIsTheDerivativeOfTheSummedEnergy) {
+  Random random(3);
+  for (int n = 0; n < 20; ++n) {
+    const Positions x = uneven_sheet(random), g = sheet_gradient(x);
+    double best = std::numeric_limits<double>::infinity();
+    for (const double h : {1e-4, 1e-5, 1e-6}) {
+      Positions numeric(3, kSheetNodes);
+      for (int i = 0; i < 3 * kSheetNodes; ++i) {
+        Positions plus = x, minus = x;
+        plus.reshaped()[i] += h;
+        minus.reshaped()[i] -= h;
+        numeric.reshaped()[i] = (sheet_energy(plus) - sheet_energy(minus)) / (2 * h);
+      }
+      best = std::min(best, (numeric - g).norm() / g.norm());
+    }
+    EXPECT_LT(best, 1e-8);
+  }
+}
+
+// So for the tangent: what one face loses by the motion of an edge, its neighbour gains.
+TEST(ContactPatch, UnderAnUnevenSheetTheSummedTangentIsTheDerivativeOfTheSummedGradient) {
+  Random random(9);
+  for (int n = 0; n < 20; ++n) {
+    const Positions x = uneven_sheet(random);
+    const SheetMatrix H = sheet_tangent(x, 0);
+    // With what is added at rims too, as two faces at an edge have it with opposite signs.
+    EXPECT_LT((sheet_tangent(x, 7) - H).norm(), 1e-12 * H.norm());
+    double best = std::numeric_limits<double>::infinity();
+    for (const double h : {1e-4, 1e-5, 1e-6}) {
+      SheetMatrix numeric;
+      for (int i = 0; i < 3 * kSheetNodes; ++i) {
+        Positions plus = x, minus = x;
+        plus.reshaped()[i] += h;
+        minus.reshaped()[i] -= h;
+        const Positions change = (sheet_gradient(plus) - sheet_gradient(minus)) / (2 * h);
+        numeric.col(i) = change.reshaped();
+      }
+      best = std::min(best, (numeric - H).norm() / H.norm());
+    }
+    EXPECT_LT(best, 1e-7);
+  }
+}
+
+/// Depths count a little in front of the face, so that polygons end there as well as at rims.
+constexpr DepthRange kNear{0.1, 10};
+
+/// Of Σ p_a G_a − m_a W_a, over all parts where points may be nearer to rims than to the face.
+struct PartialSum {
+  Pair pair;
+  Vec3 p, m;
+  Vec3 rim_height = Vec3::Zero();
+  std::vector<ContactPatch> parts() const {
+    std::vector<ContactPatch> found;
+    FlatTriangle f = flat_triangle(pair.f);
+    f.rim_height = rim_height;
+    for (int nearest = 0; nearest <= ContactPatch::kFace; ++nearest) {
+      ContactPatch patch;
+      if (!contact_patch(flat_triangle(pair.s), f, kRestArea, kNear, patch, {}, nearest)) continue;
+      for (PatchEdge& edge : patch.edge) edge.is_end = true;
+      found.push_back(patch);
+    }
+    return found;
+  }
+  double value() const {
+    double sum = 0;
+    for (const ContactPatch& patch : parts()) sum += sim::value(patch, {p, m});
+    return sum;
+  }
+  Vec18 gradient() const {
+    Vec18 sum = Vec18::Zero();
+    for (const ContactPatch& patch : parts()) sum += sim::patch_gradient(patch, {p, m});
+    return sum;
+  }
+  Mat18 tangent() const {
+    Mat18 H = Mat18::Zero();
+    for (const ContactPatch& patch : parts()) H += patch_curvature(patch, {p, m});
+    return H;
+  }
+  Vec18 numeric_gradient(double h) const {
+    Vec18 g;
+    for (int i = 0; i < 18; ++i) g[i] = (moved(i, h).value() - moved(i, -h).value()) / (2 * h);
+    return g;
+  }
+  PartialSum moved(int i, double h) const {
+    PartialSum there = *this;
+    entry(there.pair, i) += h;
+    return there;
+  }
+};
+
+Vec3 nodal_areas_of(const std::vector<ContactPatch>& parts) {
+  Vec3 sum = Vec3::Zero();
+  for (const ContactPatch& patch : parts) sum += nodal_areas(patch);
+  return sum;
+}
+
+TEST(ContactPatch, AtRimsAndWhereDepthsBeginToCountTheGradientIsTheDerivativeOfTheSum) {
+  Random random(11);
+  int at_rims = 0, open = 0, corners_pass = 0;
+  for (int n = 0; n < 300; ++n) {
+    const PartialSum sum{partial_pair(random), random.vec3(), random.vec3()};
+    const std::vector<ContactPatch> parts = sum.parts();
+    if (parts.empty() || parts[0].area < 0.05 * kRestArea) continue;
+    for (int k = 0; k < parts[0].num_edges; ++k)
+      ++(parts[0].edge[static_cast<std::size_t>(k)].m == PatchEdge::kOpen ? open : at_rims);
+    const Vec18 g = sum.gradient();
+    double best = std::numeric_limits<double>::infinity();
+    for (const double h : {1e-5, 1e-6})
+      best = std::min(best, (sum.numeric_gradient(h) - g).norm() / g.norm());
+    corners_pass += best > 1e-6 ? 1 : 0;  // within h of a corner that comes or goes
+    EXPECT_LT(best, 1e-3);
+  }
+  EXPECT_GT(at_rims, 100);
+  EXPECT_GT(open, 30);
+  EXPECT_LT(corners_pass, 3);
+}
+
+// Points that passed a rim close by are as deep as they are far from it.
+TEST(ContactPatch, BesideRimsTheGradientIsTheDerivativeOfTheSumOverAllParts) {
+  Random random(13);
+  int several = 0, corners_pass = 0;
+  for (int n = 0; n < 300; ++n) {
+    PartialSum sum{partial_pair(random), random.vec3(), random.vec3()};
+    sum.pair.s.row(2).array() -= 0.3;
+    const double whole = nodal_areas_of(sum.parts()).sum();
+    sum.rim_height = Vec3(1.3, 0, 0.8);
+    const std::vector<ContactPatch> parts = sum.parts();
+    if (!(whole > 0.05 * kRestArea) || parts.size() < 2) continue;
+    ++several;
+    EXPECT_NEAR(nodal_areas_of(parts).sum(), whole, 1e-12);
+    const Vec18 g = sum.gradient();
+    double best = std::numeric_limits<double>::infinity();
+    for (const double h : {1e-5, 1e-6})
+      best = std::min(best, (sum.numeric_gradient(h) - g).norm() / g.norm());
+    corners_pass += best > 1e-6 ? 1 : 0;
+    EXPECT_LT(best, 1e-3);
+  }
+  EXPECT_GT(several, 50);
+  EXPECT_LT(corners_pass, 3);
+}
+
+// So for the tangent, with and without depths that count to rims.
+TEST(ContactPatch, AtItsEndsTheTangentIsTheDerivativeOfTheGradient) {
+  Random random(12);
+  int several = 0, single = 0, corners_pass = 0;
+  for (int n = 0; n < 200; ++n) {
+    PartialSum sum{partial_pair(random), random.vec3(), random.vec3()};
+    sum.pair.s.row(2).array() -= 0.2;
+    if (n % 2 == 0) sum.rim_height = Vec3(1.3, 0, 0.8);
+    const std::vector<ContactPatch> parts = sum.parts();
+    if (!(nodal_areas_of(parts).sum() > 0.05 * kRestArea)) continue;
+    ++(parts.size() > 1 ? several : single);
+    const Mat18 H = sum.tangent();
+    double best = std::numeric_limits<double>::infinity();
+    for (const double h : {1e-4, 1e-5, 1e-6}) {
+      Mat18 numeric;
+      for (int i = 0; i < 18; ++i)
+        numeric.col(i) = (sum.moved(i, h).gradient() - sum.moved(i, -h).gradient()) / (2 * h);
+      best = std::min(best, (numeric - H).norm() / H.norm());
+    }
+    corners_pass += best > 1e-7 ? 1 : 0;
+    EXPECT_LT(best, 1e-2);
+  }
+  EXPECT_GT(several, 20);
+  EXPECT_GT(single, 30);
+  EXPECT_LT(corners_pass, 3);
+}
+
+TEST(ContactPatch, ForcesAreEqualAndOppositeWithoutNetMoment) {
+  Random random(4);
+  int in_contact = 0;
+  for (int n = 0; n < 400; ++n) {
+    const Pair pair = partial_pair(random);
+    const Vec18 g = gradient(pair);
+    if (g.isZero(0)) continue;
+    ++in_contact;
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+      force += g.segment<3>(3 * i) + g.segment<3>(9 + 3 * i);
+      moment +=
+          pair.s.col(i).cross(g.segment<3>(3 * i)) + pair.f.col(i).cross(g.segment<3>(9 + 3 * i));
+    }
+    // Weights beyond the face's corners are up to tens: their round-off counts.
+    EXPECT_LT(force.norm(), 1e-13 * g.norm());
+    EXPECT_LT(moment.norm(), 1e-13 * g.norm());
+  }
+  // Both outcomes occur.
+  EXPECT_GT(in_contact, 120);
+  EXPECT_LT(in_contact, 400);
+}
+
+TEST(ContactPatch, ARigidMotionTurnsTheForcesAndKeepsTheEnergy) {
+  Random random(5);
+  for (int n = 0; n < 100; ++n) {
+    const Pair pair = partial_pair(random);
+    const Mat3 R = rotation_matrix(3 * random.vec3());
+    const Vec3 shift = random.vec3();
+    const Pair moved{(R * pair.s).colwise() + shift, (R * pair.f).colwise() + shift};
+    const Vec18 g = gradient(pair), turned = gradient(moved);
+    EXPECT_NEAR(energy(moved), energy(pair), 1e-12 * kStiffness);
+    for (int i = 0; i < 6; ++i)
+      EXPECT_LT((turned.segment<3>(3 * i) - R * g.segment<3>(3 * i)).norm(),
+                1e-11 * std::max(1e-3, g.norm()));
+  }
+}
+
+double tangent_error(const Pair& pair) {
+  ContactPatch patch;
+  EXPECT_TRUE(
+      contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kRange, patch));
+  const Mat18 H = tangent(patch);
+  EXPECT_LT((H - H.transpose()).norm(), 1e-14 * H.norm());
+  double best = std::numeric_limits<double>::infinity();
+  for (const double h : {1e-4, 1e-5, 1e-6}) {
+    Mat18 numeric;
+    for (int i = 0; i < 18; ++i) numeric.col(i) = difference(gradient, pair, i, h);
+    best = std::min(best, (numeric - H).norm() / H.norm());
+  }
+  return best;
+}
+
+TEST(ContactPatch, UnderALargeFaceTheTangentIsTheDerivativeOfTheGradient) {
+  Random random(8);
+  for (int n = 0; n < 50; ++n) {
+    Pair pair = covered_pair(random);
+    if (n % 2 == 1) pair.s.row(2).array() += 0.4;  // comes out of the face
+    ContactPatch patch;
+    if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kRange, patch))
+      continue;
+    if (patch.turning != 0 || patch.area < 0.1) continue;
+    EXPECT_LT(tangent_error(pair), 1e-7);
+  }
+}
+
+/// ½ k ∫ d² dA over what lies behind the face: where depths are not averaged. A part of the depth
+/// may be allowed.
+template <int kPercent>
+constexpr DepthRange kBehind{0, 10, kPercent / 100.0};
+
+template <int kPercent>
+double point_energy(const Pair& pair) {
+  ContactPatch patch;
+  if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kBehind<kPercent>,
+                     patch))
+    return 0;
+  return value(patch, sim::point_energy(patch, kStiffness));
+}
+
+template <int kPercent>
+Vec18 point_gradient(const Pair& pair) {
+  ContactPatch patch;
+  if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kBehind<kPercent>,
+                     patch))
+    return Vec18::Zero();
+  return sim::patch_gradient(patch, sim::point_energy(patch, kStiffness));
+}
+
+template <int kPercent>
+void expect_derivatives_to_where_the_triangle_comes_out() {
+  Random random(2);
+  int crossing = 0;
+  for (int n = 0; n < 50; ++n) {
+    Pair pair = covered_pair(random);
+    pair.s.row(2).array() += 0.5 - kBehind<kPercent>.allowance;
+    ContactPatch patch;
+    if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kBehind<kPercent>,
+                       patch))
+      continue;
+    if (patch.area < 0.1 || patch.turning != 0) continue;
+    crossing += patch.area < 0.99 * kRestArea ? 1 : 0;
+    const Vec18 g = point_gradient<kPercent>(pair);
+    const Mat18 H =
+        kStiffness * (patch_hessian(patch) + patch_curvature(patch, sim::point_energy(patch, 1)));
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(patch_hessian(patch))
+                  .eigenvalues()
+                  .minCoeff(),
+              -1e-12 * patch_hessian(patch).norm());
+    double gradient_best = std::numeric_limits<double>::infinity(), tangent_best = gradient_best;
+    for (const double h : {1e-4, 1e-5, 1e-6}) {
+      Vec18 numeric;
+      Mat18 numeric_tangent;
+      for (int i = 0; i < 18; ++i) {
+        numeric[i] = difference(point_energy<kPercent>, pair, i, h);
+        numeric_tangent.col(i) = difference(point_gradient<kPercent>, pair, i, h);
+      }
+      gradient_best = std::min(gradient_best, (numeric - g).norm() / g.norm());
+      tangent_best = std::min(tangent_best, (numeric_tangent - H).norm() / H.norm());
+    }
+    EXPECT_LT(gradient_best, 1e-6);  // the energy's third derivative jumps
+    EXPECT_LT(tangent_best, 1e-4);
+  }
+  EXPECT_GT(crossing, 10);
+}
+
+// Where the triangle dips in and out, the energy vanishes at the polygon's moving edge.
+TEST(ContactPatch, PointwiseGradientAndTangentAreDerivativesToWhereTheTriangleComesOut) {
+  expect_derivatives_to_where_the_triangle_comes_out<0>();
+}
+
+TEST(ContactPatch, WithAnAllowanceTheyAreDerivativesToWhereItsDepthIsReached) {
+  expect_derivatives_to_where_the_triangle_comes_out<30>();
+}
+
+// Between 60 and 37 degrees the weight of a patch changes as it turns.
+TEST(ContactPatch, PointwiseGradientAndTangentHaveTheTurningOfTheWeight) {
+  Random random(6);
+  int turning = 0;
+  for (int n = 0; n < 200; ++n) {
+    Pair pair = covered_pair(random);
+    pair.s = rotation_matrix({0.8, 0.1, 0}) * pair.s;
+    pair.s.row(2).array() -= 1;
+    ContactPatch patch;
+    if (!contact_patch(flat_triangle(pair.s), flat_triangle(pair.f), kRestArea, kBehind<0>, patch))
+      continue;
+    if (patch.turning == 0 || patch.area < 0.1 || (patch.depth.array() < 0.01).any()) continue;
+    ++turning;
+    const Vec18 g = point_gradient<0>(pair);
+    const Mat18 H = kStiffness * patch_hessian(patch) +
+                    patch_curvature(patch, sim::point_energy(patch, kStiffness));
+    double gradient_best = std::numeric_limits<double>::infinity(), tangent_best = gradient_best;
+    for (const double h : {1e-4, 1e-5, 1e-6}) {
+      Vec18 numeric;
+      Mat18 numeric_tangent;
+      for (int i = 0; i < 18; ++i) {
+        numeric[i] = difference(point_energy<0>, pair, i, h);
+        numeric_tangent.col(i) = difference(point_gradient<0>, pair, i, h);
+      }
+      gradient_best = std::min(gradient_best, (numeric - g).norm() / g.norm());
+      tangent_best = std::min(tangent_best, (numeric_tangent - H).norm() / H.norm());
+    }
+    EXPECT_LT(gradient_best, 1e-7);
+    EXPECT_LT(tangent_best, 1e-6);
+  }
+  EXPECT_GT(turning, 50);
+}
+
+TEST(ContactPatch, AParallelTriangleHasTheWholeAreaAndTheUniformDepth) {
+  ContactPatch patch;
+  ASSERT_TRUE(contact_patch(flat_triangle(small_triangle(0.25)), flat_triangle(large_face()),
+                            kRestArea, kRange, patch));
+  EXPECT_NEAR(patch.area, kRestArea, 1e-15);
+  EXPECT_NEAR(patch.depth_max, 0.25, 1e-15);
+  for (int a = 0; a < 3; ++a) {
+    EXPECT_NEAR(nodal_areas(patch)[a], kNodeArea, 1e-15);
+    EXPECT_NEAR(depth_integrals(patch)[a], 0.25 * kNodeArea, 1e-15);
+  }
+  // A uniform pressure pushes it out along the face's normal by p A.
+  const Vec18 g = patch_gradient(patch, Vec3::Constant(2));
+  EXPECT_NEAR(-(g[2] + g[5] + g[8]), 2 * kRestArea, 1e-14);
+}
+
+TEST(ContactPatch, AFaceOverPartOfTheTriangleTakesThatPart) {
+  Mat3 f;  // covers x < 1/2
+  f << 0.5, 0.5, -20, -50, 50, 0, 0, 0, 0;
+  ContactPatch patch;
+  ASSERT_TRUE(
+      contact_patch(flat_triangle(small_triangle(0.1)), flat_triangle(f), 0.5, kRange, patch));
+  EXPECT_NEAR(patch.area, 0.5 - 0.125, 1e-14);
+  EXPECT_NEAR(depth_integrals(patch).sum(), 0.1 * 0.375, 1e-14);
+}
+
+TEST(ContactPatch, InFrontOfTheFaceTheDepthIsNegativeAndCountsToTheOpenDepth) {
+  Mat3 s = small_triangle(0);
+  s(2, 0) = -0.1;  // only this corner is behind the face, the others' depths are 0 and −0.1
+  s(2, 2) = 0.1;
+  ContactPatch patch;
+  ASSERT_TRUE(contact_patch(flat_triangle(s), flat_triangle(large_face()), 0.5, kRange, patch));
+  EXPECT_NEAR(patch.area, 0.5, 1e-14);
+  EXPECT_NEAR(depth_integrals(patch).sum(), 0, 1e-15);
+  // Measured along the triangle's normal; its plane is z = −0.1 + 0.2 x + 0.1 y.
+  EXPECT_NEAR(patch.depth_max, 0.1 * std::sqrt(1.05), 1e-15);
+  ASSERT_TRUE(contact_patch(flat_triangle(s), flat_triangle(large_face()), 0.5, {0, 10}, patch));
+  EXPECT_NEAR(patch.area, 0.25, 1e-14);
+}
+
+TEST(ContactPatch, InFrontOfTheFaceOrBesideItOrDeeperThanTheReachIsNoContact) {
+  ContactPatch patch;
+  EXPECT_FALSE(contact_patch(flat_triangle(small_triangle(-0.1)), flat_triangle(large_face()), 1,
+                             {0.05, 10}, patch));
+  EXPECT_FALSE(contact_patch(flat_triangle(small_triangle(0.1)), flat_triangle(large_face()), 1,
+                             {10, 0.05}, patch));
+  Mat3 beside = small_triangle(0.1);
+  beside.row(0).array() += 100;
+  EXPECT_FALSE(contact_patch(flat_triangle(beside), flat_triangle(large_face()), 1, kRange, patch));
+  Mat3 back = small_triangle(0.1);
+  back.col(1).swap(back.col(2));
+  EXPECT_FALSE(contact_patch(flat_triangle(back), flat_triangle(large_face()), 1, kRange, patch));
+}
+
+TEST(ContactPatch, TrianglesWithoutAreaTouchNothing) {
+  Mat3 line;
+  line << 0, 1, 2, 0, 1, 2, -0.1, -0.1, -0.1;
+  const Mat3 point = Vec3(0, 0, -0.1) * Eigen::RowVector3d::Ones();
+  const Mat3 nan = Mat3::Constant(std::numeric_limits<double>::quiet_NaN());
+  ContactPatch patch;
+  for (const Mat3& bad : {line, point, nan}) {
+    EXPECT_FALSE(contact_patch(flat_triangle(bad), flat_triangle(large_face()), 1, kRange, patch));
+    EXPECT_FALSE(
+        contact_patch(flat_triangle(small_triangle(0.1)), flat_triangle(bad), 1, kRange, patch));
+  }
+}
+
+TEST(ContactPatch, NearlyFlatTrianglesGiveFiniteForces) {
+  for (const double width : {1e-6, 1e-9, 1e-12, 1e-15}) {
+    Mat3 s = small_triangle(0.1);
+    s(1, 1) = width;
+    ContactPatch patch;
+    if (!contact_patch(flat_triangle(s), flat_triangle(large_face()), 1, kRange, patch)) continue;
+    EXPECT_TRUE(patch_gradient(patch, Vec3::Ones()).allFinite()) << width;
+    EXPECT_TRUE(patch_curvature(patch, {Vec3::Ones()}).allFinite()) << width;
+  }
+}
+
+// Corners on the face's edges, within round-off of them on either side.
+TEST(ContactPatch, CornersOnTheFacesEdgesAreSafe) {
+  Random random(7);
+  const Mat3 f = large_face();
+  for (int n = 0; n < 2000; ++n) {
+    Mat3 s;
+    for (int i = 0; i < 3; ++i) {
+      const double along = 0.5 + 0.5 * random();
+      s.col(i) = (1 - along) * f.col(i) + along * f.col((i + 1) % 3) + 1e-15 * random.vec3();
+      s(2, i) -= 0.1;
+    }
+    s.col(1).swap(s.col(2));
+    ContactPatch patch;
+    if (!contact_patch(flat_triangle(s), flat_triangle(f), 1, kRange, patch)) continue;
+    EXPECT_LE(patch.area, 1 + 1e-12);
+    EXPECT_TRUE(patch_gradient(patch, Vec3::Ones()).allFinite());
+  }
+}
+
+}  // namespace articular::sim::contact_patch_test

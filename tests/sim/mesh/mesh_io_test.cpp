@@ -1,0 +1,412 @@
+#include "sim/mesh/mesh_io.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "sim/base/error.hpp"
+#include "tests/sim/support/temporary_folder.hpp"
+
+namespace articular::sim::mesh_io_test {
+
+constexpr double kMillimetre = 1e-3;  // [m]
+
+/// Two tetrahedra on a common face, at positions that no short decimal number meets.
+MeshData two_tetrahedra() {
+  MeshData mesh;
+  mesh.X.resize(3, 5);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> position(-0.1, 0.1);
+  for (double& x : mesh.X.reshaped()) x = position(random);
+  mesh.tets.resize(4, 2);
+  mesh.tets << 0, 1, 1, 2, 2, 3, 3, 4;
+  mesh.triangles.resize(3, 0);
+  return mesh;
+}
+
+double volume(const MeshData& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.tets.colwise()) {
+    Mat3 edges;
+    for (int a = 0; a < 3; ++a) edges.col(a) = mesh.X.col(t(a + 1)) - mesh.X.col(t(0));
+    sum += edges.determinant() / 6;
+  }
+  for (const auto& t : mesh.triangles.colwise())
+    sum += mesh.X.col(t(0)).cross(mesh.X.col(t(1))).dot(mesh.X.col(t(2))) / 6;
+  return sum;
+}
+
+/// The message of the InputError, checked to be one line and not to be printed as well.
+std::string error_of(const std::filesystem::path& file) {
+  testing::internal::CaptureStderr();
+  testing::internal::CaptureStdout();
+  std::string message = "no error";
+  try {
+    read_mesh(file, 1);
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  return message;
+}
+
+TEST(MeshIo, TetrahedraWrittenAndReadAreTheSameToTheLastBit) {
+  const TemporaryFolder folder;
+  const MeshData mesh = two_tetrahedra();
+  write_mesh(folder / "m.vtu", mesh, 1);
+  const MeshData read = read_mesh(folder / "m.vtu", 1);
+  EXPECT_EQ(read.X, mesh.X);
+  EXPECT_EQ(read.tets, mesh.tets);
+  EXPECT_EQ(read.triangles.cols(), 0);
+}
+
+TEST(MeshIo, SurfaceWrittenAndReadIsTheSameToTheLastBit) {
+  const TemporaryFolder folder;
+  MeshData mesh = two_tetrahedra();
+  mesh.triangles = mesh.tets.topRows(3);
+  mesh.triangles(2, 1) = 4;
+  mesh.tets.resize(4, 0);
+  mesh.X.col(3) = mesh.X.col(4);
+  mesh.X.conservativeResize(3, 4);
+  mesh.triangles(2, 1) = 3;
+  write_mesh(folder / "m.vtp", mesh, 1);
+  const MeshData read = read_mesh(folder / "m.vtp", 1);
+  EXPECT_EQ(read.X, mesh.X);
+  EXPECT_EQ(read.triangles, mesh.triangles);
+  EXPECT_EQ(read.tets.cols(), 0);
+}
+
+TEST(MeshIo, TetrahedraAndTrianglesOfOneMeshStayTogether) {
+  const TemporaryFolder folder;
+  MeshData mesh = two_tetrahedra();
+  mesh.triangles.resize(3, 1);
+  mesh.triangles << 0, 2, 1;
+  write_mesh(folder / "m.vtu", mesh, 1);
+  const MeshData read = read_mesh(folder / "m.vtu", 1);
+  EXPECT_EQ(read.tets, mesh.tets);
+  EXPECT_EQ(read.triangles, mesh.triangles);
+}
+
+TEST(MeshIo, UnitScalesPositionsBothWays) {
+  const TemporaryFolder folder;
+  const MeshData mesh = two_tetrahedra();
+  write_mesh(folder / "m.vtu", mesh, kMillimetre);
+  const MeshData in_file = read_mesh(folder / "m.vtu", 1);
+  EXPECT_LT((in_file.X * kMillimetre - mesh.X).norm(), 1e-15 * mesh.X.norm());
+  const MeshData read = read_mesh(folder / "m.vtu", kMillimetre);
+  EXPECT_LT((read.X - mesh.X).norm(), 1e-15 * mesh.X.norm());
+}
+
+TEST(MeshIo, NodesThatNoCellUsesAreDroppedAndTheOthersKeepTheirOrder) {
+  const TemporaryFolder folder;
+  MeshData mesh = two_tetrahedra();
+  mesh.tets.col(1) = mesh.tets.col(0);
+  mesh.tets.array() += 1;  // node 0 is unused
+  write_mesh(folder / "m.vtu", mesh, 1);
+  const MeshData read = read_mesh(folder / "m.vtu", 1);
+  EXPECT_EQ(read.X, mesh.X.rightCols(4));
+  EXPECT_EQ(read.tets.col(0), Eigen::Vector4i(0, 1, 2, 3));
+}
+
+TEST(MeshIo, LegacyUnstructuredGridIsRead) {
+  const TemporaryFolder folder;
+  const auto file = folder.file("m.vtk",
+                                "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                                "POINTS 5 double\n0 0 0 0.1234567890123456 0 0 0 1 0 0 0 1 9 9 9\n"
+                                "CELLS 2 9\n4 0 1 2 3\n3 0 2 1\nCELL_TYPES 2\n10\n5\n");
+  const MeshData mesh = read_mesh(file, 1);
+  EXPECT_EQ(mesh.X.cols(), 4);
+  EXPECT_EQ(mesh.X(0, 1), 0.1234567890123456);
+  EXPECT_EQ(mesh.tets, Eigen::Vector4i(0, 1, 2, 3));
+  EXPECT_EQ(mesh.triangles, Eigen::Vector3i(0, 2, 1));
+}
+
+TEST(MeshIo, PolygonsAndStripsBecomeTrianglesOfTheSameSide) {
+  const TemporaryFolder folder;
+  const std::string points =
+      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n"
+      "0 0 0 1 0 0 1 1 0 0 1 0\n";
+  const auto quad = folder.file("quad.vtk", points + "POLYGONS 1 5\n4 0 1 2 3\n");
+  const auto strip = folder.file("strip.vtk", points + "TRIANGLE_STRIPS 1 5\n4 0 1 3 2\n");
+  for (const auto& file : {quad, strip}) {
+    const MeshData mesh = read_mesh(file, 1);
+    ASSERT_EQ(mesh.triangles.cols(), 2);
+    for (const auto& t : mesh.triangles.colwise()) {
+      const Vec3 area_vector =
+          0.5 * (mesh.X.col(t(1)) - mesh.X.col(t(0))).cross(mesh.X.col(t(2)) - mesh.X.col(t(0)));
+      EXPECT_EQ(area_vector, Vec3(0, 0, 0.5)) << file;
+    }
+  }
+}
+
+TEST(MeshIo, CoincidentVerticesOfStlAreMergedInTextAndInBinary) {
+  const TemporaryFolder folder;
+  const std::vector<std::array<float, 9>> triangles = {{0, 0, 0, 1, 0, 0, 0, 1, 0},
+                                                       {1, 0, 0, 1, 1, 0, 0, 1, 0}};
+  std::string text = "solid s\n", binary(80, ' ');
+  const auto append = [&](const auto& value) {
+    binary.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  append(static_cast<std::uint32_t>(triangles.size()));
+  for (const auto& triangle : triangles) {
+    append(std::array<float, 3>{0, 0, 1});
+    append(triangle);
+    append(std::uint16_t{0});
+    text += "facet normal 0 0 1\nouter loop\n";
+    for (std::size_t a = 0; a < 9; a += 3)
+      text += "vertex " + std::to_string(triangle[a]) + " " + std::to_string(triangle[a + 1]) +
+              " " + std::to_string(triangle[a + 2]) + "\n";
+    text += "endloop\nendfacet\n";
+  }
+  for (const auto& file :
+       {folder.file("text.stl", text + "endsolid s\n"), folder.file("binary.stl", binary)}) {
+    const MeshData mesh = read_mesh(file, 1);
+    EXPECT_EQ(mesh.X.cols(), 4) << file;
+    EXPECT_EQ(mesh.triangles.cols(), 2) << file;
+  }
+}
+
+TEST(MeshIo, PlyIsReadInTextAndInBinaryOfEitherByteOrder) {
+  const TemporaryFolder folder;
+  const auto header = [](const std::string& layout) {
+    return "ply\nformat " + layout +
+           " 1.0\ncomment a square\nelement vertex 4\nproperty double x\nproperty double y\n"
+           "property double z\nproperty uchar red\nelement face 1\n"
+           "property list uchar int vertex_indices\nend_header\n";
+  };
+  const std::vector<std::array<double, 3>> points = {
+      {0.1234567890123456, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  std::string little, big;
+  const auto append = [&](auto value) {
+    const std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
+    little += bytes;  // on the machines that this runs on
+    big.append(bytes.rbegin(), bytes.rend());
+  };
+  for (const auto& point : points) {
+    for (const double x : point) append(x);
+    append(std::uint8_t{255});
+  }
+  append(std::uint8_t{4});
+  for (const std::int32_t corner : {0, 1, 2, 3}) append(corner);
+  for (const auto& file :
+       {folder.file("text.ply", header("ascii") + "0.1234567890123456 0 0 255\n1 0 0 255\n"
+                                                  "1 1 0 255\n0 1 0 255\n4 0 1 2 3\n"),
+        folder.file("little.ply", header("binary_little_endian") + little),
+        folder.file("big.ply", header("binary_big_endian") + big)}) {
+    const MeshData mesh = read_mesh(file, 2);
+    ASSERT_EQ(mesh.triangles.cols(), 2) << file;
+    EXPECT_EQ(mesh.triangles.col(1), Eigen::Vector3i(0, 2, 3));
+    EXPECT_EQ(mesh.X.col(2), Vec3(2, 2, 0));
+    EXPECT_EQ(mesh.X(0, 0), 2 * 0.1234567890123456);
+  }
+}
+
+TEST(MeshIo, DamagedPlyIsAnInputErrorOrASoundMesh) {
+  const TemporaryFolder folder;
+  const std::string whole =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  std::mt19937 random(11);
+  int errors = 0;
+  constexpr int kTrials = 300;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::string text = whole;
+    text[random() % text.size()] = static_cast<char>(random() & 0xff);
+    try {
+      const MeshData mesh = read_mesh(folder.file("m.ply", text), 1);
+      EXPECT_LT(mesh.triangles.maxCoeff(), mesh.X.cols());
+    } catch (const InputError&) {
+      ++errors;
+    }
+  }
+  EXPECT_GT(errors, kTrials / 4);  // both cases occur
+  EXPECT_LT(errors, kTrials);
+}
+
+TEST(MeshIo, ObjKeepsSharedVerticesWithSeveralNormalsAndFullPrecision) {
+  const TemporaryFolder folder;
+  const auto file = folder.file("m.obj",
+                                "# a comment\r\no thing\r\nv 0.1234567890123456 0 0\r\nv 1 0 0\r\n"
+                                "v 1 1 0\r\nv +0 1e0 0\r\nvn 0 0 1\r\nvn 0 1 0\r\n"
+                                "f 1//1 2//1 3//1\r\nf 1/1/2 3//2 -1\r\n");
+  const MeshData mesh = read_mesh(file, 1);
+  EXPECT_EQ(mesh.X.cols(), 4);
+  EXPECT_EQ(mesh.X(0, 0), 0.1234567890123456);
+  EXPECT_EQ(mesh.triangles.col(0), Eigen::Vector3i(0, 1, 2));
+  EXPECT_EQ(mesh.triangles.col(1), Eigen::Vector3i(0, 2, 3));
+}
+
+// Keywords in any case and with spaces, elements before their nodes, numbers with gaps, several
+// blocks, comments, an element set, Windows line ends, elements and blocks of other kinds.
+TEST(MeshIo, AbaqusDeckIsRead) {
+  const TemporaryFolder folder;
+  const auto file = folder.file("m.inp",
+                                "*Heading\n 1, 2, anything\n** comment\n"
+                                "*Element , ELSET = disc , Type = c3d4\r\n7, 100, 20, 3, 5\r\n"
+                                "*NODE, NSET=all\n100, 0., 0, 0\n20, 1, 0, 0,\n ** comment\n"
+                                "*ELEMENT, type=CPS3, ELSET=Surface0\n1, 100, 20, 3\n"
+                                "*NODE OUTPUT\nU, V\n*node\n 3 , 0 , 1 , 0\n5,0,0,+1.5e0\n");
+  const MeshData mesh = read_mesh(file, 1);
+  EXPECT_EQ(mesh.X.cols(), 4);
+  EXPECT_EQ(mesh.tets, Eigen::Vector4i(0, 1, 2, 3));
+  EXPECT_EQ(mesh.X.col(3), Vec3(0, 0, 1.5));
+  EXPECT_EQ(mesh.triangles.cols(), 0);
+}
+
+struct BadText {
+  const char* ending;
+  const char* text;
+  const char* message;  // after the file's name
+};
+
+TEST(MeshIo, WhatIsWrongInATextFileIsNamedWithItsLine) {
+  const std::string nodes = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4\n";
+  const std::vector<BadText> cases = {
+      {".inp", "1, 1, 2, 3, 9\n", ":7: unknown node 9"},
+      {".inp", "1, 1, 2, 3\n",
+       ":7: found 4 columns, expected 5: element number and 4 node numbers"},
+      {".inp", "1, 1, 2, 3, x\n", ":7: `x` is not a node number"},
+      {".inp", "*NODE\n5, 0, 0\n", ":8: found 3 columns, expected 4: node number, x, y, z"},
+      {".inp", "*NODE\n5, 0, 0, 1.0.0\n", ":8: `1.0.0` is not a finite number"},
+      {".inp", "*NODE\n5, 0, 0, nan\n", ":8: `nan` is not a finite number"},
+      {".inp", "*NODE\n5, 0, 0, 1e999\n", ":8: `1e999` is not a finite number"},
+      {".inp", "*NODE\n4, 0, 0, 1\n", ":8: node 4 is there twice"},
+      {".inp", "*INCLUDE, INPUT=other.inp\n", ":7: data in another file"},
+      {".inp", "*ELEMENT, TYPE=C3D10\n1,1,2,3,4\n",
+       ": holds no elements of type C3D4 (linear tetrahedra); there are elements of type C3D10"},
+      {".obj", "v 0 0 0\nv 1 0 inf\n", ":2: `inf` is not a finite number"},
+      {".obj", "v 0 0\n", ":1: a vertex needs 3 coordinates"},
+      {".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", ":4: unknown vertex 4"},
+      {".obj", "v 0 0 0\nf 1 2 -2\n", ":2: unknown vertex -2"},
+      {".obj", "v 0 0 0\nf 1 a 1\n", ":2: `a` is not a corner of a face"},
+      {".obj", "v 0 0 0\nf 1 1\n", ":2: a face needs 3 corners or more"}};
+  const TemporaryFolder folder;
+  for (const BadText& bad : cases) {
+    const std::string before = std::string(bad.ending) == ".inp" ? nodes : "";
+    const auto file = folder.file(std::string("bad") + bad.ending, before + bad.text);
+    const std::string message = error_of(file);
+    EXPECT_EQ(message.rfind(file.string() + bad.message, 0), 0U) << message;
+  }
+}
+
+TEST(MeshIo, MissingEmptyAndGarbageFilesAreInputErrorsInOneLine) {
+  const TemporaryFolder folder;
+  std::string noise(5000, '\0');
+  std::mt19937 random(3);
+  for (char& c : noise) c = static_cast<char>(random() & 0xff);
+  for (const std::string ending : {".vtu", ".vtp", ".vtk", ".stl", ".obj", ".ply", ".inp"}) {
+    const std::string missing = (folder / ("none" + ending)).string();
+    EXPECT_EQ(error_of(missing), missing + ": no such mesh file");
+    const std::string empty = folder.file("empty" + ending, "").string();
+    EXPECT_EQ(error_of(empty), empty + ": the mesh file is empty");
+    for (const std::string& text : {std::string("hello\nworld\n"), noise, std::string("<a><b/>"),
+                                    std::string("solid x\nnot a facet\n"), std::string("ply\n")}) {
+      const std::string garbage = folder.file("garbage" + ending, text).string();
+      EXPECT_EQ(error_of(garbage).rfind(garbage + ":", 0), 0U) << error_of(garbage);
+    }
+  }
+  std::filesystem::create_directory(folder / "folder.vtu");
+  EXPECT_NE(error_of(folder / "folder.vtu").find("is a folder"), std::string::npos);
+}
+
+TEST(MeshIo, UnknownEndingsAreRefusedWithTheKnownOnes) {
+  EXPECT_EQ(error_of("m.foo"),
+            "m.foo: unknown mesh format `.foo`; known: .vtu, .vtp, .vtk, .stl, .obj, .ply, .inp");
+}
+
+/// A .vtu in text with 4 points, of which the last has this z, and one cell.
+std::string text_vtu(const std::string& z, const std::string& connectivity, int type) {
+  return "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\"><UnstructuredGrid>"
+         "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"><Points>"
+         "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">"
+         "0 0 0 1 0 0 0 1 0 0 0 " +
+         z +
+         "</DataArray></Points><Cells>"
+         "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">" +
+         connectivity +
+         "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4</DataArray>"
+         "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">" +
+         std::to_string(type) + "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>\n";
+}
+
+TEST(MeshIo, WhatVtkTakesWithoutAWordIsCheckedHere) {
+  constexpr int kTetrahedron = 10, kQuad = 9, kPolyLine = 4, kQuadraticEdge = 21;
+  const TemporaryFolder folder;
+  const auto error = [&](const std::string& text) { return error_of(folder.file("m.vtu", text)); };
+  EXPECT_EQ(error(text_vtu("1", "0 1 2 3", kTetrahedron)), "no error");
+  EXPECT_EQ(error(text_vtu("1", "0 1 2 3", kQuad)), "no error");
+  EXPECT_NE(error(text_vtu("1", "0 1 2 7", kTetrahedron)).find("refers to point 7"),
+            std::string::npos);
+  EXPECT_NE(error(text_vtu("1", "0 1 2 -1", kTetrahedron)).find("refers to point -1"),
+            std::string::npos);
+  EXPECT_NE(error(text_vtu("nan", "0 1 2 3", kTetrahedron)).find("m.vtu"), std::string::npos);
+  EXPECT_NE(error(text_vtu("1", "0 1 2 3", kPolyLine)).find("no tetrahedra and no surface"),
+            std::string::npos);
+  EXPECT_NE(error(text_vtu("1", "0 1 2 3", kQuadraticEdge)).find("vtkQuadraticEdge"),
+            std::string::npos);
+}
+
+TEST(MeshIo, CutOffFilesAreInputErrors) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "m.vtu", two_tetrahedra(), 1);
+  const std::string whole = content(folder / "m.vtu");
+  // Only the closing tags may be missing unnoticed.
+  for (std::size_t size = 1; size + 40 < whole.size(); size += whole.size() / 23) {
+    const auto file = folder.file("cut.vtu", whole.substr(0, size));
+    EXPECT_NE(error_of(file), "no error") << size << " of " << whole.size();
+  }
+}
+
+TEST(MeshIo, AFailedWriteNamesTheFileAndLeavesNothing) {
+  const TemporaryFolder folder;
+  folder.file("plain", "text");
+  std::filesystem::create_directory(folder / "folder.vtu");
+  std::filesystem::create_symlink("/dev/full", folder / "full.vtu");
+  for (const std::string name : {"plain/m.vtu", "missing/m.vtu", "folder.vtu", "full.vtu"}) {
+    const std::string file = (folder / name).string();
+    try {
+      write_mesh(file, two_tetrahedra(), 1);
+      ADD_FAILURE() << name << " was written";
+    } catch (const SystemError& error) {
+      EXPECT_EQ(std::string(error.what()).rfind(file + ": can't be written: ", 0), 0U)
+          << error.what();
+    }
+    EXPECT_FALSE(std::filesystem::exists(file + ".part"));
+  }
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+  EXPECT_THROW(write_mesh(folder / "m.vtp", two_tetrahedra(), 1), InputError);
+}
+
+TEST(MeshIo, VolumesOfTheDataFilesAreAsTheirReadmesSay) {
+  const char* const data = std::getenv("ARTICULAR_DATA");
+  if (data == nullptr || !std::filesystem::is_directory(data))
+    GTEST_SKIP() << "ARTICULAR_DATA names no folder with the data files";
+  struct Known {
+    const char* file;
+    int num_nodes, num_cells;
+    double volume;  // [mm³], as rounded in the README; [file unit³] for the .vtu
+  };
+  for (const Known& known :
+       {Known{"jaw/mandible.obj", 20882, 41760, 57635},
+        Known{"knee/femcart.obj", 13290, 26584, 13972}, Known{"tmj/disc_left.obj", 2713, 5422, 523},
+        Known{"tmj/disc_left_tet.inp", 3051, 10482, 519},
+        Known{"tmj/disc_right_tet.inp", 2372, 7480, 502},
+        Known{"verification/block_n4.vtu", 125, 384, 1},
+        Known{"verification/cook_n8.vtu", 162, 384, 8640}}) {
+    const std::filesystem::path file = std::filesystem::path(data) / known.file;
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+    const MeshData mesh = read_mesh(file, kMillimetre);
+    EXPECT_EQ(mesh.X.cols(), known.num_nodes) << file;
+    EXPECT_EQ(mesh.tets.cols() + mesh.triangles.cols(), known.num_cells) << file;
+    EXPECT_NEAR(volume(mesh) * 1e9, known.volume, 0.5) << file;
+  }
+}
+
+}  // namespace articular::sim::mesh_io_test

@@ -1,0 +1,363 @@
+// What probes record, beside closed forms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tests/sim/support/probes.hpp"
+#include "tests/sim/support/scenario_file.hpp"
+
+namespace articular::sim::history_test {
+
+constexpr double kSide = 0.02;      // of the block [m]
+constexpr double kStiffness = 1e7;  // of the contact [Pa/m]
+
+Probe contact_probe(const std::string& name, const std::string& first, const std::string& second) {
+  Probe probe;
+  probe.name = name;
+  probe.kind = Probe::Kind::Contact;
+  probe.body = first;
+  probe.other = second;
+  return probe;
+}
+
+Probe half(const std::string& name, const std::string& first, const std::string& second,
+           double sign) {
+  Probe probe = contact_probe(name, first, second);
+  const Vec3 low(sign > 0 ? 0 : -1, -1, -1), high(sign > 0 ? 1 : 0, 1, 1);
+  probe.region = Region{};
+  probe.region->box = {low, high};
+  return probe;
+}
+
+/// A tissue block on a wall under a plate, wider than it, that comes down by 0.2 mm and turns.
+Scenario press(Scenario::Analysis analysis, double turn) {
+  Scenario s = scene(analysis == Scenario::Analysis::Static ? 1 : 0.02);
+  s.analysis = analysis;
+  s.contact = true;
+  s.bodies = {
+      box_body("block", Body::Kind::Tissue, {kSide, kSide, kSide}, Vec3::Zero(), {4, 4, 2}),
+      box_body("plate", Body::Kind::Fixed, {2 * kSide, 2 * kSide, kSide}, {0, 0, kSide}, {6, 6, 1}),
+      stand("wall")};
+  s.bodies[0].material = linear(20e3, 0);
+  s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, -0.49 * kSide})};
+  s.contacts = {{"plate", "block", kStiffness, {}}};
+  Load down = shift("plate", 0.2, {0, 0, -2e-4});
+  down.motion.rotation = {Vec3::Zero(), Vec3(0, turn, 0)};
+  down.motion.about = Vec3(0, 0, kSide / 2);
+  s.loads = {down};
+  for (const auto& [first, second] : {std::pair("block", "plate"), std::pair("plate", "block")}) {
+    const std::string name = first;
+    s.probes.push_back(contact_probe(name, first, second));
+    s.probes.push_back(half(name + "_low", first, second, -1));
+    s.probes.push_back(half(name + "_high", first, second, 1));
+  }
+  Probe share;
+  share.name = "share";
+  share.kind = Probe::Kind::Share;
+  share.part = {"block_high"};
+  share.whole = {"block_low", "block_high"};
+  share.direction = Vec3::UnitZ();
+  s.probes.push_back(share);
+  return s;
+}
+
+/// Of a contact probe: force, its moment about the origin, area and what p sums to.
+struct Carried {
+  Vec3 force, moment;
+  double area, normal_force;
+};
+
+Carried carried(const Probes& probes, const std::string& name) {
+  const Vec3 force = probes.vec3(name + ".force", "N");
+  const double area = probes(name + ".area [mm^2]");
+  return {force,
+          probes.vec3(name + ".moment", "N m") +
+              1e-3 * probes.vec3(name + ".center", "mm").cross(force),
+          area, probes(name + ".mean_pressure [Pa]") * area * 1e-6};
+}
+
+TEST(ContactProbe, CompartmentsAddUpToTheWholeOfEitherBodyInStaticsAndInTime) {
+  for (const auto analysis : {Scenario::Analysis::Static, Scenario::Analysis::Dynamic}) {
+    Simulation run(press(analysis, 0.004));
+    run.advance(analysis == Scenario::Analysis::Static ? 1 : 0.3);
+    const Probes probes(run);
+    for (const std::string name : {"block", "plate"}) {
+      const Carried whole = carried(probes, name), low = carried(probes, name + "_low"),
+                    high = carried(probes, name + "_high");
+      const double force = whole.force.norm();
+      EXPECT_GT(force, 0.01);
+      EXPECT_LT((low.force + high.force - whole.force).norm(), 1e-12 * force);
+      EXPECT_LT((low.moment + high.moment - whole.moment).norm(), 1e-12 * force * kSide);
+      EXPECT_NEAR(low.area + high.area, whole.area, 1e-12 * whole.area);
+      EXPECT_NEAR(low.normal_force + high.normal_force, whole.normal_force, 1e-12 * force);
+      EXPECT_EQ(std::max(probes(name + "_low.max_pressure [Pa]"),
+                         probes(name + "_high.max_pressure [Pa]")),
+                probes(name + ".max_pressure [Pa]"));
+      EXPECT_LE(std::max(probes(name + "_low.max_face_pressure [Pa]"),
+                         probes(name + "_high.max_face_pressure [Pa]")),
+                probes(name + ".max_face_pressure [Pa]"));
+      // The plate's turn about y presses harder where x > 0.
+      EXPECT_GT(high.normal_force, 1.2 * low.normal_force);
+      EXPECT_GT(probes(name + "_high.center.x [mm]"), 0);
+      EXPECT_LT(probes(name + "_low.center.x [mm]"), 0);
+    }
+    const double high = probes("block_high.force.z [N]"), low = probes("block_low.force.z [N]");
+    EXPECT_NEAR(probes("share.share [-]"), high / (high + low), 1e-15);
+  }
+}
+
+// Uniform pressure: each half has half of the force, in the middle of its half, on half the area.
+TEST(ContactProbe, HalfOfAUniformlyPressedBlockCarriesHalf) {
+  Simulation run(press(Scenario::Analysis::Static, 0));
+  run.advance(1);
+  const Probes probes(run);
+  const double p = 2e-4 / (kSide / 20e3 + 1 / kStiffness), area = kSide * kSide;
+  for (const std::string name : {"block_low", "block_high"}) {
+    EXPECT_NEAR(probes(name + ".force.z [N]"), -p * area / 2, 1e-6 * p * area);
+    EXPECT_NEAR(probes(name + ".area [mm^2]"), 1e6 * area / 2, 1e-9);
+    EXPECT_NEAR(probes(name + ".mean_pressure [Pa]"), p, 1e-6 * p);
+    EXPECT_NEAR(std::abs(probes(name + ".center.x [mm]")), 1e3 * kSide / 4, 1e-6);
+  }
+  EXPECT_NEAR(probes("share.share [-]"), 0.5, 1e-6);
+}
+
+TEST(ContactProbe, ApartThereIsNoMeanPressureAndNoShare) {
+  Simulation run(press(Scenario::Analysis::Dynamic, 0));
+  const Probes probes(run);
+  EXPECT_EQ(probes("block_low.mean_pressure [Pa]"), 0);
+  EXPECT_TRUE(std::isnan(probes("block_low.center.x [mm]")));
+  EXPECT_TRUE(std::isnan(probes("share.share [-]")));
+}
+
+// Half of the surface that the plate presses on is tied to the wall: there contact goes straight
+// into the bone. What the wall gets in all is what the plate gives, up to what statics leaves
+// unbalanced (1e-6 of the largest force at each node).
+TEST(AttachmentProbe, CountsContactOnTheTiedNodesToo) {
+  Scenario s = press(Scenario::Analysis::Static, 0.004);
+  s.bodies[0].material = neo_hookean(20e3, 0);  // turns without moment
+  s.attachments.push_back(attach("block", "wall", {-1, -1, 0.49 * kSide}, {1e-6, 1, 1}));
+  const auto add = [&](const std::string& name, Probe::Kind kind, const std::string& body,
+                       const std::string& other) {
+    Probe probe;
+    probe.name = name;
+    probe.kind = kind;
+    probe.body = body;
+    probe.other = other;
+    s.probes.push_back(probe);
+  };
+  add("tied", Probe::Kind::Attachment, "block", "wall");
+  add("wall", Probe::Kind::Reaction, "wall", "");
+  Probe& share = *std::find_if(s.probes.begin(), s.probes.end(),
+                               [](const Probe& probe) { return probe.kind == Probe::Kind::Share; });
+  share.part = {"tied"};
+  share.whole = {"block"};
+  Simulation run(s);
+  run.advance(1);
+  const Probes probes(run);
+  const Carried plate = carried(probes, "block"), tied_half = carried(probes, "block_low");
+  const double force = plate.force.norm();
+  // Where nothing gives way pressure is much larger than on the free half.
+  EXPECT_GT(tied_half.force.norm(), 0.5 * force);
+  EXPECT_LT((probes.vec3("tied.force", "N") - plate.force).norm(), 1e-5 * force);
+  EXPECT_LT((probes.vec3("tied.moment", "N m") - plate.moment).norm(), 1e-5 * force * kSide);
+  EXPECT_LT((probes.vec3("wall.force", "N") - probes.vec3("tied.force", "N")).norm(),
+            1e-12 * force);
+  EXPECT_LT((probes.vec3("wall.moment", "N m") - probes.vec3("tied.moment", "N m")).norm(),
+            1e-12 * force * kSide);
+  EXPECT_NEAR(probes("share.share [-]"), 1, 1e-5);
+}
+
+TEST(LineProbe, ALigamentHasItsForceAndItsStrainFromSlack) {
+  Scenario s = scene(0.1);
+  s.bodies = {stand("a"), stand("b")};
+  Ligament ligament;
+  ligament.name = "acl";
+  ligament.path = {anchor("a", Vec3::Zero()), anchor("b", {0, 0, 0.03})};
+  ligament.law = Ligament::Law::Blankevoort;
+  ligament.stiffness = 5000;
+  ligament.reference_strain = 0.02;
+  s.ligaments = {ligament};
+  s.loads = {shift("b", 1, {0, 0, 0.003})};
+  Probe probe;
+  probe.name = "acl";
+  probe.kind = Probe::Kind::Line;
+  probe.line = "acl";
+  s.probes = {probe};
+  Simulation run(s);
+  EXPECT_NEAR(Probes(run)("acl.strain [-]"), 0.02, 1e-15);
+  EXPECT_NEAR(Probes(run)("acl.force [N]"), 5000 * 0.02 * 0.02 / (4 * 0.03), 1e-9);
+  run.advance(1);
+  const double strain = 1.1 * 1.02 - 1;  // beyond the toe
+  EXPECT_NEAR(Probes(run)("acl.strain [-]"), strain, 1e-12);
+  EXPECT_NEAR(Probes(run)("acl.force [N]"), 5000 * (strain - 0.03), 1e-8);
+}
+
+// A driven box that a line pulls at: the moment is about its middle, where that is by then.
+TEST(ReactionProbe, ADrivenBodyHasForceAndMomentAboutItsMiddle) {
+  Scenario s = scene(0.1);
+  const Vec3 middle(0.1, 0.2, 0.3), corner(0.11, 0.21, 0.32), wall(0, 1, 0);
+  s.bodies = {box_body("box", Body::Kind::Fixed, {0.02, 0.04, 0.06}, middle), stand("wall")};
+  Ligament spring;
+  spring.name = "spring";
+  spring.path = {anchor("wall", wall), anchor("box", corner)};
+  spring.stiffness = 100;
+  spring.slack_length = 0.5;
+  s.ligaments = {spring};
+  Load motion = shift("box", 1, {0.05, 0, 0});
+  motion.motion.rotation = {Vec3::Zero(), Vec3(0, 0, 1.5)};
+  s.loads = {motion};
+  Probe probe;
+  probe.name = "box";
+  probe.kind = Probe::Kind::Reaction;
+  probe.body = "box";
+  s.probes = {probe};
+  Simulation run(s);
+  run.advance(1);
+  const Mat3 R = rotation_matrix({0, 0, 1.5});
+  const Vec3 end = R * corner + Vec3(0.05, 0, 0);
+  const Vec3 pull = 100 * ((wall - end).norm() - 0.5) * (wall - end).normalized();
+  const Probes probes(run);
+  EXPECT_LT((probes.vec3("box.force", "N") - pull).norm(), 1e-9);
+  EXPECT_LT((probes.vec3("box.moment", "N m") - (R * (corner - middle)).cross(pull)).norm(), 1e-9);
+}
+
+/// The jaw's frame: x left, y posterior, z up.
+JointSide side_at(const std::string& body, bool is_right, const Vec3& origin) {
+  return {body, origin, Vec3(is_right ? -1 : 1, 0, 0), Vec3::UnitZ()};
+}
+
+/// Flexion takes the shank back, abduction outwards, internal rotation the toes inwards: rotations
+/// about x, then the y that has turned with it, then the z of the shank.
+Mat3 shank_turned(double flexion, double abduction, double internal, bool is_right) {
+  const double s = is_right ? 1 : -1;
+  return rotation_matrix({flexion, 0, 0}) * rotation_matrix({0, s * abduction, 0}) *
+         rotation_matrix({0, 0, s * internal});
+}
+
+TEST(JointCoordinates, GiveBackTheTurnsThatAPoseIsComposedOf) {
+  const Mat3 thigh = rotation_matrix({0.3, -0.8, 2.1});
+  for (const bool is_right : {true, false})
+    for (const double flexion : {-0.1, 0.0, 0.5, 2.4})
+      for (const double abduction : {-0.3, 0.0, 0.2})
+        for (const double internal : {-0.4, 0.0, 0.7}) {
+          const JointFrame femur =
+              proximal_frame(side_at("femur", is_right, Vec3::Zero()), is_right, 0, {}, {});
+          const JointFrame tibia =
+              distal_frame(side_at("tibia", is_right, Vec3::Zero()), is_right, 1, {}, {});
+          const Pose distal{Vec3::Zero(),
+                            thigh * shank_turned(flexion, abduction, internal, is_right)};
+          const JointCoordinates q =
+              joint_coordinates(femur, {Vec3::Zero(), thigh}, tibia, distal, is_right);
+          EXPECT_NEAR(q.flexion, flexion, 1e-14);
+          EXPECT_NEAR(q.abduction, abduction, 1e-14);
+          EXPECT_NEAR(q.internal_rotation, internal, 1e-14);
+          EXPECT_LT(std::abs(q.lateral) + std::abs(q.anterior) + std::abs(q.distraction), 1e-15);
+        }
+}
+
+// In a knee bent by 90 degrees (shank towards +y): its forward is down, and away from the thigh is
+// back.
+TEST(JointCoordinates, TranslationsAreAlongLateralFloatingAndShankAxis) {
+  for (const bool is_right : {true, false}) {
+    const double out = is_right ? -1 : 1;
+    const JointFrame femur =
+        proximal_frame(side_at("femur", is_right, {0, 0, 0.02}), is_right, 0, {}, {});
+    const JointFrame tibia =
+        distal_frame(side_at("tibia", is_right, {0, 0, -0.01}), is_right, 1, {}, {});
+    JointCoordinates q = joint_coordinates(
+        femur, {}, tibia, {Vec3(3e-3 * out, -2e-3, -1e-3), Mat3::Identity()}, is_right);
+    EXPECT_NEAR(q.lateral, 3e-3, 1e-15);
+    EXPECT_NEAR(q.anterior, 2e-3, 1e-15);
+    EXPECT_NEAR(q.distraction, 31e-3, 1e-15);
+    const Mat3 bent = rotation_matrix({M_PI / 2, 0, 0});
+    const Vec3 origin = Vec3(0, 0, 0.02) + Vec3(3e-3 * out, 5e-3, -7e-3);
+    q = joint_coordinates(femur, {}, tibia, {origin - bent * Vec3(0, 0, -0.01), bent}, is_right);
+    EXPECT_NEAR(q.flexion, M_PI / 2, 1e-14);
+    EXPECT_NEAR(q.lateral, 3e-3, 1e-15);
+    EXPECT_NEAR(q.anterior, 7e-3, 1e-15);
+    EXPECT_NEAR(q.distraction, 5e-3, 1e-15);
+  }
+}
+
+TEST(JointCoordinates, HaveNoFlexionAtARightAngleOfAbduction) {
+  const JointFrame femur = proximal_frame(side_at("femur", true, Vec3::Zero()), true, 0, {}, {});
+  const JointFrame tibia = distal_frame(side_at("tibia", true, Vec3::Zero()), true, 1, {}, {});
+  const JointCoordinates q =
+      joint_coordinates(femur, {}, tibia, {Vec3::Zero(), shank_turned(0, M_PI / 2, 0, true)}, true);
+  EXPECT_NEAR(q.abduction, M_PI / 2, 1e-7);
+  EXPECT_TRUE(std::isnan(q.flexion));
+}
+
+TEST(JointProbe, ADrivenTibiaHasTheCoordinatesOfItsMotion) {
+  Scenario s = scene(0.1);
+  s.bodies = {box_body("femur", Body::Kind::Fixed, {0.04, 0.04, 0.04}, {0, 0, 0.03}),
+              box_body("tibia", Body::Kind::Fixed, {0.04, 0.04, 0.04}, {0, 0.01, -0.03})};
+  Load motion = shift("tibia", 1, {0, 0, -0.004});
+  motion.motion.rotation = {Vec3::Zero(), Vec3(0.6, 0, 0)};
+  s.loads = {motion};
+  Probe probe;
+  probe.name = "knee";
+  probe.kind = Probe::Kind::Joint;
+  probe.proximal = side_at("femur", false, Vec3::Zero());
+  probe.distal = side_at("tibia", false, Vec3::Zero());
+  probe.is_right = false;
+  s.probes = {probe};
+  Simulation run(s);
+  run.advance(1);
+  const Probes probes(run);
+  EXPECT_NEAR(probes("knee.flexion [deg]"), 0.6 * 180 / M_PI, 1e-10);
+  EXPECT_NEAR(probes("knee.abduction [deg]"), 0, 1e-12);
+  EXPECT_NEAR(probes("knee.distraction [mm]"), 4 * std::cos(0.6), 1e-12);
+  EXPECT_NEAR(probes("knee.anterior [mm]"), 4 * std::sin(0.6), 1e-12);
+}
+
+using ProbeFile = ScenarioTest;
+
+TEST_F(ProbeFile, SharesAndJointsAreRead) {
+  const Scenario s = read(kStart + R"(
+[[probe]]
+name = "skull"
+kind = "reaction"
+body = "skull"
+[[probe]]
+name = "share"
+kind = "share"
+part = ["skull"]
+whole = ["skull"]
+direction = [0, 0, 2]
+[[probe]]
+name = "jaw"
+kind = "joint"
+side = "left"
+proximal = { body = "skull", point = "1 2 3 mm", lateral = [1, 0, 0], up = [0, 0, 1] }
+distal = { body = "mandible", point = "0 0 0 mm", lateral = [1, 0, 0], up = [0, 0, 1] }
+)");
+  ASSERT_EQ(s.probes.size(), 3U);
+  EXPECT_EQ(s.probes[1].part, std::vector<std::string>{"skull"});
+  EXPECT_EQ(s.probes[1].direction, Vec3::UnitZ());
+  EXPECT_FALSE(s.probes[2].is_right);
+  EXPECT_LT((s.probes[2].proximal.origin - Vec3(1e-3, 2e-3, 3e-3)).norm(), 1e-15);
+}
+
+TEST_F(ProbeFile, WhatSharesAndJointsCannotBeIsRefused) {
+  const auto expect = [&](const std::string& text, const std::string& words) {
+    EXPECT_NE(refusal(kStart + "[[probe]]\nname = \"p\"\n" + text).find(words), std::string::npos)
+        << refusal(kStart + "[[probe]]\nname = \"p\"\n" + text);
+  };
+  const std::string skull =
+      "proximal = { body = \"skull\", point = \"0 0 0 m\", "
+      "lateral = [1, 0, 0], up = [0, 0, 1] }\n";
+  expect("kind = \"share\"\npart = [\"p\"]\nwhole = [\"p\"]\ndirection = [0, 0, 1]\n",
+         "expected names of contact, attachment or reaction probes, found `p`");
+  expect("kind = \"share\"\npart = [\"p\"]\nwhole = [\"p\"]\n", "`direction`");
+  expect("kind = \"joint\"\nside = \"right\"\n" + skull +
+             "distal = { body = \"skull\", point = \"0 0 0 m\", lateral = [1, 0, 0], "
+             "up = [0, 0, 1] }\n",
+         "a joint needs two bodies");
+  expect("kind = \"joint\"\nmirror = \"x\"\nside = \"right\"\n" + skull, "not mirrored");
+  expect("kind = \"energy\"\nregion = {}\n", "the probe is of kind \"energy\"");
+}
+
+}  // namespace articular::sim::history_test

@@ -1,0 +1,174 @@
+// What a run says of itself: energy that was lost or made, elements inside out, deep contact.
+#include "sim/output/run_warnings.hpp"
+#include "sim/build/build_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sim/base/error.hpp"
+#include "sim/run/run.hpp"
+#include "sim/step/run_extrema.hpp"
+#include "tests/sim/support/scene.hpp"
+#include "tests/sim/support/temporary_folder.hpp"
+
+namespace articular::sim::run_warnings_test {
+
+std::string all_warnings(const Simulation& run) {
+  std::string all;
+  for (const std::string& warning : run_warnings(run.model, run.state, run.stepper))
+    all += warning + "\n";
+  return all;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A column that gravity begins to pull; it swings with a period of 10 ms.
+Scenario column(double step, Integrator::Scheme scheme) {
+  Scenario s = scene(step, scheme);
+  s.bodies = {box_body("column", Body::Kind::Tissue, {0.002, 0.002, 0.01}, Vec3::Zero(), {1, 1, 5}),
+              stand("wall")};
+  s.attachments = {attach("column", "wall", {-1, -1, 0.00499}, {1, 1, 1})};
+  s.loads = {gravity({0, 0, -10})};
+  return s;
+}
+
+TEST(RunWarnings, ASwingThatItsStepsDampIsTold) {
+  Simulation run(column(5e-3, Integrator::Scheme::ImplicitEuler));
+  run.advance(0.1);
+  EXPECT_TRUE(has(all_warnings(run), "the time integration took")) << all_warnings(run);
+}
+
+TEST(RunWarnings, OneThatIsFollowedGivesNone) {
+  Simulation run(column(1e-4, Integrator::Scheme::Dirk3));
+  run.advance(0.02);
+  EXPECT_EQ(all_warnings(run), "");
+}
+
+// All of a block lies mirrored at the start: every element is inside out, and comes back.
+TEST(RunWarnings, ElementsInsideOutAreNamed) {
+  Scenario s = scene(2e-3);
+  s.bodies = {box_body("block", Body::Kind::Tissue, {0.01, 0.01, 0.01}, Vec3::Zero(), {2, 2, 2})};
+  Simulation run(s);
+  run.state.y.head(3 * run.model.layout.num_free_nodes) *= -1;
+  run.stepper.restart(run.state);
+  run.state.energy.start = run.stepper.stored_energy().total();
+  run.advance(2e-3);
+  EXPECT_LT(run.state.extrema.volume_ratio, 0);
+  EXPECT_TRUE(has(all_warnings(run), "of tissue `block` was inside out")) << all_warnings(run);
+}
+
+/// Soft tissue between two plates, pressed to a part of its height, and let go again.
+Scenario press(double stretch, bool lifted) {
+  constexpr double kSide = 0.01;
+  Scenario s = scene(0.01);
+  s.contact = true;
+  s.integrator.position_tolerance.reset();
+  const Vec3 plate(0.06, 0.06, 0.01);
+  s.bodies = {
+      box_body("floor", Body::Kind::Fixed, plate, {0, 0, -0.01}),
+      box_body("press", Body::Kind::Fixed, plate, {0, 0, 0.01}),
+      box_body("block", Body::Kind::Tissue, Vec3::Constant(kSide), Vec3::Zero(), {2, 2, 2})};
+  s.bodies[2].material = neo_hookean(1e4, 0.49);
+  s.bodies[2].material->mass_damping = 20;
+  const Vec3 way(0, 0, -(1 - stretch) * kSide);
+  s.loads = {shift("press", 0.5, way)};
+  if (lifted) {
+    s.loads[0].motion.time.push_back(1);
+    s.loads[0].motion.translation.emplace_back(Vec3::Zero());
+  }
+  return s;
+}
+
+// Contact is the first to be asked where energy came from nothing.
+TEST(RunWarnings, EnergyThatWasMadeIsToldWithTheDeepestContact) {
+  Simulation run(press(0.05, false));
+  run.advance(0.5);
+  EXPECT_FALSE(has(all_warnings(run), "were made out of nothing")) << all_warnings(run);
+  note_balance(-0.02 * turned_over(run.state), run.state);
+  const std::string told = all_warnings(run);
+  EXPECT_TRUE(has(told, "were made out of nothing")) << told;
+  EXPECT_TRUE(has(told, "contact of `")) << told;
+  EXPECT_TRUE(has(told, "max_penetration")) << told;
+}
+
+TEST(RunWarnings, EnergyThatWasMadeInBetweenIsTold) {
+  Simulation run(column(1e-4, Integrator::Scheme::Dirk3));
+  run.advance(0.02);
+  note_balance(-0.02 * turned_over(run.state), run.state);
+  EXPECT_TRUE(has(all_warnings(run), "made out of nothing, 2 % of")) << all_warnings(run);
+}
+
+TEST(RunWarnings, MoreEnergyMadeThanGivenEndsTheRun) {
+  Simulation run(column(1e-4, Integrator::Scheme::Dirk3));
+  run.advance(0.01);
+  note_balance(-1e3 * turned_over(run.state), run.state);
+  EXPECT_THROW(run.advance(0.02), SimulationError);
+}
+
+// A tumbling body gains energy from this scheme.
+TEST(RunWarnings, EnergyMadeBetweenFramesIsNoted) {
+  const TemporaryFolder folder;
+  Scenario s = scene(0.02, Integrator::Scheme::TrBdf2);
+  s.bodies = {box_body("body", Body::Kind::Rigid, {0.01, 0.02, 0.03}, Vec3::Zero(), {1, 1, 1})};
+  s.bodies[0].angular_velocity = {3, 4, 5};
+  s.duration = 0.5;
+  s.output.interval = 1;  // the next frame is that of the end
+  const Model model = build_model(s);
+  double noted = 0;  // [J]
+  RunOptions options;
+  options.directory = folder.path();
+  options.after_step = [&](const State& state, double duration) {
+    if (state.t < duration) noted = state.extrema.made;
+    return false;
+  };
+  run(model, options);
+  EXPECT_GT(noted, 0);
+}
+
+// When it is let go again a press has done no work on the whole: what it had done in between is
+// what a loss is much or little of.
+TEST(RunWarnings, APressThatIsLiftedAgainGivesNone) {
+  Simulation run(press(0.8, true));
+  double most = 0;
+  run.advance(1, [&] { most = std::max(most, run.stepper.stored_energy().elastic); });
+  EXPECT_LT(std::abs(run.state.energy.motion_work), 0.1 * most);
+  EXPECT_GT(turned_over(run.state), 0.99 * most);
+  EXPECT_EQ(all_warnings(run), "");
+}
+
+// A run is stopped once most of its energy has come from nowhere, with the fastest body by name.
+TEST(RunWarnings, EnergyMadeOfNothingEndsARun) {
+  Scenario s = scene(1e-3);
+  s.bodies = {mass_body("mass", 1)};
+  s.bodies[0].velocity = {0, 0, 3};
+  Simulation run(s);
+  run.advance(2e-3);
+  run.state.energy.start -= 4;  // of 4.5 J: as if it had begun slower
+  try {
+    run.advance(3e-3);
+    FAIL() << "it went on";
+  } catch (const SimulationError& error) {
+    EXPECT_TRUE(has(error.what(), "made out of nothing")) << error.what();
+    EXPECT_TRUE(has(error.what(), "body `mass` (3 m/s)")) << error.what();
+  }
+}
+
+// Where no step can be made, what the summary is made from is that of the last one that was.
+TEST(RunWarnings, AfterAFailureTheStepperIsBackAtTheLastState) {
+  Scenario s = column(1e-3, Integrator::Scheme::ImplicitEuler);
+  s.integrator.max_iterations = 1;  // too few for anything that is not linear
+  s.integrator.min_step = 1e-3;
+  s.loads = {gravity({0, 0, -1e5})};
+  Simulation run(s);
+  const double before = run.stepper.stored_energy().total();
+  EXPECT_THROW(run.advance(0.1), SimulationError);
+  EXPECT_EQ(run.state.t, 0);
+  EXPECT_EQ(run.stepper.stored_energy().total(), before);
+}
+
+}  // namespace articular::sim::run_warnings_test

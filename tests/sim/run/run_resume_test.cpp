@@ -1,0 +1,339 @@
+// run(): interruption, checkpoints, and what a resumed run makes of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "sim/build/build_model.hpp"
+#include "sim/output/checkpoint.hpp"
+#include "tests/sim/support/run_scene.hpp"
+
+namespace articular::sim::run_resume_test {
+
+/// The files below a folder, but for the summary, which holds wall times.
+std::map<std::string, std::string> files(const fs::path& folder) {
+  std::map<std::string, std::string> result;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().filename() != "summary.json")
+      result[fs::relative(entry.path(), folder).string()] = content(entry.path());
+  return result;
+}
+
+void expect_same_files(const fs::path& a, const fs::path& b) {
+  const auto expected = files(a), found = files(b);
+  EXPECT_GT(expected.size(), 30U);
+  ASSERT_EQ(expected.size(), found.size());
+  for (const auto& [name, bytes] : expected) {
+    ASSERT_TRUE(found.count(name)) << name;
+    EXPECT_TRUE(found.at(name) == bytes) << name << " differs";
+  }
+}
+
+class Resumed : public RunTest, public ::testing::WithParamInterface<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Run, Resumed,
+                         ::testing::Values("integrator.scheme=implicit-euler",
+                                           "integrator.scheme=tr-bdf2", "detection.lagged=true",
+                                           "integrator.solver=conjugate-gradients"));
+
+// Interrupted between two checkpoints, twice; every byte of checkpoint, history and frames.
+TEST_P(Resumed, AnInterruptedRunGivesTheSameFilesBitForBit) {
+  const std::vector<std::string> overrides = {GetParam()};
+  EXPECT_EQ(run_all("whole", false, overrides), RunOutcome::Finished);
+  EXPECT_EQ(run_until(0.0275, "parts", false, overrides), RunOutcome::Interrupted);
+  EXPECT_EQ(run_until(0.043, "parts", true, overrides), RunOutcome::Interrupted);
+  EXPECT_EQ(run_all("parts", true, overrides), RunOutcome::Finished);
+  expect_same_files(out("whole"), out("parts"));
+}
+
+/// A block bounces off another: contact couplings come and go. All times are multiples of 2^-14 s,
+/// so that every step has the same length to the last bit, and a matrix that was factored before a
+/// checkpoint would serve after it.
+const std::string kBouncing = R"(
+duration = "62.5 ms"
+[integrator]
+step = "0.9765625 ms"
+[[body]]
+name = "table"
+kind = "fixed"
+geometry = { box = { size = "20 20 4 mm", cells = [2, 2, 1], center = "0 0 -2 mm" } }
+[[body]]
+name = "block"
+kind = "tissue"
+geometry = { box = { size = "10 10 10 mm", cells = [3, 3, 3], center = "0 0 5 mm" } }
+density = "1000 kg/m^3"
+material = { law = "neo-hookean", young_modulus = "10 kPa", poisson_ratio = 0.4 }
+[[attach]]
+body = "block"
+to = "table"
+region = { box = ["-6 -6 -0.1 mm", "6 6 0.1 mm"] }
+[[body]]
+name = "bouncer"
+kind = "tissue"
+geometry = { box = { size = "6 5 4 mm", cells = [3, 2, 2] }, place = { rotation = "4 6 20 deg", translation = "0.5 0 12.8 mm" } }
+density = "1000 kg/m^3"
+material = { law = "neo-hookean", young_modulus = "10 kPa", poisson_ratio = 0.4 }
+velocity = "80 0 -250 mm/s"
+[[probe]]
+name = "energy"
+kind = "energy"
+[[probe]]
+name = "contact"
+kind = "contact"
+bodies = ["block", "bouncer"]
+[output]
+interval = "7.8125 ms"
+checkpoint_interval = "7.8125 ms"
+)";
+
+constexpr double kBetweenCheckpoints = 0.0078125;
+
+// A step at a checkpoint must not know what was before it: a matrix, a pattern that has grown.
+TEST_F(RunTest, ARunResumedWhileContactsComeAndGoIsTheUninterruptedOne) {
+  const Model bouncing = build_model(read_scenario(folder_.file("bouncing.toml", kBouncing)));
+  const auto run_to = [&](double until, const std::string& name, bool resume) {
+    RunOptions options;
+    options.directory = out(name);
+    options.resume = resume;
+    options.after_step = [until](const State& state, double) { return state.t >= until; };
+    run(bouncing, options);
+  };
+  run_to(1, "whole", false);
+  const std::string whole = content(out("whole") / "history.csv");
+  // It touches before and after the first checkpoint, and no more after the fourth.
+  const auto lines = split(whole, '\n');
+  const auto columns = split(lines[0], ',');
+  const auto area = static_cast<std::size_t>(
+      std::find(columns.begin(), columns.end(), "contact.area [mm^2]") - columns.begin());
+  const auto touches = [&](double from, double to) {
+    return std::any_of(lines.begin() + 1, lines.end(), [&](const std::string& line) {
+      const auto cells = split(line, ',');
+      const double t = std::stod(cells[0]);
+      return t > from && t <= to && std::stod(cells[area]) > 0;
+    });
+  };
+  EXPECT_TRUE(touches(0, kBetweenCheckpoints));
+  EXPECT_TRUE(touches(kBetweenCheckpoints, 2 * kBetweenCheckpoints));
+  EXPECT_FALSE(touches(4 * kBetweenCheckpoints, 1));
+  for (int checkpoint = 1; checkpoint < 8; ++checkpoint) {
+    const std::string name = "parts" + std::to_string(checkpoint);
+    run_to((checkpoint + 0.3) * kBetweenCheckpoints, name, false);
+    run_to(1, name, true);
+    EXPECT_EQ(content(out(name) / "history.csv"), whole) << checkpoint;
+    // In full precision.
+    EXPECT_TRUE(content(out(name) / "checkpoint/state.bin") ==
+                content(out("whole") / "checkpoint/state.bin"))
+        << checkpoint;
+  }
+}
+
+/// In equilibrium; a plate comes down on a block by 1 mm in four load steps.
+const std::string kPressed = R"(
+duration = "0.4 s"
+analysis = "static"
+[integrator]
+step = "0.1 s"
+[[body]]
+name = "floor"
+kind = "fixed"
+[[body]]
+name = "plate"
+kind = "fixed"
+geometry = { box = { size = "20 20 2 mm", cells = [4, 4, 1], center = "0 0 11 mm" } }
+[[body]]
+name = "block"
+kind = "tissue"
+geometry = { box = { size = "10 10 10 mm", cells = [4, 4, 4], center = "0 0 5 mm" } }
+density = "1000 kg/m^3"
+material = { law = "neo-hookean", young_modulus = "15 kPa", poisson_ratio = 0.45, element = "smoothed" }
+[[attach]]
+body = "block"
+to = "floor"
+region = { box = ["-6 -6 -0.1 mm", "6 6 0.1 mm"] }
+[[load]]
+kind = "motion"
+body = "plate"
+time = ["0 s", "0.4 s"]
+translation = ["0 0 0 mm", "0 0 -1 mm"]
+[[probe]]
+name = "plate"
+kind = "contact"
+bodies = ["plate", "block"]
+[[probe]]
+name = "energy"
+kind = "energy"
+[output]
+interval = "0.1 s"
+)";
+
+// In the middle of a load step: what was written is that of the steps before it, energies too, and
+// a resumed run goes on to what it would have been.
+TEST_F(RunTest, ALoadStepIsInterruptedAfterAnyOfItsIterations) {
+  const Model pressed = build_model(read_scenario(folder_.file("pressed.toml", kPressed)));
+  int done = 0;
+  const auto run_to = [&](double t, int iteration, const std::string& name, bool resume) {
+    int of_step = 0;
+    double load_step = 0;
+    RunOptions options;
+    options.directory = out(name);
+    options.resume = resume;
+    options.after_iteration = [&](double towards, const NewtonIteration& newton) {
+      EXPECT_GE(newton.residual, 0);
+      if (towards != load_step) of_step = 0;
+      load_step = towards;
+      ++done;
+      return towards > t && ++of_step == iteration;
+    };
+    return run(pressed, options);
+  };
+  const auto summary = [&](const std::string& name) {
+    return nlohmann::json::parse(content(out(name) / "summary.json"));
+  };
+  EXPECT_EQ(run_to(1, 1, "whole", false), RunOutcome::Finished);
+  EXPECT_EQ(done, summary("whole")["counts"]["newton_iterations"]);
+  for (const int iteration : {1, 2}) {
+    for (const double t : {0.05, 0.15, 0.35}) {
+      const std::string name = "parts" + std::to_string(iteration) + std::to_string(t);
+      EXPECT_EQ(run_to(t, iteration, name, false), RunOutcome::Interrupted);
+      EXPECT_EQ(summary(name)["outcome"], "interrupted");
+      const auto rows = split(content(out(name) / "history.csv"), '\n');
+      const auto columns = split(rows.front(), ','), last = split(rows.back(), ',');
+      EXPECT_NEAR(std::stod(last[0]), summary(name)["simulated_time_s"].get<double>(), 1e-9);
+      EXPECT_LT(std::stod(last[0]), t);
+      const auto elastic = static_cast<std::size_t>(
+          std::find(columns.begin(), columns.end(), "energy.elastic [J]") - columns.begin());
+      const double energy = summary(name)["energy"]["end"]["elastic"];
+      EXPECT_NEAR(std::stod(last[elastic]), energy, 1e-8 * energy);
+      EXPECT_EQ(run_to(1, 1, name, true), RunOutcome::Finished);
+      EXPECT_EQ(content(out(name) / "history.csv"), content(out("whole") / "history.csv"));
+      EXPECT_EQ(content(out(name) / "convergence.csv"), content(out("whole") / "convergence.csv"));
+    }
+  }
+}
+
+// In the middle of a step of time, which may take long too: likewise.
+TEST_F(RunTest, AStepIsInterruptedAtAnyOfItsEvaluations) {
+  for (const std::string scheme : {"implicit-euler", "tr-bdf2", "bdf", "explicit"}) {
+    const std::vector<std::string> overrides = {"duration='0.2 s'",
+                                                "integrator.scheme='" + scheme + "'"};
+    run_all("whole " + scheme, false, overrides);
+    const std::string whole = content(out("whole " + scheme) / "history.csv");
+    for (const int evaluation : {1, 20, 71}) {
+      const std::string name = scheme + std::to_string(evaluation);
+      RunOptions options;
+      options.directory = out(name);
+      int asked = 0;
+      options.is_to_stop = [&] { return ++asked == evaluation; };
+      EXPECT_EQ(run(model(overrides), options), RunOutcome::Interrupted);
+      EXPECT_EQ(asked, evaluation);
+      const std::string history = content(out(name) / "history.csv");
+      EXPECT_EQ(whole.substr(0, history.size()), history);
+      const auto summary = nlohmann::json::parse(content(out(name) / "summary.json"));
+      EXPECT_EQ(summary["outcome"], "interrupted");
+      EXPECT_NEAR(std::stod(split(split(history, '\n').back(), ',')[0]),
+                  summary["simulated_time_s"].get<double>(), 1e-9);
+      run_all(name, true, overrides);
+      EXPECT_EQ(content(out(name) / "history.csv"), whole);
+    }
+  }
+}
+
+// Settling takes long too; what an earlier run has left in the folder doesn't outlive it.
+TEST_F(RunTest, SettlingIsInterruptedAndResumingStartsAfresh) {
+  const std::vector<std::string> overlap = {"body.table.geometry.box.center=0 0 -1.1 mm",
+                                            "duration=30 ms"};
+  run_all("whole", false, overlap);
+  run_all("parts", false, overlap);
+  RunOptions options;
+  options.directory = out("parts");
+  options.after_iteration = [](double t, const NewtonIteration&) {
+    EXPECT_EQ(t, 0);
+    return true;
+  };
+  EXPECT_EQ(run(model(overlap), options), RunOutcome::Interrupted);
+  EXPECT_EQ(split(content(out("parts") / "history.csv"), '\n').size(), 1U);
+  EXPECT_FALSE(fs::exists(out("parts") / "scene.pvd"));
+  run_all("parts", true, overlap);
+  EXPECT_EQ(content(out("parts") / "history.csv"), content(out("whole") / "history.csv"));
+}
+
+// Where the table stands 1 mm in the block: the summary tells how they were set apart, also that of
+// a resumed run, which goes on from there.
+TEST_F(RunTest, SettlingIsToldAndKeptByCheckpoints) {
+  const std::vector<std::string> overlap = {"body.table.geometry.box.center=0 0 -1.1 mm",
+                                            "duration=30 ms"};
+  int calls = 0;
+  const auto settled = [&](const std::string& name, const std::vector<std::string>& more) {
+    RunOptions options;
+    options.directory = out(name);
+    options.after_overlap_resolution = [&](const OverlapResolution&) { ++calls; };
+    std::vector<std::string> overrides = overlap;
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    run(model(overrides), options);
+    return nlohmann::json::parse(content(out(name) / "summary.json"))["settling"];
+  };
+  const nlohmann::json settling = settled("whole", {});
+  EXPECT_EQ(calls, 1);
+  ASSERT_EQ(settling["overlaps"].size(), 1U);
+  EXPECT_EQ(settling["overlaps"][0]["bodies"], (std::vector<std::string>{"table", "block"}));
+  EXPECT_NEAR(settling["overlaps"][0]["before_m"], 0.9e-3, 1e-9);
+  EXPECT_LT(settling["overlaps"][0]["after_m"], 0.05e-3);
+  EXPECT_NEAR(settling["largest_motion_m"], 0.9e-3, 0.1e-3);
+  // The overlap that there was is no penetration of the run.
+  EXPECT_LT(nlohmann::json::parse(content(out("whole") / "summary.json"))["max_penetration_m"],
+            0.2e-3);
+  EXPECT_TRUE(settled("as it is", {"settling=false"}).is_null());
+  EXPECT_EQ(calls, 1);
+  run_until(0.023, "parts", false, overlap);
+  run_all("parts", true, overlap);
+  EXPECT_EQ(nlohmann::json::parse(content(out("parts") / "summary.json"))["settling"], settling);
+  EXPECT_EQ(content(out("parts") / "history.csv"), content(out("whole") / "history.csv"));
+}
+
+// A checkpoint at 2/3 of something: its time has no end in decimals, and is printed rounded up.
+TEST_F(RunTest, ACheckpointAtATimeThatIsPrintedRoundedUpKeepsItsRow) {
+  const std::vector<std::string> overrides = {"output.checkpoint_interval=6.666666666666667 ms",
+                                              "duration=30 ms"};
+  run_all("whole", false, overrides);
+  run_until(0.0085, "parts", false, overrides);
+  run_all("parts", true, overrides);
+  EXPECT_EQ(content(out("whole") / "history.csv"), content(out("parts") / "history.csv"));
+}
+
+TEST_F(RunTest, ResumingWithoutACheckpointStartsAfresh) {
+  EXPECT_EQ(run_all("afresh", true), RunOutcome::Finished);
+  EXPECT_TRUE(fs::exists(out("afresh") / "summary.json"));
+}
+
+TEST_F(RunTest, ADamagedCheckpointIsRefusedInOneLine) {
+  run_until(0.03, "run", false);
+  const fs::path file = out("run") / "checkpoint" / "state.bin";
+  const std::string whole = content(file);
+  ASSERT_GT(whole.size(), 500U);
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{7}, whole.size() / 2, whole.size() - 1}) {
+    std::ofstream(file, std::ios::binary) << whole.substr(0, size);
+    EXPECT_NE(refusal("run").find("not a whole checkpoint"), std::string::npos) << size;
+  }
+  std::string flipped = whole;
+  flipped[whole.size() / 2] ^= 1;
+  std::ofstream(file, std::ios::binary) << flipped;
+  EXPECT_NE(refusal("run").find("not a whole checkpoint"), std::string::npos);
+  EXPECT_EQ(refusal("run").find('\n'), std::string::npos);
+}
+
+TEST_F(RunTest, ACheckpointOfAnotherScenarioIsRefusedInOneLine) {
+  run_until(0.03, "run", false);
+  for (const char* change :
+       {"integrator.step=0.5 ms", "body.block.material.young_modulus=30 kPa",
+        "body.block.density=900 kg/m^3", "muscle.puller.max_force=1 N",
+        "load.0.acceleration=0 0 -9 m/s^2", "probe.plate.point=1 0 12 mm",
+        "body.block.geometry.box.cells=[2, 2, 3]", "ligament.band.stiffness=6 N/m"}) {
+    const std::string message = refusal("run", {change});
+    EXPECT_NE(message.find("belongs to another scenario"), std::string::npos) << change;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+  }
+  EXPECT_EQ(refusal("run"), "");
+}
+
+}  // namespace articular::sim::run_resume_test

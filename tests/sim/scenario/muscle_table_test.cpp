@@ -1,0 +1,105 @@
+#include "sim/scenario/muscle_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/sim/support/scenario_file.hpp"
+
+namespace articular::sim::muscle_table_test {
+
+class MuscleTable : public ScenarioTest {
+ protected:
+  static constexpr const char* kHeader =
+      "id,muscle,side,body_upper,ux_mm,uy_mm,uz_mm,body_lower,lx_mm,ly_mm,lz_mm,length_mm,max_"
+      "force_N,"
+      "published_opt_length_mm,max_over_opt_length,tendon_ratio\n";
+  static constexpr const char* kRows =
+      "lat,\"anterior "
+      "temporalis\",left,skull,58.311,-8.838,144.003,mandible,37.592,7.875,57.659,90.35,158.0,"
+      "75.54,1.2698,0.5\r\n"
+      "rat,anterior "
+      "temporalis,right,skull,-58.311,-8.838,144.003,mandible,-37.592,7.875,57.659,90.35,158.0,"
+      "75.54,1.2698,0.5\n"
+      "\n"
+      "lgh, \"geniohyoid, \"\"deep\"\"\" ,left,mandible,2,-20,3,hyoid,4,5,6,30,38.8,,1.5,0\n";
+  const std::string scenario_ = kStart + R"([[muscle_table]]
+file = "muscles.csv"
+bodies = { hyoid = "skull" }
+max_velocity = "6 1/s"
+excitation = { "anterior temporalis" = { time = ["0 s"], value = [0.25] } }
+)";
+};
+
+TEST_F(MuscleTable, RowsBecomeMuscles) {
+  write("muscles.csv", std::string(kHeader) + kRows);
+  const Scenario scenario = read(scenario_);
+  ASSERT_EQ(scenario.muscles.size(), 3U);
+  const Muscle& muscle = scenario.muscles[0];
+  EXPECT_EQ(muscle.name, "lat");
+  EXPECT_EQ(muscle.path[0].body, "skull");
+  EXPECT_TRUE(muscle.path[0].point.isApprox(Vec3(58.311e-3, -8.838e-3, 144.003e-3)));
+  EXPECT_EQ(muscle.path[1].body, "mandible");
+  EXPECT_TRUE(muscle.path[1].point.isApprox(Vec3(37.592e-3, 7.875e-3, 57.659e-3)));
+  EXPECT_EQ(muscle.max_force, 158);
+  EXPECT_FALSE(muscle.optimal_length);
+  EXPECT_EQ(muscle.max_length_ratio, 1.2698);
+  EXPECT_EQ(muscle.tendon_ratio, 0.5);
+  EXPECT_EQ(muscle.max_velocity, 6);
+  EXPECT_EQ(muscle.activation_time, 15e-3);
+  EXPECT_EQ(muscle.excitation.value, std::vector<double>{0.25});
+  EXPECT_EQ(muscle.where.line, 2);
+  EXPECT_EQ(muscle.where.file, (folder_ / "muscles.csv").string());
+  EXPECT_EQ(scenario.muscles[1].excitation.value, std::vector<double>{0.25});
+  EXPECT_EQ(scenario.muscles[2].path[1].body, "skull");
+  EXPECT_TRUE(scenario.muscles[2].excitation.time.empty());
+}
+
+// x -> scale R (x - about) + about + translation: a quarter turn about z at (0, 0, 0) takes x to y.
+TEST_F(MuscleTable, PointsArePlaced) {
+  write("muscles.csv", std::string(kHeader) + kRows);
+  const Scenario scenario =
+      read(scenario_, {"muscle_table.0.place={rotation='0 0 90 deg', about='1 0 0 mm', scale=2, "
+                       "translation='0 0 10 mm'}"});
+  EXPECT_TRUE(scenario.muscles[2].path[0].point.isApprox(Vec3(41e-3, 2e-3, 16e-3), 1e-12));
+}
+
+TEST_F(MuscleTable, ErrorsNameTheLineOfTheTable) {
+  const auto with = [&](const std::string& table) {
+    write("muscles.csv", table);
+    return refusal(scenario_);
+  };
+  const std::string header = kHeader, rows = kRows;
+  EXPECT_EQ(with("id,muscle\n" + rows), "muscles.csv:1: column `body_upper` is missing");
+  EXPECT_EQ(with(header), "muscles.csv: the muscle table has no rows");
+  EXPECT_EQ(with(header + rows + "x,y\n"),
+            "muscles.csv:6: expected 16 fields as in the first line, found 2");
+  EXPECT_EQ(with(header + rows + "a,b,left,skull,1,2,3,mandible,4,5,wide,7,8,9,1.2,0\n"),
+            "muscles.csv:6: column `lz_mm`: expected a number, found \"wide\"");
+  EXPECT_EQ(with(header + rows + "a,b,left,skull,1,2,3,mandible,4,5,6,7,-8,9,1.2,0\n"),
+            "muscles.csv:6: column `max_force_N` must be positive, found -8");
+  EXPECT_EQ(with(header + rows + "a,b,left,skull,1,2,3,mandible,4,5,6,7,8,9,1.2,1\n"),
+            "muscles.csv:6: column `tendon_ratio` must be at least 0 and less than 1, found 1");
+  EXPECT_EQ(with(header + rows + "lat,b,left,skull,1,2,3,mandible,4,5,6,7,8,9,1.2,0\n"),
+            "muscles.csv:6: `id`: a second muscle is called `lat`, the first is at muscles.csv:2");
+  EXPECT_EQ(with(header + rows + "a,b,left,skul,1,2,3,mandible,4,5,6,7,8,9,1.2,0\n"),
+            "muscles.csv:6: the scenario has no body `skul` (`bodies = { skul = \"...\" }` of the "
+            "[[muscle_table]] can rename it); did you mean `skull`?");
+  EXPECT_EQ(with(header + rows + "\"a,b\n"), "muscles.csv:6: a quoted field has no closing `\"`");
+}
+
+TEST_F(MuscleTable, ErrorsOfTheScenarioNameItsLine) {
+  EXPECT_EQ(refusal(scenario_),
+            "jaw.toml:22:8: cannot read the muscle table muscles.csv: No such file or directory");
+  write("muscles.csv", std::string(kHeader) + kRows);
+  EXPECT_EQ(refusal(scenario_, {"muscle_table.0.excitation={geniohyoit={time=['0 s'],value=[1]}}"}),
+            "--set muscle_table.0.excitation={geniohyoit={time=['0 s'],value=[1]}}: the muscle "
+            "table has no "
+            "muscle `geniohyoit`; expected one of `anterior temporalis`, `geniohyoid, \"deep\"`");
+  EXPECT_EQ(refusal(scenario_, {"muscle_table.0.bodies.hyoid=skul"}),
+            "--set muscle_table.0.bodies.hyoid=skul: `hyoid`: no body is called `skul`; did you "
+            "mean `skull`?");
+  EXPECT_EQ(refusal(scenario_, {"muscle_table.0.bodies.hyoit=skull"}),
+            "--set muscle_table.0.bodies.hyoit=skull: the muscle table has no body `hyoit`; did "
+            "you mean `hyoid`?");
+}
+
+}  // namespace articular::sim::muscle_table_test

@@ -1,0 +1,79 @@
+// [choice] and `when`: which entries are there.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/sim/support/scenario_file.hpp"
+
+namespace articular::sim::scenario_choices_test {
+
+class ScenarioChoices : public ScenarioTest {
+ protected:
+  std::vector<std::string> names(const std::vector<std::string>& overrides = {}) const {
+    std::vector<std::string> result;
+    for (const Body& body : read(kText, overrides).bodies)
+      result.push_back(body.name + (body.kind == Body::Kind::Tissue ? " tissue" : ""));
+    return result;
+  }
+
+  const std::string kText = R"(duration = "1 s"
+[choice]
+disc = "tissue"
+side = "left"
+[[body]]
+name = "skull"
+kind = "fixed"
+[[body]]
+name = "disc"
+kind = "tissue"
+mesh = { file = "disc.vtu" }
+density = "1100 kg/m^3"
+material = { law = "linear", young_modulus = "5 MPa", poisson_ratio = 0.4 }
+when = { disc = ["tissue", "coarse"] }
+[[body]]
+name = "disc"
+kind = "rigid"
+mesh = { file = "disc.vtu" }
+density = "1200 kg/m^3"
+when = { disc = "rigid" }
+[[body]]
+name = "stand"
+kind = "fixed"
+when = { disc = "rigid", side = ["left", "right"] }
+[[attach]]
+body = "disc"
+to = "skull"
+region = {}
+when = { disc = "tissue" }
+[[load]]
+kind = "gravity"
+acceleration = "0 0 -1 m/s^2"
+when = { side = "right" }
+)";
+};
+
+TEST_F(ScenarioChoices, AnEntryIsThereWhereEachChoiceHasOneOfItsWords) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names(), (Names{"skull", "disc tissue"}));
+  EXPECT_EQ(names({"choice.disc=rigid"}), (Names{"skull", "disc", "stand"}));
+  EXPECT_EQ(names({"choice.disc=coarse"}), (Names{"skull", "disc tissue"}));
+  EXPECT_EQ(read(kText).attachments.size(), 1U);
+  EXPECT_TRUE(read(kText, {"choice.disc=coarse"}).attachments.empty());
+  EXPECT_TRUE(read(kText).loads.empty());
+  EXPECT_EQ(read(kText, {"choice.side=right"}).loads.size(), 1U);
+}
+
+// What is left out is as if it were not written: to overrides, to checkpoints, to the record.
+TEST_F(ScenarioChoices, NobodyElseSeesWhatIsLeftOut) {
+  const Scenario rigid = read(kText, {"body.disc.density=1300 kg/m^3", " choice.disc = rigid"});
+  EXPECT_EQ(rigid.bodies[1].kind, Body::Kind::Rigid);
+  EXPECT_EQ(rigid.bodies[1].density, 1300);
+  EXPECT_NE(refusal(kText, {"load.0.acceleration=0 0 0 m/s^2"}), "");
+  EXPECT_NE(rigid.settings_json.find("\"disc\": \"rigid\""), std::string::npos)
+      << rigid.settings_json;
+  EXPECT_EQ(rigid.content.find("when"), std::string::npos);
+  EXPECT_NE(read(kText).content, rigid.content);
+}
+
+}  // namespace articular::sim::scenario_choices_test

@@ -1,0 +1,483 @@
+// One case for each kind of mistake in a scenario: the place and the whole message.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "tests/sim/support/scenario_file.hpp"
+
+namespace articular::sim::scenario_error_test {
+
+/// A scenario with a mistake behind the mark `@`, which is not part of the text.
+struct Mistake {
+  const char* name;
+  std::string text;
+  std::string message;
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
+class ScenarioErrors : public ScenarioTest, public ::testing::WithParamInterface<Mistake> {};
+
+TEST_P(ScenarioErrors, NameThePlaceAndWhatWasExpected) {
+  std::string text = GetParam().text;
+  const std::size_t mark = text.find('@');
+  ASSERT_NE(mark, std::string::npos);
+  text.erase(mark, 1);
+  const auto line =
+      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(mark), '\n');
+  const std::size_t line_start = mark == 0 ? std::string::npos : text.rfind('\n', mark - 1);
+  const std::size_t column = mark - (line_start == std::string::npos ? 0 : line_start + 1) + 1;
+  EXPECT_EQ(refusal(text), "jaw.toml:" + std::to_string(line) + ":" + std::to_string(column) +
+                               ": " + GetParam().message);
+}
+
+std::string test_name(const ::testing::TestParamInfo<Mistake>& info) { return info.param.name; }
+
+std::string body(const std::string& rest) { return kStart + "[[body]]\nname = \"extra\"\n" + rest; }
+std::string tissue(const std::string& rest) {
+  return body("kind = \"tissue\"\nmesh = { file = \"a.vtu\" }\n" + rest);
+}
+std::string material(const std::string& rest) {
+  return tissue("density = \"1 g/cm^3\"\nmaterial = { law = \"linear\", " + rest + " }\n");
+}
+std::string geometry(const std::string& rest) {
+  return body("kind = \"tissue\"\ngeometry = { " + rest + " }\n");
+}
+std::string rigid(const std::string& rest) {
+  return body("kind = \"rigid\"\nmesh = { file = \"a.vtp\" }\n" + rest);
+}
+std::string path(const std::string& points) {
+  return kStart + "[[muscle]]\nname = \"temporalis\"\nmax_force = \"1 N\"\npath = " + points + "\n";
+}
+const std::string kPath =
+    "path = [{ body = \"skull\", point = \"0 0 0 m\" }, { body = \"mandible\", point = \"0 0 1 m\" "
+    "}]\n";
+std::string muscle(const std::string& rest) {
+  return kStart + "[[muscle]]\nname = \"temporalis\"\n" + kPath + "max_force = \"1 N\"\n" + rest;
+}
+std::string ligament(const std::string& rest) {
+  return kStart + "[[ligament]]\nname = \"capsule\"\n" + kPath + rest;
+}
+std::string motion(const std::string& rest) {
+  return kStart + "[[load]]\nkind = \"motion\"\nbody = \"stand\"\n" + rest;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Toml, ScenarioErrors,
+    ::testing::Values(
+        Mistake{"NotToml", "duration = @= 3\n",
+                "not valid TOML: Error while parsing value: could not determine value type"},
+        Mistake{"UnknownKey", "@duraton = \"1 s\"\n" + kBodies,
+                "scenario: unknown key `duraton`; did you mean `duration`?"},
+        Mistake{"UnknownKeyInAnEntry", tissue("@densitty = \"1 g/cm^3\"\n"),
+                "body `extra`: unknown key `densitty`; did you mean `density`?"},
+        Mistake{"UnknownKeyFarFromAny", "duration = \"1 s\"\n[detection]\n@colour = 1\n" + kBodies,
+                "[detection]: unknown key `colour`; expected one of "
+                "`lagged`, `margin`, `narrow_test`"},
+        Mistake{
+            "ResponseOfStatics",
+            "analysis = \"static\"\nduration = \"1 s\"\n@contact_response = \"sampled\"\n" +
+                kBodies,
+            "scenario: `contact_response` does not belong here: a static analysis averages depths"},
+        Mistake{
+            "LaggedStatics",
+            "analysis = \"static\"\nduration = \"1 s\"\n[detection]\n@lagged = true\n" + kBodies,
+            "[detection]: `lagged` does not belong here: a static analysis looks wherever its "
+            "iteration has come to"},
+        Mistake{"MissingKey", "@title = \"x\"\n" + kBodies, "scenario: `duration` is missing"},
+        Mistake{"MissingKeyInAnEntry", kStart + "@[[body]]\nname = \"extra\"\n",
+                "body `extra`: `kind` is missing"},
+        Mistake{"WrongType", "duration = @false\n" + kBodies,
+                "`duration`: expected a time such as \"0.6 s\", found false"},
+        Mistake{"TextExpected", "title = @3\n" + kStart,
+                "`title`: expected text in quotes, found the number 3"},
+        Mistake{"DateFound", "title = @1979-05-27\n" + kStart,
+                "`title`: expected text in quotes, found a date or time of day"},
+        Mistake{"SingleTable", "duration = \"1 s\"\n@[body]\nname = \"a\"\n",
+                "`body`: expected entries that start with [[body]], found a table"},
+        Mistake{"TableExpected", body("kind = \"fixed\"\nmesh = @\"skull.vtp\"\n"),
+                "`mesh`: expected a table of file, unit, place, made_by, found \"skull.vtp\""},
+        Mistake{"NoBodies", "@duration = \"1 s\"\n", "the scenario has no [[body]]"},
+        Mistake{"MultiLineText", "duration = @\"\"\"1\ns\"\"\"\n" + kBodies,
+                "`duration`: expected a time such as \"0.6 s\", found \"1\\ns\" (cannot read "
+                "\"\\ns\")"}),
+    test_name);
+
+std::string choice(const std::string& word, const std::string& when) {
+  return "duration = \"1 s\"\n[choice]\n" + word + "\n" + kBodies + "when = " + when + "\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Choice, ScenarioErrors,
+    ::testing::Values(
+        Mistake{"WordThatNobodyMentions",
+                choice("disc = @\"tisue\"", "{ disc = [\"tissue\", \"rigid\"] }"),
+                "`disc`: no `when` mentions this word; expected one of \"rigid\", \"tissue\", "
+                "found \"tisue\""},
+        Mistake{"ChoiceThatNobodyMentions",
+                choice("disc = \"rigid\"\n@dics = \"rigid\"", "{ disc = \"rigid\" }"),
+                "no `when` mentions the choice `dics`; expected `disc`"},
+        Mistake{"UnknownChoice", choice("disc = \"rigid\"", "{ @disk = \"rigid\" }"),
+                "`when`: there is no choice `disk`; did you mean `disc`?"},
+        Mistake{"WithoutChoices", kStart + "when = { @disc = \"rigid\" }\n",
+                "`when`: there is no choice `disc`; expected it in [choice], which the scenario "
+                "does not have"},
+        Mistake{"WhenIsNoTable", choice("disc = \"rigid\"", "@\"rigid\""),
+                "`when`: expected a table of choices such as { disc = \"tissue\" }, found "
+                "\"rigid\""},
+        Mistake{"WhenIsEmpty", choice("disc = \"rigid\"", "@{}"),
+                "`when`: expected a table of choices such as { disc = \"tissue\" }, found an empty "
+                "one"},
+        Mistake{"WordIsANumber", choice("disc = \"rigid\"", "{ disc = @3 }"),
+                "`disc`: expected a word, or a list of words, found the number 3"},
+        Mistake{"ChosenWordIsANumber", choice("disc = @3", "{ disc = \"rigid\" }"),
+                "`disc`: expected text in quotes, found the number 3"},
+        Mistake{"ChoiceIsNoTable", "choice = @\"rigid\"\n" + kStart,
+                "`choice`: expected a table [choice] of words, found \"rigid\""},
+        Mistake{"WhenOfATable", kStart + "[output]\n@when = { disc = \"rigid\" }\n",
+                "[output]: unknown key `when`; expected one of `interval`, `length_unit`, "
+                "`directory`, `contact_surfaces`, `checkpoint_interval`"}),
+    test_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    Values, ScenarioErrors,
+    ::testing::Values(
+        Mistake{"BareNumber", material("young_modulus = @15, poisson_ratio = 0"),
+                "`young_modulus`: expected a quantity with its unit, such as \"15 kPa\", found the "
+                "number 15"},
+        Mistake{
+            "WrongUnit", material("young_modulus = @\"15 mm\", poisson_ratio = 0"),
+            "`young_modulus`: expected a stress such as \"15 kPa\", found \"15 mm\" (a length)"},
+        Mistake{"NegativeDensity",
+                tissue("density = @\"-1 g/cm^3\"\nmaterial = { law = \"linear\", "
+                       "young_modulus = \"1 Pa\", poisson_ratio = 0 }\n"),
+                "`density` must be positive, found \"-1 g/cm^3\""},
+        Mistake{"ZeroModulus", material("young_modulus = @\"0 Pa\", poisson_ratio = 0"),
+                "`young_modulus` must be positive, found \"0 Pa\""},
+        Mistake{"PoissonRatio", material("young_modulus = \"1 Pa\", poisson_ratio = @0.5"),
+                "Poisson's ratio must lie between -1 and 0.5 (exclusive), found 0.5"},
+        Mistake{"PoissonRatioNan", material("young_modulus = \"1 Pa\", poisson_ratio = @nan"),
+                "Poisson's ratio must be finite, found nan"},
+        Mistake{"RelaxationOfALinearLaw",
+                material("young_modulus = \"1 Pa\", poisson_ratio = 0.3, @relaxation = "
+                         "[{ weight = 0.3, time = \"1 s\" }]"),
+                "material: `relaxation` does not belong here: the law is \"linear\", whose stress "
+                "does not "
+                "turn with rotations"},
+        Mistake{"RelaxationOfAllStress",
+                tissue("density = \"1 t/m^3\"\nmaterial = { law = \"corotated\", young_modulus = "
+                       "\"1 Pa\", poisson_ratio = 0.3, relaxation = @[{ weight = 0.3, time = "
+                       "\"1 s\" }, { weight = 0.8, time = \"2 s\" }] }\n"),
+                "`relaxation`: the weights sum up to 1.1, which must be below 1: nothing would "
+                "be left of the stress"},
+        Mistake{"PoissonRatioText", material("young_modulus = \"1 Pa\", poisson_ratio = @\"0.3\""),
+                "`poisson_ratio`: expected a number without unit or quotes, found \"0.3\""},
+        Mistake{"UnknownLaw",
+                tissue("density = \"1 t/m^3\"\nmaterial = { law = @\"neohookean\", young_modulus = "
+                       "\"1 Pa\", "
+                       "poisson_ratio = 0 }\n"),
+                "`law`: expected one of \"linear\", \"corotated\", \"neo-hookean\", "
+                "\"isochoric-neo-hookean\", \"mooney-rivlin\", \"yeoh\", \"veronda-westmann\", "
+                "\"transversely-isotropic\", \"muscle\", found \"neohookean\"; did you mean "
+                "\"neo-hookean\"?"},
+
+        Mistake{"InfiniteTime", "duration = @\"inf s\"\n" + kBodies,
+                "`duration`: expected a time such as \"0.6 s\", found \"inf s\" (not finite)"},
+        Mistake{"VectorAsList", rigid("mass = \"1 kg\"\nvelocity = @[1, 0, 0]\n"),
+                "`velocity`: expected a velocity as three numbers and one unit in quotes, such as "
+                "\"0 0 5 mm/s\", "
+                "found a list of 3"},
+        Mistake{"Inertia", rigid("mass = \"1 kg\"\ninertia = @[\"1 2 9 kg m^2\"]\n"),
+                "`inertia`: not the inertia of a body: its principal moments 1, 2 and 9 kg m^2 "
+                "must be positive "
+                "and none larger than the sum of the others"},
+        Mistake{"LengthUnit",
+                body("kind = \"fixed\"\nmesh = { file = \"a.vtp\", unit = @\"kg\" }\n"),
+                "`unit`: expected the unit of a length such as \"mm\", found \"kg\" (a mass)"},
+        Mistake{
+            "Facing",
+            body("kind = \"fixed\"\ncontact_meshes = [{ file = \"a\", facing = @[0, 0, 0] }]\n"),
+            "`facing`: a direction must have a length"},
+        Mistake{
+            "ContinuedWithoutLength",
+            body("kind = \"fixed\"\ncontact_meshes = [{ file = \"a\", continued = @{ at = \"0 0 "
+                 "0 mm\", direction = [1, 0, 0] } }]\n"),
+            "continued: `length` is missing"},
+        Mistake{"NoCells", geometry("box = { size = \"1 1 1 m\", cells = [4, @0, 4] }"),
+                "`cells[1]`: expected a whole number from 1 to 10000, found the number 0"},
+        Mistake{"FlatBox", geometry("box = { size = @\"1 0 1 m\", cells = [4, 4, 4] }"),
+                "`size`: the three edges must be positive, found \"1 0 1 m\""},
+        Mistake{"CoarseSphere",
+                geometry("sphere = { radius = \"1 mm\", element_size = @\"2 mm\" }"),
+                "`element_size`: must not exceed the radius, found \"2 mm\""},
+        Mistake{"HexahedronInsideOut",
+                geometry("hexahedron = { corners = [@\"0 0 0 mm\", \"0 1 0 mm\", \"1 1 0 mm\", "
+                         "\"1 0 0 mm\", \"0 0 1 mm\", \"0 1 1 mm\", \"1 1 1 mm\", \"1 0 1 mm\"], "
+                         "cells = [1, 1, 1] }"),
+                "`corners[0]`: the block is flat or turned inside out at this corner; expected the "
+                "corners of the lower face, counterclockwise as seen from above, then those of the "
+                "upper face above them"},
+        Mistake{"OpenShape",
+                geometry("v_shape = { leg_length = \"1 m\", width = \"1 m\", angle = @\"180 deg\", "
+                         "cells = [1, 1] }"),
+                "`angle` must lie between 0 and 180 deg, found \"180 deg\""},
+        Mistake{
+            "IntegratorStep",
+            "duration = \"1 s\"\n@[integrator]\nstep = \"1 us\"\nmin_step = \"1 ms\"\n" + kBodies,
+            "[integrator]: `min_step` (0.001 s) must not exceed `step` (1e-06 s)"},
+        Mistake{"Variable",
+                body("kind = \"fixed\"\nmesh = { file = @\"${ARTICULAR_NOT_SET}/a.vtp\" }\n"),
+                "`file`: ${ARTICULAR_NOT_SET} is not set in the environment; set ARTICULAR_NOT_SET "
+                "to the folder "
+                "that holds the data"},
+        Mistake{"OpenVariable", body("kind = \"fixed\"\nmesh = { file = @\"${DATA/a.vtp\" }\n"),
+                "`file`: `}` is missing after `${` in \"${DATA/a.vtp\""}),
+    test_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    Names, ScenarioErrors,
+    ::testing::Values(
+        Mistake{"EmptyName", kStart + "[[body]]\nname = @\"\"\n",
+                "`name`: expected text, found an empty string"},
+        Mistake{"NameWithSlash", kStart + "[[body]]\nname = @\"../x\"\n",
+                "`name`: expected a name of letters, digits, `_`, `-` and inner spaces, found "
+                "\"../x\""},
+        Mistake{"ReservedName", kStart + "[[body]]\nname = @\"lines\"\nkind = \"fixed\"\n",
+                "`name`: a body cannot be called `lines`; results use that name"},
+        Mistake{"NameOfAContactSurface",
+                kStart + "[output]\ncontact_surfaces = true\n@[[body]]\n"
+                         "name = \"skull_contact\"\nkind = \"fixed\"\n",
+                "body `skull_contact` has the name of the contact surface of `skull` in the "
+                "results; expected another name, or no output.contact_surfaces"},
+        Mistake{"SecondBody", kStart + "[[body]]\nname = @\"skull\"\nkind = \"fixed\"\n",
+                "`name`: a second body is called `skull`, the first is at jaw.toml:3"},
+        Mistake{"SecondMuscle",
+                muscle("[[muscle]]\nname = @\"temporalis\"\n" + kPath + "max_force = \"1 N\"\n"),
+                "`name`: a second muscle is called `temporalis`, the first is at jaw.toml:21"},
+        Mistake{
+            "LigamentCalledAsAMuscle",
+            muscle("[[ligament]]\nname = @\"temporalis\"\n" + kPath + "stiffness = \"1 N/m\"\n"),
+            "`name`: a second line (muscle or ligament) is called `temporalis`, the first is at "
+            "jaw.toml:21"},
+        Mistake{"SecondProbe",
+                kStart + "[[probe]]\nname = \"e\"\nkind = \"energy\"\n[[probe]]\nname = "
+                         "@\"e\"\nkind = \"energy\"\n",
+                "`name`: a second probe is called `e`, the first is at jaw.toml:21"},
+        Mistake{"UnknownBody",
+                kStart + "[[attach]]\nbody = @\"disk_left\"\nto = \"skull\"\nregion = {}\n",
+                "`body`: no body is called `disk_left`; did you mean `disc_left`?"},
+        Mistake{"UnknownBodyInARegion",
+                kStart + "[[attach]]\nbody = \"disc_left\"\nto = \"skull\"\nregion = { near = { "
+                         "body = @\"scull\", "
+                         "distance = \"1 mm\" } }\n",
+                "`body`: no body is called `scull`; did you mean `skull`?"},
+        Mistake{
+            "UnknownMirrorImage",
+            kStart +
+                "[[attach]]\nmirror = \"x\"\nbody = @\"disc_left\"\nto = \"skull\"\nregion = {}\n",
+            "`body`: no body is called `disc_right` (mirror image of `disc_left`); expected one of "
+            "`skull`, "
+            "`mandible`, `disc_left`, `stand`"},
+        Mistake{
+            "UnknownLine",
+            muscle("[[probe]]\nname = \"p\"\nkind = \"line\"\nline = @\"temporalus\"\n"),
+            "`line`: no muscle or ligament is called `temporalus`; did you mean `temporalis`?"}),
+    test_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, ScenarioErrors,
+    ::testing::Values(
+        Mistake{"TissueWithoutMaterial",
+                kStart +
+                    "@[[body]]\nname = \"extra\"\nkind = \"tissue\"\nmesh = { file = \"a.vtu\" }\n"
+                    "density = \"1 g/cm^3\"\n",
+                "body `extra`: `material` is missing"},
+        Mistake{"TissueWithMass", tissue("@mass = \"1 kg\"\n"),
+                "body `extra`: `mass` does not belong here: tissue has a density instead"},
+        Mistake{"FixedWithDensity", body("kind = \"fixed\"\n@density = \"1 g/cm^3\"\n"),
+                "body `extra`: `density` does not belong here: a fixed body has no inertia"},
+        Mistake{"FixedWithVelocity", body("kind = \"fixed\"\n@velocity = \"0 0 1 m/s\"\n"),
+                "body `extra`: `velocity` does not belong here: a fixed body has no velocity; a "
+                "[[load]] of kind "
+                "\"motion\" moves it"},
+        Mistake{"RigidWithoutMesh",
+                kStart + "@[[body]]\nname = \"extra\"\nkind = \"rigid\"\nmass = \"1 kg\"\n",
+                "body `extra`: expected `mesh` or `geometry`, found none of them"},
+        Mistake{"RigidWithMassAndDensity", rigid("density = \"1 t/m^3\"\n@mass = \"1 kg\"\n"),
+                "body `extra`: `density` and `mass` exclude each other"},
+        Mistake{"RigidWithMaterial",
+                rigid("mass = \"1 kg\"\n@material = { law = \"linear\", young_modulus = \"1 Pa\", "
+                      "poisson_ratio = 0 }\n"),
+                "body `extra`: `material` does not belong here: only tissue has a material"},
+        Mistake{"MeshAndGeometry",
+                body("kind = \"tissue\"\ngeometry = { sphere = { radius = \"1 m\", element_size = "
+                     "\"1 m\" } }\n"
+                     "@mesh = { file = \"a\" }\n"),
+                "body `extra`: `geometry` and `mesh` exclude each other"},
+        Mistake{"NoGeometry", body("kind = \"tissue\"\ngeometry = @{ }\n"),
+                "geometry: expected `box` or `hexahedron` or `sphere` or `v_shape`, found none of "
+                "them"},
+        Mistake{"AttachToTissue",
+                kStart + "[[attach]]\nbody = \"disc_left\"\nto = @\"disc_left\"\nregion = {}\n",
+                "`to`: expected a fixed or rigid body to attach to, body `disc_left` is tissue"},
+        Mistake{"AttachOfBone",
+                kStart + "[[attach]]\nbody = @\"mandible\"\nto = \"skull\"\nregion = {}\n",
+                "`body`: only tissue can be attached, and body `mandible` is none"},
+        Mistake{"CornersSwapped",
+                kStart + "[[attach]]\nbody = \"disc_left\"\nto = \"skull\"\nregion = { box = @[\"1 "
+                         "1 1 mm\", \"0 2 2 "
+                         "mm\"] }\n",
+                "`box`: expected the lower corner first: each coordinate of \"1 1 1 mm\" must not "
+                "exceed that of \"0 "
+                "2 2 mm\""},
+        Mistake{"NearABodyWithoutSurface",
+                kStart + "[[attach]]\nbody = \"disc_left\"\nto = \"skull\"\nregion = { near = { "
+                         "body = @\"stand\", "
+                         "distance = \"1 mm\" } }\n",
+                "`body`: body `stand` has no surface"}),
+    test_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    Lines, ScenarioErrors,
+    ::testing::Values(
+        Mistake{"NoInsertion", path("@[{ body = \"skull\", point = \"0 0 0 m\" }]"),
+                "`path`: muscle `temporalis` has no insertion: its path needs at least two points"},
+        Mistake{"NoLength",
+                path("@[{ body = \"skull\", point = \"0 0 1 m\" }, { body = \"mandible\", point = "
+                     "\"0 0 1 m\" }]"),
+                "`path`: the path of muscle `temporalis` has no length"},
+        Mistake{"RadiusOnBone",
+                path("[{ body = \"skull\", point = \"0 0 0 m\", radius = @\"1 mm\" }, { body = "
+                     "\"mandible\", point = \"0 0 1 m\" }]"),
+                "`radius`: a radius spreads a point over tissue, and body `skull` is none"},
+        Mistake{"ExcitationAboveOne",
+                muscle("excitation = { time = [\"0 s\", \"1 s\"], value = [0, @1.1] }\n"),
+                "`value[1]` must lie between 0 and 1, found 1.1"},
+        Mistake{"UnequalLists",
+                muscle("excitation = { time = [\"0 s\", \"1 s\"], value = @[0] }\n"),
+                "`value`: expected as many values as times (2), found 1"},
+        Mistake{"EmptyLists", muscle("excitation = { time = @[], value = [] }\n"),
+                "`time`: expected a list of times such as [\"0 s\", \"0.3 s\"], found a list of 0"},
+        Mistake{
+            "TimesNotIncreasing",
+            muscle(
+                "excitation = { time = [\"0 s\", \"20 ms\", @\"0.02 s\"], value = [0, 0, 0] }\n"),
+            "`time[2]`: times must increase, found \"0.02 s\" after \"20 ms\""},
+        Mistake{
+            "TendonRatio", muscle("tendon_ratio = @1\n"),
+            "`tendon_ratio`: a tendon as long as the muscle leaves no fibers, found the number 1"},
+        Mistake{"MaxLengthRatio", muscle("max_length_ratio = @1.0\n"),
+                "`max_length_ratio` must be greater than 1, found 1"},
+        Mistake{"Mirror", ligament("mirror = @\"y\"\nstiffness = \"1 N/m\"\n"),
+                "`mirror`: expected \"x\", found \"y\""},
+        Mistake{"NoStiffness", kStart + "@[[ligament]]\nname = \"capsule\"\n" + kPath,
+                "ligament `capsule`: expected `stiffness` or `stiffness_per_strain`, found none of "
+                "them"},
+        Mistake{"SpeedWithoutForceLength",
+                muscle("force_length = false\n@max_velocity = \"10 1/s\"\n"),
+                "muscle `temporalis`: `max_velocity` does not belong here: with force_length = "
+                "false the force depends on activation alone"},
+        Mistake{"ToeOfALinearLigament", ligament("stiffness = \"1 N/m\"\n@toe_strain = 0.03\n"),
+                "ligament `capsule`: `toe_strain` does not belong here: a ligament with "
+                "`stiffness` is linear; "
+                "`stiffness_per_strain` has a toe"},
+        Mistake{
+            "TwoSlacks",
+            ligament("stiffness = \"1 N/m\"\nreference_strain = 0.02\n@slack_length = \"1 mm\"\n"),
+            "ligament `capsule`: `reference_strain` and `slack_length` exclude each other"}),
+    test_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    LoadsContactsProbes, ScenarioErrors,
+    ::testing::Values(
+        Mistake{"LoadWithoutKind", kStart + "@[[load]]\nbody = \"skull\"\n",
+                "[[load]]: `kind` is missing"},
+        Mistake{"GravityWithForce",
+                kStart + "[[load]]\nkind = \"gravity\"\nacceleration = \"0 0 -9.81 m/s^2\"\n@force "
+                         "= \"0 0 1 N\"\n",
+                "[[load]] of kind \"gravity\": unknown key `force`; expected one of `kind`, "
+                "`acceleration`"},
+        Mistake{"ForceOnFixed",
+                kStart + "[[load]]\nkind = \"force\"\nbody = @\"skull\"\npoint = \"0 0 0 "
+                         "m\"\nforce = \"0 0 1 N\"\n",
+                "`body`: a force moves a rigid body or tissue, body `skull` is fixed"},
+        Mistake{"ForceOnRegionOfBone",
+                kStart + "[[load]]\nkind = \"force\"\nbody = \"mandible\"\nregion = @{}\nforce = "
+                         "\"0 0 1 N\"\n",
+                "`region`: a force on a region acts on tissue; body `mandible` is rigid and takes "
+                "a `point`"},
+        Mistake{"MotionOfRigid",
+                kStart + "[[load]]\nkind = \"motion\"\nbody = @\"mandible\"\ntime = [\"0 s\"]\n",
+                "`body`: a motion drives a fixed body, or what `hold` of a rigid one holds; body "
+                "`mandible` is rigid, without `hold`"},
+        Mistake{"MotionUnequal",
+                motion("time = [\"0 s\", \"1 s\"]\ntranslation = @[\"0 0 0 m\"]\n"),
+                "`translation`: expected as many entries as times (2), found 1"},
+        Mistake{"MotionOfNothing",
+                kStart + "@[[load]]\nkind = \"motion\"\nbody = \"stand\"\ntime = [\"0 s\"]\n",
+                "[[load]] of kind \"motion\": expected `translation`, `rotation` or both"},
+        Mistake{"TwoMotions",
+                motion("time = [\"0 s\"]\nrotation = [\"0 0 1 deg\"]\n[[load]]\nkind = "
+                       "\"motion\"\nbody = @\"stand\"\n"
+                       "time = [\"0 s\"]\nrotation = [\"0 0 1 deg\"]\n"),
+                "`body`: body `stand` already has a motion, at jaw.toml:21"},
+        Mistake{"ContactOfOne", kStart + "[[contact]]\nbodies = @[\"skull\"]\n",
+                "`bodies`: expected the names of two bodies, found a list of 1"},
+        Mistake{"RigidSelfContact", kStart + "[[contact]]\nself = @\"mandible\"\n",
+                "`self`: only tissue can touch itself, body `mandible` is rigid"},
+        Mistake{"ContactWithoutSurface", kStart + "[[contact]]\nbodies = [\"skull\", @\"stand\"]\n",
+                "`bodies[1]`: body `stand` has no surface that could touch"},
+        Mistake{"NegativeFriction",
+                kStart + "[[contact]]\nbodies = [\"skull\", \"mandible\"]\nfriction = @-0.1\n",
+                "`friction` must not be negative, found -0.1"},
+        Mistake{"SlipWithoutFriction",
+                kStart + "[[contact]]\nbodies = [\"skull\", \"mandible\"]\n@slip_velocity = \"1 "
+                         "mm/s\"\n",
+                "[[contact]]: `slip_velocity` does not belong here: there is no friction"},
+        Mistake{"StaticFriction",
+                "analysis = \"static\"\n" + kStart +
+                    "[[contact]]\nbodies = [\"skull\", \"mandible\"]\nfriction = @0.1\n",
+                "`friction`: needs a dynamic analysis: in a static one nothing has a "
+                "velocity"},
+        Mistake{
+            "ContactDampingUnit",
+            kStart + "[[contact]]\nbodies = [\"skull\", \"mandible\"]\ndamping = @\"1 N s/m\"\n",
+            "`damping`: expected a damping per area such as \"1e4 Pa s/m\", found \"1 N s/m\" "
+            "(a damping)"},
+        Mistake{"ContactTwice",
+                kStart + "[[contact]]\nbodies = [\"skull\", \"mandible\"]\n@[[contact]]\nbodies = "
+                         "[\"mandible\", "
+                         "\"skull\"]\n",
+                "[[contact]]: the pair `mandible`, `skull` is given twice, first at jaw.toml:21"},
+        Mistake{"ContactText", "contact = @\"none\"\n" + kStart,
+                "`contact`: expected false or entries that start with [[contact]], found \"none\""},
+        Mistake{"AngleOfTissue",
+                kStart + "[[probe]]\nname = \"p\"\nkind = \"angle\"\nbody = @\"disc_left\"\n",
+                "`body`: expected a rigid body, body `disc_left` is none"},
+        Mistake{"EnergyOfABody",
+                kStart + "[[probe]]\nname = \"p\"\nkind = \"energy\"\n@body = \"disc_left\"\n",
+                "probe `p`: `body` does not belong here: the probe is of kind \"energy\""}),
+    test_name);
+
+using ScenarioFiles = ScenarioTest;
+
+std::string refusal_of(const std::filesystem::path& file) {
+  try {
+    read_scenario(file);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(ScenarioFiles, AMissingFileIsNamed) {
+  const std::string file = (folder_ / "none.toml").string();
+  EXPECT_EQ(refusal_of(file), file + ": cannot read this file: No such file or directory");
+}
+
+TEST_F(ScenarioFiles, AFolderIsNoScenario) {
+  EXPECT_EQ(refusal_of(folder_), folder_.string() + ": expected a scenario file, found a folder");
+}
+
+}  // namespace articular::sim::scenario_error_test

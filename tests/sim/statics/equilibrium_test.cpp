@@ -1,0 +1,215 @@
+// Static analysis: closed forms, balance, what is not held, independence of units.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <vector>
+
+#include "sim/base/error.hpp"
+#include "tests/sim/support/scene.hpp"
+
+namespace articular::sim::equilibrium_test {
+
+Scenario static_scene(double step) {
+  Scenario s = scene(step);
+  s.analysis = Scenario::Analysis::Static;
+  return s;
+}
+
+/// A bar that hangs from a wall at z = L.
+Scenario hanging_bar(double scale, const Vec3& origin, const TissueMaterial& material) {
+  Scenario s = static_scene(1);
+  const Vec3 size = scale * Vec3(0.02, 0.02, 0.08);
+  s.bodies = {
+      box_body("bar", Body::Kind::Tissue, size, origin + Vec3(0, 0, size.z() / 2), {2, 2, 8}),
+      stand("wall")};
+  s.bodies[0].material = material;
+  const Vec3 wide = scale * Vec3(1, 1, 0);
+  s.attachments = {attach("bar", "wall", origin - wide + Vec3(0, 0, 0.999 * size.z()),
+                          origin + wide + Vec3(0, 0, 1.001 * size.z()))};
+  s.loads = {gravity({0, 0, -9.81 / scale})};
+  return s;
+}
+
+/// Displacement of the bar's free end per length: the mean over its face.
+double end_displacement(const Simulation& run, double length) {
+  const Tissue& tissue = run.model.tissues[0];
+  const double limit = tissue.X.row(2).minCoeff() + 1e-6 * length;
+  double sum = 0, area = 0;
+  for (const auto& tet : tissue.elements.tets().colwise()) {
+    std::vector<int> face;
+    for (const int node : tet)
+      if (tissue.X(2, node) < limit) face.push_back(node);
+    if (face.size() != 3) continue;
+    const Vec3 x0 = tissue.X.col(face[0]);
+    const double a = (tissue.X.col(face[1]) - x0).cross(tissue.X.col(face[2]) - x0).norm();
+    area += a;
+    for (const int node : face)
+      sum += a / 3 *
+             (run.now().position(tissue.nodes[static_cast<std::size_t>(node)]).z() -
+              tissue.X(2, node));
+  }
+  return sum / area / length;
+}
+
+// u(L)/L = ρ g L/(2E); with ν = 0 the mean over a section is exact on any mesh.
+TEST(Equilibrium, ABarUnderItsOwnWeightGetsLongerByTheClosedForm) {
+  Simulation run(hanging_bar(1, Vec3::Zero(), linear(15e3, 0)));
+  run.advance(1);
+  EXPECT_NEAR(end_displacement(run, 0.08), -1000 * 9.81 * 0.08 / (2 * 15e3), 1e-10);
+  EXPECT_NEAR(run.force_on(0).z(), -1000 * 9.81 * 0.02 * 0.02 * 0.08, 1e-6 * 0.314);
+  EXPECT_EQ(run.stepper.stored_energy().kinetic, 0);
+}
+
+// Energy stored and lost potential are the work of loads that rise in small steps; here gravity is
+// there at once, so that the loss is the half that a sudden load wastes.
+TEST(Equilibrium, WorkOfASlowlyDrivenWallIsStored) {
+  const auto loss = [](double step) {
+    Scenario s = hanging_bar(1, Vec3::Zero(), neo_hookean(15e3, 0.3));
+    s.integrator.step = step;
+    s.loads = {shift("wall", 1, {0.01, 0, 0.02})};
+    s.bodies.push_back(stand("floor"));
+    s.attachments.push_back(attach("bar", "floor", {-1, -1, -1e-6}, {1, 1, 1e-6}));
+    Simulation run(s);
+    run.advance(1);
+    return std::abs(run.loss()) / run.stepper.stored_energy().elastic;
+  };
+  EXPECT_LT(loss(0.05), 2e-3);
+  EXPECT_NEAR(std::log2(loss(0.1) / loss(0.05)), 2, 0.3);  // the ledger's trapezoidal rule
+}
+
+TEST(Equilibrium, NewtonsIterationConvergesQuadratically) {
+  Simulation run(hanging_bar(1, Vec3::Zero(), neo_hookean(15e3, 0.3)));
+  run.advance(1);
+  const auto rows = run.stepper.take_convergence();
+  ASSERT_GE(rows.size(), 3u);
+  const double last = rows.back().newton.correction;
+  const double before = rows[rows.size() - 2].newton.correction;
+  const double first = rows[rows.size() - 3].newton.correction;
+  EXPECT_GT(std::log(last / before) / std::log(before / first), 1.6);
+}
+
+// The same bar in m, mm and µm, and far from the origin: g grows as the length shrinks.
+TEST(Equilibrium, TheAnswerDoesNotDependOnTheUnit) {
+  const auto displacement = [](double scale, const Vec3& origin) {
+    Simulation run(hanging_bar(scale, origin, neo_hookean(15e3, 0.45)));
+    run.advance(1);
+    return end_displacement(run, scale * 0.08);
+  };
+  const double expected = displacement(1, Vec3::Zero());
+  EXPECT_LT(expected, -0.01);
+  for (const double scale : {1e-3, 1e-4, 1e3})  // elements of 1e-18 m³ to 1000 m³
+    EXPECT_NEAR(displacement(scale, Vec3::Zero()), expected, 1e-9) << scale;
+  // 1000 m away coordinates have 13 digits, of a bar of 0.08 m 9.
+  EXPECT_NEAR(displacement(1, {1000, -500, 800}), expected, 1e-7);
+}
+
+// A driven wall carries its tissue along: however far it turns in one step, nothing is strained.
+TEST(Equilibrium, TissueOnATurningWallIsNotStrained) {
+  Scenario s = hanging_bar(1, Vec3::Zero(), neo_hookean(15e3, 0.3));
+  s.loads = {shift("wall", 1, {0.1, 0.2, -0.3})};
+  s.loads[0].motion.rotation = {Vec3::Zero(), Vec3(0.5, -1.5, 1)};
+  Simulation run(s);
+  run.advance(1);
+  EXPECT_LT(run.stepper.stored_energy().elastic, 1e-16);  // of E V = 0.5 J: round-off
+  EXPECT_LT(run.force_on(0).norm(), 1e-12);
+}
+
+// A mass on a ligament: the equilibrium is at weight/stiffness; gravity alone, sideways, must not
+// matter. Rotations enter: the anchor is beside the centre, so that the body tilts.
+TEST(Equilibrium, AHangingBodyTiltsUntilItsCentreIsBelowItsAnchor) {
+  Scenario s = static_scene(1);
+  s.bodies = {mass_body("mass", 2, {0.03, 0, 0}, {1e-3, 1e-3, 1e-3}), stand("wall")};
+  Ligament ligament;
+  ligament.name = "string";
+  ligament.path = {anchor("wall", {0, 0, 0.1}), anchor("mass", Vec3::Zero())};
+  ligament.law = Ligament::Law::Linear;
+  ligament.stiffness = 1e4;
+  s.ligaments = {ligament};
+  s.loads = {gravity({0, 0, -9.81})};
+  Simulation run(s);
+  run.advance(1);
+  const Pose& pose = run.now().poses[0];
+  const double tension = 2 * 9.81;
+  EXPECT_NEAR(pose.p.x(), 0, 1e-6);
+  EXPECT_NEAR(pose.p.z(), 0.1 - (0.1 + tension / 1e4) - 0.03, 1e-6);
+  ASSERT_EQ(run.stepper.indifferent().size(), 1u);  // it may turn about the string
+}
+
+Scenario falling_block() {
+  Scenario s = static_scene(1);
+  s.contact = true;
+  s.bodies = {box_body("block", Body::Kind::Tissue, {0.01, 0.01, 0.01}, {0, 0, 0.007}, {3, 3, 3}),
+              box_body("floor", Body::Kind::Fixed, {0.04, 0.04, 0.004}, {0, 0, -0.002}, {3, 3, 1})};
+  s.loads = {gravity({0, 0, -9.81})};
+  return s;
+}
+
+// Nothing holds the block until it lies on the floor: pseudo-time carries it there, and takes the
+// energy of the fall.
+TEST(Equilibrium, ABlockSettlesOnTheFloorAndItsWeightIsBalanced) {
+  Simulation run(falling_block());
+  run.advance(1);
+  const double weight = 1000 * 1e-6 * 9.81;
+  EXPECT_NEAR(run.stepper.dynamics().contact_summary(0).force.z(), weight, 1e-5 * weight);
+  EXPECT_GT(run.state.counts.reported_pairs, 0);
+  EXPECT_NEAR(run.state.energy.settling_loss, weight * 0.002, 0.02 * weight * 0.002);
+  EXPECT_LT(std::abs(run.loss()), 0.02 * weight * 0.002);
+  ASSERT_EQ(run.stepper.indifferent().size(), 1u);  // no friction: it may slide
+  EXPECT_NE(run.stepper.indifferent()[0].words.find("`block`"), std::string::npos);
+}
+
+TEST(Equilibrium, AMissingSupportIsNamed) {
+  Scenario s = falling_block();
+  s.bodies.pop_back();
+  s.contact = false;
+  Simulation run(s);
+  try {
+    run.advance(1);
+    FAIL() << "a block fell for ever and was called at rest";
+  } catch (const SimulationError& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find("body `block` can shift along (0.00 0.00 -1.00)"), std::string::npos)
+        << what;
+  }
+}
+
+// The same at rest, dynamic and static.
+TEST(Equilibrium, IsWhereDynamicsComesToRest) {
+  const auto tip = [](bool is_static) {
+    Scenario s = hanging_bar(0.1, Vec3::Zero(), neo_hookean(15e3, 0.3));
+    s.loads = {gravity({20, 0, 0})};
+    s.analysis = is_static ? Scenario::Analysis::Static : Scenario::Analysis::Dynamic;
+    s.integrator.step = is_static ? 1 : 0.02;  // so long that implicit Euler damps it within 1 s
+    Simulation run(s);
+    run.advance(1);
+    double most = 0;
+    for (const NodeRef& node : run.model.tissues[0].nodes)
+      most = std::max(most, run.now().position(node).x());
+    return most - 1e-3;
+  };
+  const double expected = tip(true);
+  EXPECT_GT(expected, 1e-4);
+  EXPECT_NEAR(tip(false), expected, 1e-4 * expected);
+}
+
+// What a tissue puts on each of its two bones: together its weight.
+TEST(Equilibrium, AttachmentsShareTheWeight) {
+  Scenario s = hanging_bar(1, Vec3::Zero(), neo_hookean(15e3, 0.3));
+  s.bodies.push_back(stand("floor"));
+  s.attachments.push_back(attach("bar", "floor", {-1, -1, -1e-6}, {1, 1, 1e-6}));
+  Simulation run(s);
+  run.advance(1);
+  const auto [wall, wall_moment] = run.stepper.dynamics().attachment_force(0, 0);
+  const auto [floor, floor_moment] = run.stepper.dynamics().attachment_force(0, 1);
+  // The nodes that are tied hang on their bones by themselves: one of nine layers, two halves.
+  const double weight = 1000 * 9.81 * 0.02 * 0.02 * 0.08;
+  EXPECT_NEAR(wall.z() + floor.z(), -weight * 7 / 8, 0.02 * weight);
+  EXPECT_LT(wall.z(), -0.3 * weight);
+  EXPECT_LT(floor.z(), -0.3 * weight);
+  EXPECT_LT(wall_moment.norm() + floor_moment.norm(), 0.01 * weight * 0.08);
+  const double all = run.force_on(0).z() + run.force_on(1).z();
+  EXPECT_NEAR(all, -weight, 1e-5 * weight);
+}
+
+}  // namespace articular::sim::equilibrium_test

@@ -1,0 +1,163 @@
+// Bodies that overlap before anything has moved.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/contact/initial_overlap.hpp"
+#include "sim/step/overlap_resolution.hpp"
+#include "tests/sim/support/contact_scene.hpp"
+
+namespace articular::sim::overlap_resolution_test {
+
+/// A block stands in another, 7/20 of its height deep.
+Scenario block_in_block(double overlap = 7e-3) {
+  Scenario s = contact_scene(1e-3);
+  s.bodies = {stand("floor"),
+              box_body("base", Body::Kind::Tissue, {0.04, 0.04, 0.02}, {0, 0, -0.01}, {8, 8, 4}),
+              box_body("top", Body::Kind::Tissue, {0.018, 0.018, 0.02},
+                       {6e-4, 8e-4, 0.01 - overlap}, {4, 4, 4})};
+  s.attachments = {attach("base", "floor", {-1, -1, -0.0201}, {1, 1, -0.0199})};
+  return s;
+}
+
+/// The state of a scene with settling done.
+struct Settled {
+  explicit Settled(const Scenario& scenario) : run(scenario), start(run.state.y) {
+    settling = resolve_overlaps(run.model, run.state.y);
+    run.stepper.restart(run.state);
+  }
+  Simulation run;
+  Eigen::VectorXd start;
+  OverlapResolution settling;
+};
+
+TEST(OverlapResolution, ABlockDeepInAnotherIsPushedOutUnstressed) {
+  for (const auto analysis : {Scenario::Analysis::Dynamic, Scenario::Analysis::Static}) {
+    Scenario s = block_in_block();
+    s.analysis = analysis;
+    Settled settled(s);
+    ASSERT_EQ(settled.settling.overlaps.size(), 1U);
+    const double element = 0.02 / 4;
+    EXPECT_NEAR(settled.settling.overlaps[0].before, 7e-3, 1e-9);
+    EXPECT_LT(settled.settling.overlaps[0].after, 0.01 * element);
+    EXPECT_NEAR(settled.settling.largest_motion, 7e-3, 0.1 * 7e-3);
+    EXPECT_GT(least_volume_ratio(settled.run), 0.9);
+    const double lowest = nodes_of(settled.run, 1).row(2).minCoeff();
+    EXPECT_NEAR(lowest, 0, 0.05 * element);
+    // Next to what pressing it down again would take.
+    EXPECT_LT(settled.run.stepper.dynamics().elastic_energy(), 1e-2 * 20e3 * 0.018 * 0.018 * 7e-3);
+  }
+}
+
+// The coarse facets of a cup cut into the finer head that lies in it with clearance everywhere. In
+// statics the means around the nodes are open: there is nothing to settle, and it is no error.
+TEST(OverlapResolution, FacetsThatCutIntoARoundBodyAreNoOverlapOfTheMeans) {
+  constexpr double kRadius = 0.01, kClearance = 2.5e-4;  // [m]; the chords' sagitta is 3.3e-4
+  const auto round = [](double radius, double lowest) {
+    return [=](Vec3 X) {
+      const double arc = radius - std::sqrt(radius * radius - X.x() * X.x());
+      X.z() += arc + lowest;
+      return X;
+    };
+  };
+  const TemporaryFolder folder;
+  Scenario s = contact_scene(1e-3);
+  s.analysis = Scenario::Analysis::Static;
+  s.bodies = {
+      mesh_body("cup", Body::Kind::Tissue,
+                bent({{0.01, 0.01, 0.004}, {2, 2, 2}, {0, 0, -0.002}}, round(kRadius, 0)), folder),
+      mesh_body("head", Body::Kind::Rigid,
+                bent({{0.012, 0.008, 0.004}, {24, 8, 4}, {0, 0, 0.002}},
+                     round(kRadius - kClearance, kClearance)),
+                folder),
+      stand("floor")};
+  s.attachments = {attach("cup", "floor", {-1, -1, -1}, {1, 1, -0.0025})};
+  const Settled settled(s);
+  const auto overlaps = initial_overlaps(settled.run.model);
+  ASSERT_EQ(overlaps.size(), 1U);  // by the facets
+  EXPECT_GT(overlaps[0].depth, settled.run.model.contacts[0].max_penetration);
+  EXPECT_TRUE(settled.settling.overlaps.empty());
+  EXPECT_EQ(settled.settling.largest_motion, 0);
+}
+
+TEST(OverlapResolution, VelocitiesAndActivationsStayAsTheyWere) {
+  Scenario s = block_in_block();
+  s.bodies[2].velocity = {0.1, 0.2, -0.3};
+  s.loads = {gravity({0, 0, -9.81})};
+  const Settled settled(s);
+  const int velocities = settled.run.model.layout.velocities();
+  const Eigen::Index rest = settled.start.size() - velocities;
+  EXPECT_GT(settled.start.tail(rest).norm(), 0.1);
+  EXPECT_EQ(settled.run.state.y.tail(rest), settled.start.tail(rest));
+  EXPECT_GT((settled.run.state.y - settled.start).norm(), 1e-3);
+}
+
+// Gravity and other loads have no part in it: what does not overlap does not move.
+TEST(OverlapResolution, WhatDoesNotOverlapDoesNotMove) {
+  Scenario s = block_in_block(-1e-3);
+  s.loads = {gravity({0, 0, -9.81})};
+  const Settled settled(s);
+  EXPECT_TRUE(settled.settling.overlaps.empty());
+  EXPECT_EQ(settled.run.state.y, settled.start);
+}
+
+// A fixed ball, an element and a half deep in tissue that is held below: the tissue gives way and
+// keeps the stress; nothing is left inside the ball.
+TEST(OverlapResolution, TissueAroundABoneThatCannotGiveWayKeepsTheStress) {
+  constexpr double kElement = 4e-3;  // [m]
+  Scenario s = contact_scene(1e-3);
+  s.bodies = {stand("floor"),
+              box_body("base", Body::Kind::Tissue, {0.04, 0.04, 0.02}, {0, 0, -0.01}, {10, 10, 5}),
+              Body{}};
+  s.attachments = {attach("base", "floor", {-1, -1, -0.0201}, {1, 1, -0.0199})};
+  Body& ball = s.bodies[2];
+  ball.name = "ball";
+  ball.kind = Body::Kind::Fixed;
+  ball.sphere = SphereGeometry{0.01, 3e-3, {0, 0, 0.004}};
+  // Balanced: a step in time hardly moves it; with averages, which let facets sink in where points
+  // of them were out, by a part of an element.
+  for (const auto& [response, way] : {std::pair(Scenario::Response::Pointwise, 5e-3 * kElement),
+                                      std::pair(Scenario::Response::Averaged, 0.1 * kElement)}) {
+    s.contact_response = response;
+    Settled settled(s);
+    ASSERT_EQ(settled.settling.overlaps.size(), 1U);
+    EXPECT_NEAR(settled.settling.overlaps[0].before, 6e-3, 0.3e-3);
+    EXPECT_LT(settled.settling.overlaps[0].after, 0.15 * kElement);
+    EXPECT_GT(settled.run.stepper.dynamics().contact_summary(0).force.norm(), 0.1);
+    EXPECT_GT(least_volume_ratio(settled.run), 0.2);
+    const Eigen::VectorXd before = settled.run.state.y;
+    settled.run.advance(5e-3);
+    const int positions = settled.run.model.layout.velocities();
+    EXPECT_LT((settled.run.state.y - before).head(positions).lpNorm<Eigen::Infinity>(), way);
+  }
+}
+
+// Nearer to the upper side than to the lower one.
+TEST(OverlapResolution, AWholeBodyInAnotherFindsTheNearestWayOut) {
+  Scenario s = block_in_block();
+  s.bodies[2].box = BoxGeometry{{6e-3, 6e-3, 6e-3}, {3, 3, 3}, {0, 0, -6e-3}};
+  const Settled settled(s);
+  ASSERT_EQ(settled.settling.overlaps.size(), 1U);
+  EXPECT_NEAR(settled.settling.overlaps[0].before, 9e-3, 1e-4);
+  EXPECT_LT(settled.settling.overlaps[0].after, 0.01 * 2e-3);
+  const double lowest = nodes_of(settled.run, 1).row(2).minCoeff();
+  EXPECT_GT(lowest, -1e-3);
+}
+
+// In the very middle of another: pushed from all sides alike.
+TEST(OverlapResolution, ABodyThatCannotFindTheWayOutIsRefused) {
+  Scenario s = contact_scene(1e-3);
+  s.bodies = {box_body("large", Body::Kind::Tissue, Vec3::Constant(0.1), Vec3::Zero(), {4, 4, 4}),
+              box_body("small", Body::Kind::Tissue, Vec3::Constant(0.01), Vec3::Zero(), {1, 1, 1})};
+  Simulation run(s);
+  try {
+    resolve_overlaps(run.model, run.state.y);
+    FAIL();
+  } catch (const SimulationError& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.find("`large` and `small` overlap at the start by "), 0U) << message;
+    EXPECT_NE(message.find("settling = false"), std::string::npos) << message;
+  }
+}
+
+}  // namespace articular::sim::overlap_resolution_test

@@ -1,0 +1,246 @@
+// `articular anatomy knee`: published dimensions, sound meshes, nothing overlaps.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "sim/mesh/mesh_io.hpp"
+#include "tests/tools/anatomy/anatomy_checks.hpp"
+#include "tools/anatomy/anatomy_knee.hpp"
+#include "tools/anatomy/anatomy_solids.hpp"
+
+namespace articular::anatomy::knee_anatomy_test {
+
+const Compartment* const kBoth[] = {&medial_compartment(), &lateral_compartment()};
+std::string name_of(const Compartment& c) { return c.side > 0 ? "medial" : "lateral"; }
+
+const Anatomy& default_knee() {
+  static const Anatomy anatomy = knee_anatomy({});
+  return anatomy;
+}
+
+const Mesh& part(const Anatomy& knee, const std::string& name, const Compartment& c) {
+  return knee.meshes.at(name + "_" + name_of(c) + ".vtu");
+}
+
+/// Area of the boundary faces whose normal is within 60 degrees of a direction that may depend on
+/// the place.
+template <class Direction>
+double area_facing(const Mesh& mesh, const Direction& direction) {
+  double sum = 0;
+  const Triangles skin = boundary(mesh.tets);
+  for (const auto& face : skin.colwise()) {
+    const Vec3 a = mesh.X_mm.col(face(0)), b = mesh.X_mm.col(face(1)), c = mesh.X_mm.col(face(2));
+    const Vec3 area = (b - a).cross(c - a) / 2;
+    if (area.normalized().dot(direction((a + b + c) / 3)) > 0.5) sum += area.norm();
+  }
+  return sum;
+}
+
+class KneeSize : public testing::TestWithParam<KneeResolution> {};
+INSTANTIATE_TEST_SUITE_P(MillimetresAndLayers, KneeSize,
+                         testing::Values(KneeResolution{1.5, 3}, KneeResolution{2.5, 2},
+                                         KneeResolution{4, 2}));
+
+TEST_P(KneeSize, TetrahedraArePositiveAndSurfacesClosed) {
+  for (const Compartment* c : kBoth)
+    for (const Mesh& mesh : {femoral_cartilage(*c, GetParam()), tibial_cartilage(*c, GetParam()),
+                             meniscus(*c, GetParam())}) {
+      EXPECT_GT(least_relative_volume(mesh), 0.0015);
+      const auto [least, largest] = dihedral_range_deg(mesh);
+      EXPECT_GT(least, 5);
+      EXPECT_LT(largest, 168);
+      EXPECT_EQ(unmatched_edges(boundary(mesh.tets)), 0);
+    }
+}
+
+TEST_P(KneeSize, CartilageHasThePublishedMeanThickness) {
+  for (const Compartment* c : kBoth) {
+    const Mesh femoral = femoral_cartilage(*c, GetParam());
+    const double femoral_area = area_facing(femoral, [&](const Vec3& p) -> Vec3 {
+      const CondylePlace place = condyle_place(*c, p);
+      return condyle_point(*c, place.phi, place.alpha, 0) -
+             condyle_point(*c, place.phi, place.alpha, 1);
+    });
+    // Chords of the elements take away up to 1 % of both.
+    EXPECT_NEAR(volume_of(femoral) / femoral_area, c->femoral_thickness,
+                0.015 * c->femoral_thickness);
+    const Mesh tibial = tibial_cartilage(*c, GetParam());
+    const double tibial_area = area_facing(tibial, [](const Vec3&) { return Vec3::UnitZ(); });
+    EXPECT_NEAR(volume_of(tibial) / tibial_area, c->tibial_thickness, 0.015 * c->tibial_thickness);
+  }
+}
+
+TEST_P(KneeSize, NothingOverlapsAndTheGapsAreSmall) {
+  for (const Compartment* c : kBoth) {
+    const std::vector<Mesh> meshes = {femoral_cartilage(*c, GetParam()),
+                                      tibial_cartilage(*c, GetParam()), meniscus(*c, GetParam())};
+    for (const auto& [i, j] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
+      SCOPED_TRACE(name_of(*c) + ", meshes " + std::to_string(i) + " and " + std::to_string(j));
+      double least = 1e3;
+      for (const auto& [a, b] : {std::pair(i, j), std::pair(j, i)}) {
+        const Mesh &on = meshes[static_cast<std::size_t>(a)],
+                   &of = meshes[static_cast<std::size_t>(b)];
+        const Triangles skin = boundary(on.tets), other = boundary(of.tets);
+        SurfaceDistance distance(on.X_mm, skin);
+        for (const auto& face : other.colwise()) {
+          // Corners and middle of each face.
+          Vec3 middle = Vec3::Zero();
+          for (const int node : face) {
+            least = std::min(least, distance(of.X_mm.col(node)));
+            middle += of.X_mm.col(node) / 3;
+          }
+          least = std::min(least, distance(middle));
+        }
+      }
+      EXPECT_GT(least, 0);
+      EXPECT_LT(least, 0.25);
+    }
+  }
+}
+
+TEST(KneeAnatomy, ShippedFilesAreWhatTheProgramMakes) {
+  const auto folder = std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee/anatomy";
+  for (const auto& [name, mesh] : default_knee().meshes) {
+    SCOPED_TRACE(name);
+    const sim::MeshData file = sim::read_mesh(folder / name, 1e-3);
+    ASSERT_EQ(file.X.cols(), mesh.X_mm.cols());
+    EXPECT_LT((file.X * 1e3 - mesh.X_mm).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_EQ(file.tets, mesh.tets);
+    if (mesh.triangles.cols() > 0) {
+      EXPECT_EQ(file.triangles, mesh.triangles);
+    }
+    if (mesh.fibres.cols() > 0) {
+      ASSERT_EQ(file.cell_vectors.size(), 1U);
+      EXPECT_EQ(file.cell_vectors[0].first, "fibres");
+      EXPECT_LT((file.cell_vectors[0].second - mesh.fibres).cwiseAbs().maxCoeff(), 1e-12);
+    }
+  }
+  std::ifstream stream(folder / "landmarks.csv", std::ios::binary);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}),
+            landmarks_csv(default_knee().landmarks));
+}
+
+TEST(KneeAnatomy, CondylesHaveTwoSagittalRadii) {
+  for (const Compartment* c : kBoth)
+    for (const double h : {1e-2, 5e-3}) {
+      // Radius of the circle through three points of the profile.
+      const auto radius = [&](double phi) {
+        const Vec3 p = condyle_point(*c, phi - h, 0, 0), q = condyle_point(*c, phi, 0, 0),
+                   r = condyle_point(*c, phi + h, 0, 0);
+        return (q - p).norm() * (r - q).norm() * (r - p).norm() / (2 * (q - p).cross(r - p).norm());
+      };
+      EXPECT_NEAR(radius(0), c->distal_radius, 1e-6);
+      EXPECT_NEAR(radius(c->transition + 0.1), c->posterior_radius, 1e-6);
+    }
+}
+
+TEST(KneeAnatomy, ADistanceToACondyleIsThatOfItsParametrisation) {
+  for (const Compartment* c : kBoth)
+    for (const double phi : {-0.6, 0.0, 0.2, 0.4, 0.7, 1.5})
+      for (const double alpha : {-0.5, 0.0, 0.3})
+        for (const double out : {-1.5, 0.0, 0.7}) {
+          const CondylePlace place = condyle_place(*c, condyle_point(*c, phi, alpha, -out));
+          EXPECT_NEAR(place.distance, out, 1e-12);
+          EXPECT_NEAR(place.phi, phi, 1e-12);
+          EXPECT_NEAR(place.alpha, alpha, 1e-12);
+          if (std::abs(phi) > 1) continue;
+          const Vec3 p = condyle_point(*c, phi, alpha, -0.7);
+          EXPECT_NEAR(condyle_height(*c, p.x(), p.y(), 0.7), p.z(), 1e-9);
+        }
+}
+
+TEST(KneeAnatomy, MedialPlateauIsConcaveAndLateralOneConvexInTheSagittalPlane) {
+  for (const Compartment* c : kBoth) {
+    const double x = c->side * kCompartmentX;
+    const double bend =
+        plateau_height(*c, x, 10) + plateau_height(*c, x, -10) - 2 * plateau_height(*c, x, 0);
+    EXPECT_GT(c->side * bend, 0.5);
+    // Both rise to the eminence between them and slope down to the back.
+    EXPECT_GT(plateau_height(*c, x - 10 * c->side, 0), plateau_height(*c, x, 0) + 0.5);
+    EXPECT_NEAR((plateau_height(*c, x, -1) - plateau_height(*c, x, 1)) / 2,
+                std::tan(kPlateauSlopeDeg * kDegree), 1e-9);
+  }
+}
+
+TEST(KneeAnatomy, MenisciHaveThePublishedRims) {
+  // Outer rim: 99.1 ± 11.2 medial, 90.3 ± 9.4 lateral; between the horns 24.1 and 11.3; heights of
+  // the rim 4.0 (one series) to 5.6 mm (another).
+  const std::map<std::string, std::array<double, 3>> published = {{"medial", {99.1, 11.2, 24.1}},
+                                                                  {"lateral", {90.3, 9.4, 11.3}}};
+  for (const Compartment* c : kBoth) {
+    SCOPED_TRACE(name_of(*c));
+    const auto [rim, deviation, horns] = published.at(name_of(*c));
+    double length = 0;
+    const Mesh mesh = meniscus(*c, {1, 2});
+    const Vec3 size = mesh.X_mm.rowwise().maxCoeff() - mesh.X_mm.rowwise().minCoeff();
+    EXPECT_NEAR(size.y(), 2 * c->rim_depth, 0.5);
+    constexpr int kPieces = 400;
+    for (int i = 0; i < kPieces; ++i) {
+      const auto at = [&](int k) {
+        const double psi = c->horn_angle * (2.0 * k / kPieces - 1);
+        return Eigen::Vector2d(c->rim_width * std::cos(psi), c->rim_depth * std::sin(psi));
+      };
+      length += (at(i + 1) - at(i)).norm();
+    }
+    EXPECT_NEAR(length, rim, deviation);
+    EXPECT_NEAR((horn(*c, 1) - horn(*c, -1)).norm(), horns, 5);
+    const Eigen::Index layer = mesh.X_mm.cols() / 3;  // two layers of elements
+    const Eigen::RowVectorXd heights = mesh.X_mm.row(2).tail(layer) - mesh.X_mm.row(2).head(layer);
+    EXPECT_GT(heights.maxCoeff(), 4);
+    EXPECT_LT(heights.maxCoeff(), 5.6);
+    EXPECT_GT(heights.minCoeff(), 0.75);
+  }
+}
+
+TEST(KneeAnatomy, FibresOfAMeniscusRunAlongItsRim) {
+  for (const Compartment* c : kBoth) {
+    const Mesh& mesh = part(default_knee(), "meniscus", *c);
+    ASSERT_EQ(mesh.fibres.cols(), mesh.tets.cols());
+    for (Eigen::Index e = 0; e < mesh.tets.cols(); ++e) {
+      Vec3 p = Vec3::Zero();
+      for (const int node : mesh.tets.col(e)) p += mesh.X_mm.col(node) / 4;
+      const Vec3 fibre = mesh.fibres.col(e);
+      EXPECT_NEAR(fibre.norm(), 1, 1e-12);
+      EXPECT_LT(std::abs(fibre.z()), 0.5);
+      // Around the compartment's middle, in the sense from the anterior to the posterior horn.
+      const Vec3 ray = p - Vec3(c->side * kCompartmentX, 0, p.z());
+      EXPECT_GT(c->side * ray.cross(fibre).z(), 0.5 * ray.norm());
+    }
+  }
+}
+
+// The scenario ties what lies within 0.3 mm of the bones: all nodes of the deepest layer, no
+// others.
+TEST(KneeAnatomy, BonesAreClosedAndCartilageLiesOnThem) {
+  const std::map<std::string, std::string> bones = {{"femoral_cartilage", "femur.vtp"},
+                                                    {"tibial_cartilage", "tibia.vtp"}};
+  for (const auto& [cartilage, bone] : bones) {
+    SCOPED_TRACE(bone);
+    const Mesh& surface = default_knee().meshes.at(bone);
+    EXPECT_EQ(unmatched_edges(surface.triangles), 0);
+    EXPECT_GT(volume_and_center(surface).first, 0);
+    SurfaceDistance distance(surface.X_mm, surface.triangles);
+    for (const Compartment* c : kBoth) {
+      const Mesh& mesh = part(default_knee(), cartilage, *c);
+      const Eigen::Index layer = mesh.X_mm.cols() / 3;  // two layers of elements
+      for (Eigen::Index i = 0; i < mesh.X_mm.cols(); ++i) {
+        const double above = distance(mesh.X_mm.col(i));
+        if (i < layer) {
+          EXPECT_LT(std::abs(above), 0.3) << mesh.X_mm.col(i).transpose();
+        } else {
+          EXPECT_GT(above, 0.4) << mesh.X_mm.col(i).transpose();
+        }
+      }
+    }
+  }
+}
+
+TEST(KneeAnatomy, RefusesSizesAndLayersOutsideTheirRange) {
+  EXPECT_THROW(knee_anatomy({0.5, 2}), std::invalid_argument);
+  EXPECT_THROW(knee_anatomy({5, 2}), std::invalid_argument);
+  EXPECT_THROW(knee_anatomy({2, 1}), std::invalid_argument);
+  EXPECT_THROW(knee_anatomy({std::nan(""), 2}), std::invalid_argument);
+}
+
+}  // namespace articular::anatomy::knee_anatomy_test

@@ -1,0 +1,257 @@
+// The program as a user meets it: exit codes, one clear line on stderr, nothing half-written.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <set>
+
+#include "tests/address_sanitizer.hpp"
+#include "tests/tools/support/program.hpp"
+
+namespace articular::program_test {
+
+const std::string kRun = "run scene.toml --out out --quiet";
+
+const std::string kTissue = R"(
+duration = "2 ms"
+[[body]]
+name = "floor"
+kind = "fixed"
+[[body]]
+name = "disc"
+kind = "tissue"
+density = "1 g/cm^3"
+material = { law = "linear", young_modulus = "5 MPa", poisson_ratio = 0.3 }
+)";
+const std::string kScene =
+    kTissue + "geometry = { box = { size = \"4 4 4 mm\", cells = [2, 2, 2] } }\n";
+
+std::string with(const std::string& text, const std::string& from, const std::string& to) {
+  std::string changed = text;
+  const std::size_t at = changed.find(from);
+  if (at == std::string::npos) throw std::invalid_argument("no " + from);
+  return changed.replace(at, from.size(), to);
+}
+
+std::string with_mesh(const std::string& file) {
+  return kTissue + "mesh = { file = \"" + file + "\" }\n";
+}
+
+const std::string kNodes = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 0\n";
+
+struct BadInput {
+  const char* name;
+  std::string scene;
+  const char* fragment;  // of the message
+};
+
+void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
+
+class BadInputs : public ::testing::TestWithParam<BadInput> {};
+
+std::set<std::string> names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+TEST(Check, TellsWhichBodiesOverlapAtTheStartAndByHowMuch) {
+  const TemporaryFolder folder;
+  const std::string block =
+      "geometry = { box = { size = \"4 4 4 mm\", cells = [2, 2, 2], center = \"1 1 3.9 mm\" } }\n";
+  std::string other = kTissue.substr(kTissue.rfind("[[body]]"));
+  other = with(other, "disc", "upper");
+  folder.file("scene.toml", kScene + other + block);
+  const ProgramResult result = run_program(folder, "check scene.toml");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.out.find("`disc` and `upper` overlap at the start by 0.1 mm"), std::string::npos)
+      << result.out;
+}
+
+TEST_P(BadInputs, GiveOneClearLineAndExitCode2AndWriteNothing) {
+  const TemporaryFolder folder;
+  folder.file("scene.toml", GetParam().scene);
+  folder.file("inverted.inp", kNodes + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n2, 2, 3, 5, 4\n");
+  folder.file("flat.inp", kNodes + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 5\n");
+  folder.file("surface.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  std::set<std::string> before = names_in(folder.path());
+  before.insert({".stdout", ".stderr"});
+  for (const std::string& arguments : {kRun, std::string("check scene.toml")}) {
+    const ProgramResult result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_NE(result.err.find(GetParam().fragment), std::string::npos) << result.err;
+    EXPECT_EQ(names_in(folder.path()), before) << arguments;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Program, BadInputs,
+    ::testing::Values(
+        BadInput{"WrongToml", with(kScene, "kind = \"fixed\"", "kind = \"fixed"), "scene.toml:5:"},
+        BadInput{"UnknownKey", with(kScene, "density", "densty"), "density"},
+        BadInput{"WrongUnit", with(kScene, "5 MPa", "5 mm"), "scene.toml:10:"},
+        BadInput{"MissingUnit", with(kScene, "\"1 g/cm^3\"", "1000"), "scene.toml:9:"},
+        BadInput{"NotFinite", with(kScene, "0.3", "nan"), "scene.toml:10:"},
+        BadInput{"NegativeDensity", with(kScene, "1 g/cm^3", "-1 g/cm^3"), "scene.toml:9:"},
+        BadInput{"PoissonRatioOfOneHalf", with(kScene, "0.3", "0.5"), "scene.toml:10:"},
+        BadInput{"UnknownBody",
+                 kScene + "[[attach]]\nbody = \"disk\"\nto = \"floor\"\nregion = {}\n", "disc"},
+        BadInput{"MuscleWithoutInsertion",
+                 kScene + "[[muscle]]\nname = \"lip\"\nmax_force = \"1 N\"\n"
+                          "path = [{ body = \"floor\", point = \"0 0 0 mm\" }]\n",
+                 "scene.toml:15:"},
+        BadInput{"NoSuchMesh", with_mesh("nothing.vtu"), "nothing.vtu"},
+        BadInput{"InvertedElement", with_mesh("inverted.inp"), "is inverted"},
+        BadInput{"FlatElement", with_mesh("flat.inp"), "is flat"},
+        BadInput{"MeshWithoutTetrahedra", with_mesh("surface.obj"), "no tetrahedra"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Program, MissingScenarioIsBadInput) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(folder, "run nothing.toml --out out");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_NE(result.err.find("nothing.toml"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST(Program, WrongArgumentsAreBadInput) {
+  const TemporaryFolder folder;
+  folder.file("scene.toml", kScene);
+  for (const char* arguments :
+       {"", "walk", "run", "run scene.toml --sett x=1", "run scene.toml --set x=1",
+        "run scene.toml --set duration=1", "run scene.toml --set duration"}) {
+    const ProgramResult result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST(Program, FolderThatCannotBeWrittenIsAFailureOfTheSystem) {
+  const TemporaryFolder folder;
+  folder.file("scene.toml", kScene);
+  folder.file("file", "");
+  const ProgramResult result = run_program(folder, "run scene.toml --out file/out --quiet");
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_NE(result.err.find("file/out"), std::string::npos) << result.err;
+}
+
+TEST(Program, FinishedRunNamesItsFilesAndHasThemWhole) {
+  const TemporaryFolder folder;
+  folder.file("scene.toml", kScene);
+  const ProgramResult result = run_program(folder, kRun);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out, "out/scene.pvd\nout/history.csv\nout/summary.json\n");
+  for (const char* file : {"out/scene.pvd", "out/history.csv", "out/summary.json"})
+    EXPECT_FALSE(content(folder / file).empty()) << file;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "out"))
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+}
+
+TEST(Program, WarnsOfAMuscleThatCanHardlyPull) {
+  const TemporaryFolder folder;
+  folder.file("scene.toml",
+              kScene +
+                  "[[muscle]]\nname = \"lip\"\nmax_force = \"1 N\"\noptimal_length = \"5 mm\"\n"
+                  "path = [{ body = \"floor\", point = \"0 0 0 mm\" }, "
+                  "{ body = \"floor\", point = \"0 0 10 mm\" }]\n");
+  const ProgramResult result = run_program(folder, kRun);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_NE(result.err.find("warning: "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("lip"), std::string::npos) << result.err;
+}
+
+// One Newton iteration a step can't solve a finite deformation, and the least step forbids smaller
+// ones.
+TEST(Program, RunThatCannotGoOnLeavesValidResults) {
+  const TemporaryFolder folder;
+  folder.file(
+      "scene.toml",
+      with(kScene, "[[body]]", "[integrator]\nmax_iterations = 1\nmin_step = \"1 ms\"\n[[body]]") +
+          "[[load]]\nkind = \"gravity\"\nacceleration = \"0 0 -9.81 m/s^2\"\n"
+          "[[load]]\nkind = \"force\"\nbody = \"disc\"\nregion = { box = [\"-3 -3 1.9 mm\", "
+          "\"3 3 2.1 mm\"] }\nforce = \"30 0 30 N\"\n");
+  const ProgramResult result =
+      run_program(folder, kRun + " --set body.disc.material.law=neo-hookean");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_NE(result.err.find("results are valid until then"), std::string::npos) << result.err;
+  EXPECT_NE(content(folder / "out/summary.json").find("cannot go on"), std::string::npos);
+  EXPECT_NE(content(folder / "out/scene.pvd").find("disc_000000.vtu"), std::string::npos);
+}
+
+TEST(Program, HelpNamesEverySubcommand) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(folder, "--help");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  for (const char* command :
+       {"run", "check", "explain", "render", "study", "collide", "mesh", "anatomy"}) {
+    EXPECT_NE(result.out.find(std::string("  ") + command + " "), std::string::npos) << command;
+    const ProgramResult own = run_program(folder, std::string(command) + " --help");
+    EXPECT_EQ(own.exit_code, 0) << command;
+    EXPECT_NE(own.out.find("Usage: articular " + std::string(command)), std::string::npos)
+        << own.out;
+  }
+}
+
+TEST(Program, AMissingMeshIsToldWithWhatMakesIt) {
+  const TemporaryFolder folder;
+  folder.file("s.toml",
+              "duration = \"1 s\"\n"
+              "[[body]]\n"
+              "name = \"bone\"\n"
+              "kind = \"fixed\"\n"
+              "mesh = { file = \"bone.vtp\", made_by = \"tools/make-bone\" }\n");
+  const ProgramResult result = run_program(folder, "check s.toml");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("s.toml:5:"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("no such mesh file; it is made by `tools/make-bone`"),
+            std::string::npos)
+      << result.err;
+}
+
+// What is measured of a scene before it runs, beside what it then takes.
+TEST(Program, ExplainMeasuresTermsAndMemory) {
+  const TemporaryFolder folder;
+  const std::string scene = "'" ARTICULAR_SOURCE_DIR "/scenarios/verification/tool_on_tissue.toml'";
+  const ProgramResult result = run_program(folder, "explain " + scene + " --json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  double share = 0, forces = 0;
+  for (const auto& term : json.at("costs").at("terms")) {
+    forces += term.value("evaluation_s", 0.0);
+    if (term.contains("share_of_unknowns")) share += term.at("share_of_unknowns").get<double>();
+  }
+  EXPECT_GT(forces, 0);
+  EXPECT_NEAR(share, 1, 1e-12);  // the tool is driven
+  EXPECT_GT(json.at("costs").at("iteration_s").at("factor").get<double>(), 0);
+  EXPECT_GT(json.at("costs").at("longest_explicit_step_s").get<double>(), 0);
+
+  if (!kAddressSanitizer) {
+    ASSERT_EQ(
+        run_program(folder, "run " + scene + " --quiet --out out --set duration='10 ms'").exit_code,
+        0);
+    const double needed =
+        nlohmann::json::parse(content(folder / "out/summary.json")).at("peak_memory_MB");
+    EXPECT_LT(json.at("costs").at("estimated_memory_MB").get<double>(), 1.5 * needed);
+    EXPECT_GT(json.at("costs").at("estimated_memory_MB").get<double>(), needed / 1.5);
+  }
+
+  const ProgramResult plain = run_program(folder, "explain " + scene + " --json --no-costs");
+  EXPECT_FALSE(nlohmann::json::parse(plain.out).contains("costs"));
+  const ProgramResult text = run_program(folder, "explain " + scene);
+  EXPECT_NE(text.out.find("elasticity of `layer`"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("`explicit` would be stable"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("Accuracy: within "), std::string::npos) << text.out;
+}
+
+}  // namespace articular::program_test

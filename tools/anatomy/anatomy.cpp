@@ -1,0 +1,104 @@
+#include "tools/anatomy/anatomy.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <stdexcept>
+
+#include "sim/base/atomic_file.hpp"
+#include "sim/base/error.hpp"
+#include "sim/mesh/mesh_io.hpp"
+#include "sim/output/frame_writer.hpp"
+#include "tools/anatomy/anatomy_knee.hpp"
+#include "tools/anatomy/anatomy_mandible.hpp"
+
+namespace articular::anatomy {
+namespace {
+
+constexpr double kMillimetre = 1e-3;  // [m]
+
+template <class Build>
+void run(const Build& build, const std::filesystem::path& folder) {
+  try {
+    const Anatomy anatomy = build();
+    write_anatomy(anatomy, folder);
+    for (const auto& [name, mesh] : anatomy.meshes)
+      fmt::print("{}: {} nodes, {} {}\n", (folder / name).string(), mesh.X_mm.cols(),
+                 mesh.tets.cols() > 0 ? mesh.tets.cols() : mesh.triangles.cols(),
+                 mesh.tets.cols() > 0 ? "tetrahedra" : "triangles");
+    if (!anatomy.muscles.empty())
+      fmt::print("{}: {} muscles\n", (folder / "muscles.csv").string(), anatomy.muscles.size());
+    fmt::print("{}: {} points\n", (folder / "landmarks.csv").string(), anatomy.landmarks.size());
+  } catch (const std::invalid_argument& error) {
+    throw sim::InputError(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw sim::SystemError(error.what());
+  }
+}
+
+void add_mandible(CLI::App& anatomy, int& exit_code) {
+  CLI::App* mandible = anatomy.add_subcommand(
+      "mandible", "Jaw: mandible, skull parts, joint surfaces, discs, muscle attachments");
+  struct Options {
+    double size_mm = 1.2;
+    std::filesystem::path folder;
+  };
+  const auto options = std::make_shared<Options>();
+  mandible->add_option("--size", options->size_mm, "Element size of the discs in mm (0.3 to 2.5)")
+      ->capture_default_str();
+  mandible->add_option("--out", options->folder, "Folder for the files, made if it is not there")
+      ->required();
+  mandible->callback([options, &exit_code] {
+    run([&] { return mandible_anatomy(options->size_mm); }, options->folder);
+    exit_code = 0;
+  });
+}
+
+void add_knee(CLI::App& anatomy, int& exit_code) {
+  CLI::App* knee = anatomy.add_subcommand(
+      "knee", "Right knee in extension: femur, tibia, their cartilage, menisci");
+  struct Options {
+    KneeResolution resolution;
+    std::filesystem::path folder;
+  };
+  const auto options = std::make_shared<Options>();
+  knee->add_option("--size", options->resolution.size_mm,
+                   "Element size of cartilage and menisci in mm, along the surfaces (0.8 to 4)")
+      ->capture_default_str();
+  knee->add_option("--layers", options->resolution.layers,
+                   "Elements through their thickness (2 to 6)")
+      ->capture_default_str();
+  knee->add_option("--out", options->folder, "Folder for the files, made if it is not there")
+      ->required();
+  knee->callback([options, &exit_code] {
+    run([&] { return knee_anatomy(options->resolution); }, options->folder);
+    exit_code = 0;
+  });
+}
+
+}  // namespace
+
+void write_anatomy(const Anatomy& anatomy, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  for (const auto& [name, mesh] : anatomy.meshes) {
+    sim::MeshData data;
+    data.X = mesh.X_mm * kMillimetre;
+    data.tets = mesh.tets;
+    data.triangles = mesh.triangles;
+    if (mesh.fibres.cols() > 0) data.cell_vectors.emplace_back("fibres", mesh.fibres);
+    sim::write_mesh(folder / name, data, kMillimetre);
+  }
+  if (!anatomy.muscles.empty())
+    sim::write_text_file(folder / "muscles.csv", muscles_csv(anatomy.muscles));
+  sim::write_text_file(folder / "landmarks.csv", landmarks_csv(anatomy.landmarks));
+}
+
+void add_anatomy_command(CLI::App& app, int& exit_code) {
+  CLI::App* anatomy =
+      app.add_subcommand("anatomy", "Builds joint geometry from published dimensions");
+  anatomy->require_subcommand(1);
+  add_mandible(*anatomy, exit_code);
+  add_knee(*anatomy, exit_code);
+}
+
+}  // namespace articular::anatomy

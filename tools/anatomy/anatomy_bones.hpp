@@ -1,0 +1,28 @@
+#pragma once
+
+#include "tools/anatomy/anatomy_joint.hpp"
+
+/// Mandible and skull parts to look at, with teeth. Unions of thick
+/// triangles and superellipsoids, symmetric about x = 0. mm.
+namespace articular::anatomy {
+
+/// Closed surface, outward normals: body with chin, both rami with coronoid and condyle, lower
+/// teeth.
+/// @param h  spacing of the contoured grid
+Mesh mandible_surface(double h);
+
+/// Closed surface: upper teeth and maxilla, zygomatic arches, temporal bones with fossa and
+/// eminence.
+Mesh skull_surface(double h);
+
+/// Occlusal strips that meet at closed mouth with a gap of kOcclusalGap; normals up (lower), down
+/// (upper).
+Mesh lower_teeth_sheet(double h);
+Mesh upper_teeth_sheet(double h);
+constexpr double kOcclusalGap = 0.3;
+
+/// Middle of the lower dental arch at the distance |x| from the midline: occlusal level. x in
+/// 0..27.
+Vec3 arch_point(double x);
+
+}  // namespace articular::anatomy

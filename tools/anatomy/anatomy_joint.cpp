@@ -1,0 +1,262 @@
+#include "tools/anatomy/anatomy_joint.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "tools/anatomy/anatomy_grid.hpp"
+
+namespace articular::anatomy {
+namespace {
+
+constexpr double kRoofRadius = 6;       // concave
+constexpr double kCrestRadius = 7;      // convex
+constexpr double kSlopeDistance = 6.3;  // condyle centre to slope: head + 1.3 mm of disc
+constexpr double kRoofShift = 2.35;     // end of the roof arc above the point nearest to the head
+constexpr double kWallDeg = 75;         // postglenoid wall to the horizontal
+constexpr double kWallLength = 4;
+constexpr double kAnteriorDeg = 3;  // rise of the preglenoid plane before the crest
+constexpr double kAnteriorLength = 15;
+constexpr double kHeadExponent = 2.5;       // superellipse of the head in the frontal plane
+constexpr double kTroughCurvature = 0.018;  // [1/mm] fossa_drop = this * x²
+constexpr double kFossaHalfWidth = 13;
+
+/// One arc or line of the profile, from posterior to anterior.
+struct Piece {
+  Vec2 start;
+  double heading;    // at the start [rad], 0 = forward, > 0 = up
+  double curvature;  // [1/mm], > 0 turns up (convex eminence), < 0 concave roof, 0 line
+  double length;
+};
+
+Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+/// Downwards for a forward heading: into the joint.
+Vec2 inward(double heading) { return {std::sin(heading), -std::cos(heading)}; }
+
+Vec2 point_on(const Piece& p, double s) {
+  if (p.curvature == 0) return p.start + s * direction(p.heading);
+  const double r = 1 / p.curvature;
+  return p.start - r * inward(p.heading) + r * inward(p.heading + s * p.curvature);
+}
+
+/// wall, roof, slope, crest, preglenoid plane
+const std::array<Piece, 5>& profile() {
+  static const std::array<Piece, 5> pieces = [] {
+    const double slope = kSlopeDeg * kDeg;
+    const double straight =
+        (kEminenceHeight - (kRoofRadius + kCrestRadius) * (1 - std::cos(slope))) / std::sin(slope);
+    // The slope is known: it passes the head at kSlopeDistance. Everything else is chained to it.
+    const Vec2 slope_start = -kSlopeDistance * inward(-slope) - kRoofShift * direction(-slope);
+    const Vec2 roof_center = slope_start + kRoofRadius * inward(-slope);
+    const Vec2 roof_start = roof_center - kRoofRadius * inward(kWallDeg * kDeg);
+    std::array<Piece, 5> chain = {{
+        {roof_start - kWallLength * direction(kWallDeg * kDeg), kWallDeg * kDeg, 0, kWallLength},
+        {roof_start, kWallDeg * kDeg, -1 / kRoofRadius, kRoofRadius * (kWallDeg * kDeg + slope)},
+        {slope_start, -slope, 0, straight},
+        {Vec2::Zero(), -slope, 1 / kCrestRadius, kCrestRadius * (slope + kAnteriorDeg * kDeg)},
+        {Vec2::Zero(), kAnteriorDeg * kDeg, 0, kAnteriorLength},
+    }};
+    chain[3].start = point_on(chain[2], chain[2].length);
+    chain[4].start = point_on(chain[3], chain[3].length);
+    return chain;
+  }();
+  return pieces;
+}
+
+/// Signed distance of q from one piece, > 0 on the joint's side.
+double signed_distance(const Piece& p, const Vec2& q) {
+  double s = 0;
+  if (p.curvature == 0) {
+    s = std::clamp((q - p.start).dot(direction(p.heading)), 0.0, p.length);
+  } else {
+    const double r = 1 / p.curvature;
+    const Vec2 radial = (q - (p.start - r * inward(p.heading))) * (r > 0 ? 1 : -1);
+    const double heading = std::atan2(radial.x(), -radial.y());
+    s = std::clamp((heading - p.heading) / p.curvature, 0.0, p.length);
+  }
+  const Vec2 to_q = q - point_on(p, s);
+  return std::copysign(to_q.norm(), to_q.dot(inward(p.heading + s * p.curvature)));
+}
+
+double fossa_drop(double x) { return kTroughCurvature * x * x; }
+
+/// Radius of the disc's lower surface: the head's as far as the disc rests on it, then bending
+/// outwards: the rim hangs freely beside the pole.
+double disc_lower_radius(double x) {
+  constexpr double kFollow = 6.5;  // |x| up to which the disc follows the head
+  const double ax = std::abs(x);
+  if (ax <= kFollow) return condyle_radius(ax);
+  constexpr double kStep = 1e-4;  // difference quotient [mm]
+  const double slope = (condyle_radius(kFollow) - condyle_radius(kFollow - kStep)) / kStep;
+  const double beyond = ax - kFollow, range = kDiscHalfWidth - kFollow;
+  return condyle_radius(kFollow) + slope * (beyond - beyond * beyond / (2 * range));
+}
+
+double smooth_min(double a, double b, double width) {
+  const double h = std::max(width - std::abs(a - b), 0.0) / width;
+  return std::min(a, b) - h * h * width / 4;
+}
+
+/// Inner and outer radius of the disc on the ray at `angle` from the vertical (> 0 forward) in the
+/// sagittal plane at x.
+/// @param rim  0 in the middle of the disc, 1 at its outline
+std::pair<double, double> disc_radii(double angle, double x, double rim) {
+  constexpr double kSteep = 1e-4;
+  const double dr =
+      (disc_lower_radius(std::abs(x) + kSteep) - disc_lower_radius(std::abs(x))) / kSteep;
+  const double inner = disc_lower_radius(x) + kLowerClearance * std::sqrt(1 + dr * dr);
+  const Vec2 ray = direction(std::numbers::pi / 2 - angle);
+  double low = inner, high = inner + 6;
+  for (int i = 0; i < 60; ++i) {  // bisection to round-off: the distance falls along the ray
+    const double middle = 0.5 * (low + high);
+    const Vec2 q = middle * ray;
+    (distance_below_fossa({x, -q.x(), q.y()}) > kUpperClearance ? low : high) = middle;
+  }
+  // Bands: 3 mm behind, 2 mm in front, less at the rim. Where the gap is narrower, the gap decides.
+  const double forward = 0.5 * (1 + std::tanh((angle - 20 * kDeg) / (12 * kDeg)));
+  const double band = 3.3 + forward * (2.3 - 3.3), edge = 1.5 + forward * (1.4 - 1.5);
+  const double thickness = edge + (band - edge) * std::sqrt(1 - std::pow(std::min(rim, 1.0), 4));
+  return {inner, inner + smooth_min(low - inner, thickness, 0.15)};
+}
+
+Mesh to_mesh(const std::vector<Vec3>& nodes, const std::vector<Eigen::Vector3i>& triangles) {
+  Mesh mesh;
+  mesh.X_mm.resize(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    mesh.X_mm.col(static_cast<Eigen::Index>(i)) = nodes[i];
+  mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    mesh.triangles.col(static_cast<Eigen::Index>(i)) = triangles[i];
+  return mesh;
+}
+
+}  // namespace
+
+double condyle_radius(double x) {
+  const double t = std::min(std::abs(x) / kCondyleHalfWidth, 1.0);
+  return kCondyleRadius * std::pow(1 - std::pow(t, kHeadExponent), 1 / kHeadExponent);
+}
+
+double distance_below_fossa(const Vec3& p) {
+  const Vec2 q(-p.y(), p.z());
+  double nearest = signed_distance(profile()[0], q);
+  for (const Piece& piece : profile()) {
+    const double d = signed_distance(piece, q);
+    if (std::abs(d) < std::abs(nearest)) nearest = d;
+  }
+  return nearest - fossa_drop(p.x());
+}
+
+void stitch(const std::vector<int>& a, const std::vector<int>& b, const std::vector<Vec3>& nodes,
+            std::vector<Eigen::Vector3i>& triangles) {
+  const auto at = [&nodes](int i) -> const Vec3& { return nodes[static_cast<std::size_t>(i)]; };
+  std::size_t i = 0, j = 0;
+  while (i + 1 < a.size() || j + 1 < b.size()) {
+    const bool advance_a =
+        j + 1 == b.size() || (i + 1 < a.size() && (at(a[i + 1]) - at(b[j])).squaredNorm() <=
+                                                      (at(b[j + 1]) - at(a[i])).squaredNorm());
+    if (advance_a) {
+      triangles.emplace_back(a[i], a[i + 1], b[j]);
+      ++i;
+    } else {
+      triangles.emplace_back(a[i], b[j + 1], b[j]);
+      ++j;
+    }
+  }
+}
+
+Mesh condyle_sheet(double h) {
+  constexpr double kBack = -85 * kDeg, kFront = 110 * kDeg;
+  // Rows x = const, spaced evenly along the frontal outline from pole to pole.
+  std::vector<double> xs, arc;
+  constexpr int kFine = 4000;
+  double length = 0;
+  for (int i = 0; i <= kFine; ++i) {
+    const double x = -kCondyleHalfWidth * std::cos(std::numbers::pi * i / kFine);
+    if (i > 0) length += std::hypot(x - xs.back(), condyle_radius(x) - condyle_radius(xs.back()));
+    xs.push_back(x);
+    arc.push_back(length);
+  }
+  const int num_rows = 2 * static_cast<int>(std::lround(length / h / 2));
+  std::vector<Vec3> nodes;
+  std::vector<Eigen::Vector3i> triangles;
+  std::vector<int> previous;
+  for (int row = 0; row <= num_rows; ++row) {
+    double x = row == 0 ? -kCondyleHalfWidth : kCondyleHalfWidth;
+    if (row > 0 && row < num_rows) {
+      const auto it = std::lower_bound(arc.begin(), arc.end(), length * row / num_rows);
+      x = xs[static_cast<std::size_t>(it - arc.begin())];
+    }
+    if (2 * row == num_rows) x = 0;
+    const double r = condyle_radius(x);
+    const int segments = static_cast<int>(std::lround(r * (kFront - kBack) / h));
+    std::vector<int> current;
+    for (int i = 0; i <= segments; ++i) {
+      const double angle = segments == 0 ? 0 : kBack + (kFront - kBack) * i / segments;
+      current.push_back(static_cast<int>(nodes.size()));
+      nodes.emplace_back(kCondyle + Vec3(x, -r * std::sin(angle), r * std::cos(angle)));
+    }
+    if (row > 0) stitch(previous, current, nodes, triangles);
+    previous = current;
+  }
+  return to_mesh(nodes, triangles);
+}
+
+Mesh fossa_sheet(double h) {
+  const int num_rows = 2 * static_cast<int>(std::lround(kFossaHalfWidth / h));
+  std::vector<Vec3> nodes;
+  std::vector<Eigen::Vector3i> triangles;
+  std::vector<int> previous;
+  for (int row = 0; row <= num_rows; ++row) {
+    const double x = kFossaHalfWidth * (2.0 * row / num_rows - 1);
+    std::vector<int> current;
+    for (const Piece& piece : profile()) {
+      const int segments = std::max(1, static_cast<int>(std::lround(piece.length / h)));
+      for (int i = piece.start == profile()[0].start ? 0 : 1; i <= segments; ++i) {
+        const double s = piece.length * i / segments;
+        const Vec2 q =
+            point_on(piece, s) + fossa_drop(x) * inward(piece.heading + s * piece.curvature);
+        current.push_back(static_cast<int>(nodes.size()));
+        nodes.emplace_back(kCondyle + Vec3(x, -q.x(), q.y()));
+      }
+    }
+    if (row > 0) stitch(current, previous, nodes, triangles);
+    previous = current;
+  }
+  return to_mesh(nodes, triangles);
+}
+
+Mesh disc(double h) {
+  if (!(h >= 0.3 && h <= 2.5))
+    throw std::invalid_argument("--size: element size " + std::to_string(h) +
+                                " mm: expected 0.3 to 2.5 mm");
+  constexpr double kMiddle = 23 * kDeg;  // -46 to 92 degrees about the head
+  constexpr double kHalfAngle = 69 * kDeg;
+  constexpr double kArc = 14.3;       // length of that along the mid-surface [mm]
+  constexpr double kThickness = 2.4;  // that gives two layers at 1.2 mm
+  constexpr double kRound = 0.7;      // outline: 0 rectangle, 1 ellipse
+  const CellGrid grid{even_cells(2 * kDiscHalfWidth, h, 4), even_cells(kArc, h, 4),
+                      std::max(1, static_cast<int>(std::lround(kThickness / h)))};
+  return grid.fill([](double u, double v, double w) -> Vec3 {
+    const double x = kDiscHalfWidth * u * std::sqrt(1 - kRound * v * v / 2);
+    const double angle = kMiddle + kHalfAngle * v * std::sqrt(1 - kRound * u * u / 2);
+    const auto [inner, outer] = disc_radii(angle, x, std::max(std::abs(u), std::abs(v)));
+    const double r = inner + (outer - inner) * w;
+    return kCondyle + Vec3(x, -r * std::sin(angle), r * std::cos(angle));
+  });
+}
+
+Mesh mirrored(const Mesh& mesh) {
+  Mesh m = mesh;
+  m.X_mm.row(0) *= -1;
+  if (m.fibres.cols() > 0) m.fibres.row(0) *= -1;
+  if (m.tets.cols() > 0) m.tets.row(2).swap(m.tets.row(3));
+  if (m.triangles.cols() > 0) m.triangles.row(1).swap(m.triangles.row(2));
+  return m;
+}
+
+}  // namespace articular::anatomy

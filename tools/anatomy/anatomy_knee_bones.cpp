@@ -1,0 +1,141 @@
+#include "tools/anatomy/anatomy_knee_bones.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tools/anatomy/anatomy_knee_tissue.hpp"
+#include "tools/anatomy/anatomy_solids.hpp"
+
+namespace articular::anatomy {
+namespace {
+
+/// The bone goes on by this part of the cartilage's extent as if it were covered.
+constexpr double kBeyond = 1.25;
+constexpr double kNotch = 7;        // half the distance of the condyles
+constexpr double kCondyleTop = 32;  // condyles end in the shaft below this height
+
+/// A superellipse that changes along z: half width, half depth, y of its middle.
+struct Section {
+  double z, half_width, half_depth, y;
+};
+
+/// Of the solid between stacked sections; about a distance near its surface.
+double loft_distance(const std::vector<Section>& sections, const Vec3& p) {
+  constexpr double kExponent = 2.6;
+  const double low = sections.front().z, high = sections.back().z;
+  const double z = std::clamp(p.z(), low, high);
+  std::size_t i = 0;
+  while (i + 2 < sections.size() && z > sections[i + 1].z) ++i;
+  const Section &a = sections[i], &b = sections[i + 1];
+  const double s = (z - a.z) / (b.z - a.z), t = s * s * (3 - 2 * s);
+  const double width = a.half_width + t * (b.half_width - a.half_width);
+  const double depth = a.half_depth + t * (b.half_depth - a.half_depth);
+  const double level =
+      std::pow(std::pow(std::abs(p.x()) / width, kExponent) +
+                   std::pow(std::abs(p.y() - a.y - t * (b.y - a.y)) / depth, kExponent),
+               1 / kExponent);
+  return std::max((level - 1) * std::min(width, depth), std::max(low - p.z(), p.z() - high));
+}
+
+const std::array<const Compartment*, 2>& compartments() {
+  static const std::array<const Compartment*, 2> both = {&medial_compartment(),
+                                                         &lateral_compartment()};
+  return both;
+}
+
+/// Distance to the surface that a condyle's cartilage grows on, and whether it is covered there.
+struct Covered {
+  double distance;
+  bool covered;
+};
+Covered below_femoral_cartilage(const Compartment& c, const Vec3& p) {
+  const CondylePlace place = condyle_place(c, p);
+  const auto [u, v] = femoral_place(c, place.phi, place.alpha);
+  return {place.distance + femoral_full_thickness(c) * rim_taper(u, v),
+          std::max(std::abs(u), std::abs(v)) < kBeyond};
+}
+
+double condyle_distance(const Compartment& c, const Vec3& p) {
+  const double half_width = (c.coronal_radius - 1) * std::sin(c.coronal_angle) + 2.5;
+  const double wall = std::abs(p.x() - c.side * kCompartmentX) - half_width;
+  return std::max({below_femoral_cartilage(c, p).distance, wall, p.z() - kCondyleTop});
+}
+
+double femur_distance(const Vec3& p) {
+  static const std::vector<Section> shaft = {
+      {23, 34, 17, -6},    {32, 36, 22, -8},    {42, 32, 21, -10}, {56, 23, 18, -12},
+      {75, 16.5, 14, -11}, {100, 13.5, 13, -8}, {119, 13, 13, -5}};
+  // The groove of the patella, between the condyles in front; the epicondyles.
+  static const Sheet front = [] {
+    Sheet sheet;
+    add_strip(sheet, {{-21, -22, 18, 9}, {0, -20, 20, 7}, {21, -22, 18, 8}},
+              {{-19, -24, 36, 9}, {0, -21, 37, 7}, {19, -22, 36, 8}});
+    add_rods(sheet, {{-29, -1, 25, 8}, {29, -3, 27, 8}});
+    return sheet;
+  }();
+  double bone = smooth_min(loft_distance(shaft, p), distance(front, p), 6);
+  for (const Compartment* c : compartments()) bone = smooth_min(bone, condyle_distance(*c, p), 4);
+  for (const Compartment* c : compartments()) {
+    const Covered below = below_femoral_cartilage(*c, p);
+    const bool beside = p.x() * c->side > kNotch && p.z() < kCondyleTop;
+    if (below.covered && beside) bone = std::max(bone, below.distance);
+  }
+  return bone;
+}
+
+/// Height of the surface that a plateau's cartilage grows on; it goes on beyond, then levels off.
+double plateau_floor(const Compartment& c, const Vec3& p) {
+  const Eigen::Vector2d place = plateau_place(c, p.x(), p.y());
+  const Eigen::Vector2d inside = plateau_point(c, std::clamp(place.x(), -kBeyond, kBeyond),
+                                               std::clamp(place.y(), -kBeyond, kBeyond));
+  const double slope = plateau_normal(c, inside.x(), inside.y()).z();
+  return plateau_height(c, inside.x(), inside.y()) -
+         tibial_full_thickness(c) * rim_taper(place.x(), place.y()) / slope;
+}
+
+/// The bone under a plateau, to some depth.
+double plateau_distance(const Compartment& c, const Vec3& p) {
+  constexpr double kDepth = 12;
+  const double beyond = plateau_place(c, p.x(), p.y()).cwiseAbs().maxCoeff() - 1.15;
+  return std::max({p.z() - plateau_floor(c, p), beyond * c.half_width, -kDepth - p.z()});
+}
+
+double tibia_distance(const Vec3& p) {
+  static const std::vector<Section> body = {
+      {-119, 12.5, 14, -4}, {-95, 14, 16, -4},  {-70, 17, 18, -3}, {-48, 22, 20, -1},
+      {-30, 31, 23, 1},     {-16, 36.5, 25, 1}, {8, 37.5, 25, 1}};
+  static const Sheet added = [] {
+    Sheet sheet;
+    add_rods(sheet, {{0, -17, -28, 8}, {1, -17, -42, 7}, {1, -11, -60, 6}});  // tuberosity
+    add_rods(sheet,
+             {{-39, 14, -23, 6.5}, {-38, 14, -32, 5.5}, {-35, 13, -60, 4}, {-34, 12, -117, 4}});
+    return sheet;
+  }();
+  static const Sheet eminence = [] {
+    Sheet sheet;
+    add_rods(sheet, {{4.5, 3, -4, 4}, {4.5, 3, 3.5, 2}});
+    add_rods(sheet, {{-4.5, 1, -4, 4}, {-4.5, 1, 3, 2}});
+    return sheet;
+  }();
+  const Compartment &medial = medial_compartment(), &lateral = lateral_compartment();
+  const double share = std::clamp(p.x() / kCompartmentX * 2 + 0.5, 0.0, 1.0);
+  const double top =
+      p.z() - (share * plateau_floor(medial, p) + (1 - share) * plateau_floor(lateral, p));
+  double trunk = std::max(loft_distance(body, p), top);
+  for (const Compartment* c : compartments()) trunk = smooth_min(trunk, plateau_distance(*c, p), 3);
+  double bone = smooth_min(smooth_min(trunk, distance(eminence, p), 4), distance(added, p), 5);
+  for (const Compartment* c : compartments()) {
+    const Eigen::Vector2d place = plateau_place(*c, p.x(), p.y());
+    if (place.cwiseAbs().maxCoeff() < kBeyond && p.z() > -10)
+      bone = std::max(bone, p.z() - plateau_floor(*c, p));
+  }
+  return bone;
+}
+
+}  // namespace
+
+Mesh femur_surface(double h) { return contour(femur_distance, {-46, -50, -8}, {46, 44, 123}, h); }
+Mesh tibia_surface(double h) { return contour(tibia_distance, {-50, -36, -123}, {44, 32, 12}, h); }
+
+}  // namespace articular::anatomy

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "tools/anatomy/anatomy_mesh.hpp"
+
+/// Distal femur and proximal tibia with fibula, of the right knee in extension: closed surfaces to
+/// look at. Below the cartilage they are the surface that it grows on. mm.
+namespace articular::anatomy {
+
+/// @param h  spacing of the contoured grid
+Mesh femur_surface(double h);
+Mesh tibia_surface(double h);
+
+}  // namespace articular::anatomy

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "tools/anatomy/anatomy_knee_joint.hpp"
+
+/// Cartilage and menisci of the knee as tetrahedra. mm.
+namespace articular::anatomy {
+
+/// Element size along the surfaces, and layers through the thickness.
+/// @throws std::invalid_argument by check_resolution for sizes outside [0.8, 4] mm and layers
+/// outside [2, 6]
+struct KneeResolution {
+  double size_mm = 2.5;
+  int layers = 2;
+};
+void check_resolution(const KneeResolution& resolution);
+
+/// Layer on a condyle or a plateau. Nodes come in layers from bone (first) to the articular surface
+/// (last); its mean thickness, volume by articular area, is the compartment's.
+Mesh femoral_cartilage(const Compartment& c, const KneeResolution& resolution);
+Mesh tibial_cartilage(const Compartment& c, const KneeResolution& resolution);
+
+/// A wedge between condyle and plateau, bent to a C from the anterior to the posterior horn, with
+/// fibres along the rim. Its lower face follows the plateau, its upper one the condyle, as far as
+/// the height of the rim lets it; both with room for the chords of the other's elements.
+Mesh meniscus(const Compartment& c, const KneeResolution& resolution);
+
+/// Middle of a horn's end face. @param end  -1 anterior, 1 posterior
+Vec3 horn(const Compartment& c, int end);
+
+/// Fraction of the cartilage's full thickness and place in the layer at a point of a condyle.
+struct CartilagePlace {
+  double u, v;  // |u|, |v| <= 1 on the cartilage
+};
+CartilagePlace femoral_place(const Compartment& c, double phi, double alpha);
+/// Thickness in the middle of the layers that the meshes have.
+double femoral_full_thickness(const Compartment& c);
+double tibial_full_thickness(const Compartment& c);
+
+}  // namespace articular::anatomy

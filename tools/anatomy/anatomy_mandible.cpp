@@ -1,0 +1,189 @@
+#include "tools/anatomy/anatomy_mandible.hpp"
+
+#include "tools/anatomy/anatomy_bones.hpp"
+
+namespace articular::anatomy {
+namespace {
+
+constexpr double kMandibleGrid = 1.2;  // contouring grids of the bones that are looked at
+constexpr double kSkullGrid = 1.7;
+constexpr double kSheetEdge = 0.9;  // contact surfaces of the joint
+constexpr double kTeethEdge = 2.5;  // occlusal strips
+
+/// Left attachments, on the surfaces of mandible_surface and skull_surface. Directions follow the
+/// lines of action of MPE18 where it has them (superficial masseter, anterior temporalis, medial
+/// and inferior lateral pterygoid); forces, lengths and ratios: PECK (scenarios/SOURCES.md).
+std::vector<MuscleRow> left_muscles() {
+  const std::string skull = "skull", mandible = "mandible", hyoid = "hyoid";
+  return {
+      {"at",
+       "anterior temporalis",
+       skull,
+       {57, 2, 142},
+       mandible,
+       {45.5, 5.5, 72},
+       158.0,
+       75.54,
+       1.2698,
+       0.5},
+      {"mt",
+       "middle temporalis",
+       skull,
+       {66, 33, 146},
+       mandible,
+       {46.8, 6.5, 78},
+       95.6,
+       65.81,
+       1.4186,
+       0.48},
+      {"pt",
+       "posterior temporalis",
+       skull,
+       {67, 52, 114},
+       mandible,
+       {46.8, 7, 78},
+       75.6,
+       77.11,
+       1.3109,
+       0.51},
+      {"sm",
+       "superficial masseter",
+       skull,
+       {57, -3, 73},
+       mandible,
+       {48.5, 19, 29},
+       190.4,
+       51.46,
+       1.2997,
+       0.46},
+      {"dm",
+       "deep masseter",
+       skull,
+       {63, 9, 79},
+       mandible,
+       {48.5, 17, 53},
+       81.6,
+       29.07,
+       1.5428,
+       0.29},
+      {"mp",
+       "medial pterygoid",
+       skull,
+       {23, 6, 68},
+       mandible,
+       {44, 22, 32},
+       174.8,
+       40.51,
+       1.2498,
+       0.64},
+      {"sp",
+       "superior lateral pterygoid",
+       skull,
+       {34, 13, 84},
+       mandible,
+       {47.5, 28, 77.5},
+       28.7,
+       27.7,
+       1.3610,
+       0.0},
+      {"ip",
+       "inferior lateral pterygoid",
+       skull,
+       {28, 4, 70},
+       mandible,
+       {48, 28, 75.5},
+       66.9,
+       31.5,
+       1.3175,
+       0.0},
+      {"ad",
+       "anterior digastric",
+       mandible,
+       {6, -37, 9},
+       hyoid,
+       {11, 10, -7},
+       40.0,
+       35.1,
+       1.2849,
+       0.0},
+      {"pd",
+       "posterior digastric",
+       skull,
+       {51, 53, 70},
+       hyoid,
+       {11, 10, -7},
+       40.0,
+       35.1,
+       1.2849,
+       0.0},
+      {"am",
+       "anterior mylohyoid",
+       mandible,
+       {16, -24, 19},
+       hyoid,
+       {2, 4, -8},
+       35.4,
+       35.1,
+       1.2849,
+       0.0},
+      {"pm",
+       "posterior mylohyoid",
+       mandible,
+       {28, -4, 29},
+       hyoid,
+       {6, 6, -8},
+       35.4,
+       35.1,
+       1.2849,
+       0.0},
+      {"gh", "geniohyoid", mandible, {2, -35, 15}, hyoid, {2, 6, -6}, 32.0, 35.1, 1.2849, 0.0},
+      {"sh", "stylohyoid", skull, {38, 44, 68}, hyoid, {11, 10, -6}, 15.6, 35.1, 1.2849, 0.0},
+  };
+}
+
+}  // namespace
+
+std::vector<MuscleRow> mandible_muscles() {
+  std::vector<MuscleRow> rows;
+  for (const MuscleRow& left : left_muscles())
+    for (const char side : {'l', 'r'}) {
+      MuscleRow row = left;
+      row.id = side + left.id;
+      if (side == 'r') {
+        row.upper.x() *= -1;
+        row.lower.x() *= -1;
+      }
+      rows.push_back(row);
+    }
+  return rows;
+}
+
+Anatomy mandible_anatomy(double disc_edge) {
+  Anatomy anatomy;
+  const auto both_sides = [&anatomy](const std::string& name, const std::string& ending,
+                                     const Mesh& left) {
+    anatomy.meshes[name + "_left" + ending] = left;
+    anatomy.meshes[name + "_right" + ending] = mirrored(left);
+  };
+  both_sides("disc", ".vtu", disc(disc_edge));
+  both_sides("condyle", ".vtp", condyle_sheet(kSheetEdge));
+  both_sides("fossa", ".vtp", fossa_sheet(kSheetEdge));
+  anatomy.meshes["mandible.vtp"] = mandible_surface(kMandibleGrid);
+  anatomy.meshes["skull.vtp"] = skull_surface(kSkullGrid);
+  anatomy.meshes["lower_teeth.vtp"] = lower_teeth_sheet(kTeethEdge);
+  anatomy.meshes["upper_teeth.vtp"] = upper_teeth_sheet(kTeethEdge);
+  anatomy.muscles = mandible_muscles();
+  anatomy.landmarks = {
+      {"incisor edge", "mandible", kIncisor},
+      {"first molar left", "mandible", arch_point(23.5)},
+      {"first molar right", "mandible", arch_point(23.5).cwiseProduct(Vec3(-1, 1, 1))},
+      {"condyle centre left", "mandible", kCondyle},
+      {"condyle centre right", "mandible", kCondyle.cwiseProduct(Vec3(-1, 1, 1))},
+      {"gonion left", "mandible", {48.2, 29, 23}},
+      {"gonion right", "mandible", {-48.2, 29, 23}},
+      {"pogonion", "mandible", {0, -48, 12}},
+  };
+  return anatomy;
+}
+
+}  // namespace articular::anatomy

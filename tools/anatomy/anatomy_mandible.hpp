@@ -1,0 +1,16 @@
+#pragma once
+
+#include "tools/anatomy/anatomy_joint.hpp"
+#include "tools/anatomy/anatomy_tables.hpp"
+
+/// The jaw as the scenarios read it: meshes by file name, muscle attachments and landmarks. mm.
+namespace articular::anatomy {
+
+/// @param disc_edge  element size of the discs
+/// @throws std::invalid_argument for disc_edge outside [0.3, 2.5] mm
+Anatomy mandible_anatomy(double disc_edge);
+
+/// Left and right muscles, attached to the surfaces of mandible_anatomy.
+std::vector<MuscleRow> mandible_muscles();
+
+}  // namespace articular::anatomy

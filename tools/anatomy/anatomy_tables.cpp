@@ -1,0 +1,29 @@
+#include "tools/anatomy/anatomy_tables.hpp"
+
+#include <fmt/format.h>
+
+namespace articular::anatomy {
+
+std::string muscles_csv(const std::vector<MuscleRow>& muscles) {
+  std::string text =
+      "id,muscle,side,body_upper,ux_mm,uy_mm,uz_mm,body_lower,lx_mm,ly_mm,lz_mm,"
+      "length_in_this_geometry_mm,max_force_N,published_opt_length_mm,max_over_opt_length,tendon_"
+      "ratio\n";
+  for (const MuscleRow& m : muscles)
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.2f},{},{},{},{}\n", m.id, m.muscle,
+                        m.id[0] == 'l' ? "left" : "right", m.body_upper, m.upper.x(), m.upper.y(),
+                        m.upper.z(), m.body_lower, m.lower.x(), m.lower.y(), m.lower.z(),
+                        (m.upper - m.lower).norm(), m.max_force, m.published_opt_length,
+                        m.max_over_opt_length, m.tendon_ratio);
+  return text;
+}
+
+std::string landmarks_csv(const std::vector<Landmark>& landmarks) {
+  std::string text = "landmark,body,x_mm,y_mm,z_mm\n";
+  for (const Landmark& l : landmarks)
+    text += fmt::format("{},{},{:.3f},{:.3f},{:.3f}\n", l.name, l.body, l.point.x(), l.point.y(),
+                        l.point.z());
+  return text;
+}
+
+}  // namespace articular::anatomy

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tools/anatomy/anatomy_mesh.hpp"
+
+/// An anatomy as the scenarios read it: meshes by file name, muscle attachments and landmarks. mm.
+namespace articular::anatomy {
+
+struct MuscleRow {
+  std::string id;      // l or r, and two letters
+  std::string muscle;  // name
+  std::string body_upper;
+  Vec3 upper;
+  std::string body_lower;
+  Vec3 lower;
+  double max_force;             // [N], peak, one side
+  double published_opt_length;  // [mm]
+  double max_over_opt_length;
+  double tendon_ratio;
+};
+
+struct Landmark {
+  std::string name, body;
+  Vec3 point;
+};
+
+struct Anatomy {
+  std::map<std::string, Mesh> meshes;  // by file name: .vtp triangles, .vtu tetrahedra
+  std::vector<MuscleRow> muscles;
+  std::vector<Landmark> landmarks;
+};
+
+/// The text of muscles.csv and landmarks.csv.
+std::string muscles_csv(const std::vector<MuscleRow>& muscles);
+std::string landmarks_csv(const std::vector<Landmark>& landmarks);
+
+}  // namespace articular::anatomy

@@ -1,0 +1,75 @@
+// The `articular` program: one subcommand a file. Exit codes: 0 done; 1 a bug of ours; 2 bad input;
+// 3 the simulation could not go on; 4 the system failed; 130 interrupted.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "sim/base/error.hpp"
+#include "sim/base/version.hpp"
+#include "tools/anatomy/anatomy.hpp"
+#include "tools/collide/collide_command.hpp"
+#include "tools/mesh/mesh_command.hpp"
+#include "tools/render/render.hpp"
+#include "tools/run/commands.hpp"
+#include "tools/study/study_command.hpp"
+
+namespace {
+
+constexpr int kBug = 1, kBadInput = 2, kCannotGoOn = 3, kSystemFailed = 4;
+
+int report(const char* message, int exit_code) {
+  std::fprintf(stderr, "articular: %s\n", message);
+  return exit_code;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app(
+      "articular simulates the soft tissue of jaw and knee: tetrahedral tissues and rigid bones\n"
+      "moved by muscles and kept apart by contact. A scenario file goes in; frames for ParaView,\n"
+      "a table of probes and a summary come out.",
+      "articular");
+  app.set_version_flag("--version", articular::sim::kVersion);
+  app.require_subcommand(1);
+  app.footer(
+      "Try: articular run scenarios/mandible/opening.toml --out out/opening\n"
+      "     articular render out/opening\n"
+      "Exit codes: 0 done, 2 bad input, 3 the simulation could not go on (results until then are\n"
+      "valid), 4 the system failed (disk, display), 130 interrupted, 1 a bug in articular.");
+  int exit_code = 0;
+  articular::tools::add_run_command(app, exit_code);
+  articular::tools::add_check_command(app, exit_code);
+  articular::tools::add_explain_command(app, exit_code);
+  articular::tools::add_render_command(app, exit_code);
+  articular::tools::add_study_command(app, exit_code);
+  articular::tools::add_collide_command(app, exit_code);
+  articular::tools::add_mesh_command(app, exit_code);
+  articular::anatomy::add_anatomy_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    std::fprintf(stderr, "articular: %s (see --help)\n", error.what());
+    return kBadInput;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const articular::sim::InputError& error) {
+    return report(error.what(), kBadInput);
+  } catch (const articular::sim::SimulationError& error) {
+    return report(error.what(), kCannotGoOn);
+  } catch (const articular::sim::SystemError& error) {
+    return report(error.what(), kSystemFailed);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory", kSystemFailed);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "articular: internal error: %s (please report this)\n", error.what());
+    return kBug;
+  }
+}

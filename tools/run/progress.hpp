@@ -1,0 +1,36 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "sim/statics/equilibrium.hpp"
+
+namespace articular::tools {
+
+/// Progress of a run on stderr: a bar on a terminal; else a line every tenth of the way, and every
+/// ten seconds in which no step was done.
+class Progress {
+ public:
+  explicit Progress(bool quiet);
+  void update(const sim::State& state, double duration);
+  /// Of a static load step to t, or of settling (t = 0).
+  void update(double t, const sim::NewtonIteration& iteration);
+  void finish();
+
+ private:
+  static constexpr int kBarWidth = 24;
+  void print(const sim::State& state, double duration);
+  void put(const std::string& line);
+
+  using Clock = std::chrono::steady_clock;
+  bool quiet_, terminal_;
+  Clock::time_point start_ = Clock::now(), shown_ = Clock::now();
+  double first_time_ = -1;  // simulated time at the first update [s]
+  std::int64_t first_step_ = 0;
+  int tenth_ = 0;
+  int iterations_ = 0;  // since the last step
+  std::string bar_ = "[" + std::string(kBarWidth, '.') + "]";
+  bool bar_shown_ = false;
+};
+
+}  // namespace articular::tools

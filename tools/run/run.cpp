@@ -1,0 +1,123 @@
+#include "sim/run/run.hpp"
+#include "sim/build/build_model.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <memory>
+
+#include "tools/process/interruption.hpp"
+#include "tools/run/commands.hpp"
+#include "tools/run/progress.hpp"
+
+namespace articular::tools {
+namespace {
+
+constexpr int kMostThreads = 256;
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+struct RunArguments {
+  std::filesystem::path scenario, out;
+  std::vector<std::string> overrides;
+  int threads = 1;
+  bool resume = false, quiet = false;
+};
+
+void print(const sim::Model& model, const sim::OverlapResolution& settling) {
+  const auto name = [&](int body) { return model.bodies[static_cast<std::size_t>(body)].name; };
+  for (const sim::ResolvedOverlap& overlap : settling.overlaps) {
+    const sim::ContactModel& contact = model.contacts[static_cast<std::size_t>(overlap.contact)];
+    fmt::print(stderr,
+               "articular: settling: `{}` and `{}` overlapped by {:.3g} mm, now {:.2g} mm\n",
+               name(contact.a), name(contact.b), 1e3 * overlap.before, 1e3 * overlap.after);
+  }
+  fmt::print(stderr,
+             "articular: settling moved nodes by up to {:.3g} mm ({} solutions); "
+             "settling = false starts without\n",
+             1e3 * settling.largest_motion, settling.solutions);
+}
+
+int run_scenario(const RunArguments& arguments) {
+  sim::Scenario scenario = sim::read_scenario(arguments.scenario, arguments.overrides);
+  scenario.threads = arguments.threads;
+  const sim::Model model = sim::build_model(scenario);
+  for (const std::string& warning : model.warnings)
+    fmt::print(stderr, "articular: warning: {}\n", warning);
+
+  sim::RunOptions options;
+  options.directory = arguments.out;
+  if (options.directory.empty())
+    options.directory =
+        scenario.output.directory.value_or(std::filesystem::path("out") / scenario.name);
+  options.resume = arguments.resume;
+  Progress progress(arguments.quiet);
+  options.is_to_stop = [] { return interrupted.load(); };
+  options.after_step = [&](const sim::State& state, double duration) {
+    progress.update(state, duration);
+    return interrupted.load();
+  };
+  options.after_iteration = [&](double t, const sim::NewtonIteration& iteration) {
+    progress.update(t, iteration);
+    return interrupted.load();
+  };
+  options.after_overlap_resolution = [&](const sim::OverlapResolution& settling) {
+    if (!arguments.quiet) print(model, settling);
+  };
+  options.warn = [&](const std::string& warning) {
+    progress.finish();
+    fmt::print(stderr, "articular: warning: {}\n", warning);
+  };
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+  sim::RunOutcome outcome = sim::RunOutcome::Finished;
+  try {
+    outcome = sim::run(model, options);
+  } catch (...) {
+    progress.finish();
+    throw;
+  }
+  progress.finish();
+  for (const std::string& name :
+       {scenario.name + ".pvd", std::string("history.csv"), std::string("summary.json")})
+    if (std::filesystem::exists(options.directory / name))  // interrupted before the first frame
+      fmt::print("{}\n", (options.directory / name).string());
+  if (outcome == sim::RunOutcome::Finished) return 0;
+  fmt::print(stderr, "articular: interrupted; go on with --resume\n");
+  return kInterruptedExitCode;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command = app.add_subcommand("run", "Run a scenario and write its results");
+  command->add_option("scenario", arguments->scenario, "Scenario file (.toml)")->required();
+  command->add_option("--out", arguments->out,
+                      "Folder of the results (default: output.directory, else out/NAME)");
+  command
+      ->add_option("--set", arguments->overrides,
+                   "Override a value by its path, e.g. --set duration='0.1 s' "
+                   "--set body.disc_left.material.young_modulus='3 MPa'")
+      ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--threads", arguments->threads,
+          "Of element loops, multigrid and contact search; results have the same bits with "
+          "any number [1]")
+      ->check(CLI::Range(1, kMostThreads));
+  command->add_flag("--resume", arguments->resume,
+                    "Go on from the folder's last checkpoint, if there is one");
+  command->add_flag("--quiet", arguments->quiet, "No progress on stderr");
+  command->footer(
+      "Writes DIR/NAME.pvd (open it in ParaView), DIR/frames/, DIR/history.csv (probes over "
+      "time),\n"
+      "DIR/summary.json (settings, counts, wall time by phase, energy balance) and "
+      "DIR/checkpoint/.\n"
+      "Prints the names of these files.");
+  command->callback([arguments, &exit_code] { exit_code = run_scenario(*arguments); });
+}
+
+}  // namespace articular::tools

@@ -1,0 +1,96 @@
+#include "tools/study/study_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "sim/base/error.hpp"
+
+namespace articular::tools {
+namespace {
+
+constexpr const char* kAsItIs = "as it is";
+constexpr std::size_t kLongestFolder = 100;
+
+std::string name_of(const StudyKnob& knob, const StudyKnob::Choice& choice) {
+  return knob.name + " = " + choice.name;
+}
+
+std::vector<StudyCase> one_at_a_time(const Study& study) {
+  std::vector<StudyCase> cases{{kAsItIs, "", study.settings}};
+  for (const StudyKnob& knob : study.knobs)
+    for (const StudyKnob::Choice& choice : knob.choices)
+      cases.push_back({name_of(knob, choice), "", study.settings + choice.settings});
+  return cases;
+}
+
+std::vector<StudyCase> every_combination(const Study& study) {
+  std::vector<StudyCase> cases{{"", "", study.settings}};
+  for (const StudyKnob& knob : study.knobs) {
+    std::vector<StudyCase> more;
+    for (const StudyCase& so_far : cases)
+      for (const StudyKnob::Choice& choice : knob.choices)
+        more.push_back({so_far.name + (so_far.name.empty() ? "" : ", ") + name_of(knob, choice), "",
+                        so_far.settings + choice.settings});
+    cases = std::move(more);
+  }
+  if (study.knobs.empty()) cases[0].name = kAsItIs;
+  return cases;
+}
+
+std::string folder_name(const std::string& name) {
+  std::string folder;
+  for (const char c : name.substr(0, kLongestFolder)) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-';
+    if (plain)
+      folder += c;
+    else if (!folder.empty() && folder.back() != '_')
+      folder += '_';
+  }
+  return folder;
+}
+
+/// Gives each case a folder of its own. Letter case does not tell folders apart everywhere.
+void name_folders(std::vector<StudyCase>& cases) {
+  std::vector<std::string> taken;
+  for (StudyCase& c : cases) {
+    const std::string wanted = folder_name(c.name);
+    const auto lower = [](std::string text) {
+      for (char& letter : text)
+        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+      return text;
+    };
+    c.folder = wanted;
+    for (int i = 2; std::find(taken.begin(), taken.end(), lower(c.folder)) != taken.end(); ++i)
+      c.folder = fmt::format("{}-{}", wanted, i);
+    taken.push_back(lower(c.folder));
+  }
+}
+
+}  // namespace
+
+std::vector<StudyCase> study_cases(const Study& study) {
+  std::vector<StudyCase> cases =
+      study.every_combination ? every_combination(study) : one_at_a_time(study);
+  for (const StudyExtra& extra : study.extras)
+    cases.push_back({extra.name, "", study.settings + extra.settings});
+  for (std::size_t i = 0; i < study.references.size(); ++i) {
+    const StudyReference& reference = study.references[i];
+    cases.push_back({study.references.size() == 1 ? std::string("reference")
+                                                  : fmt::format("reference {}", reference.size),
+                     "", study.settings + reference.settings, static_cast<int>(i)});
+  }
+  for (auto c = cases.begin(); c != cases.end(); ++c)
+    if (std::any_of(cases.begin(), c,
+                    [&](const StudyCase& other) { return other.name == c->name; }))
+      throw sim::InputError(
+          {study.file.string()},
+          fmt::format("two cases are called `{}`; expected different names of knobs, choices and "
+                      "cases",
+                      c->name));
+  name_folders(cases);
+  return cases;
+}
+
+}  // namespace articular::tools

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/study/study_file.hpp"
+
+namespace articular::tools {
+
+/// One run of the study.
+struct StudyCase {
+  std::string name;    // "step = 0.5 ms", unique
+  std::string folder;  // its name as that of a folder, unique
+  StudySettings settings;
+  int reference = -1;  // which of Study::references it is
+};
+
+/// The scenario as it is, what the knobs make of it, the extra cases, and the references.
+std::vector<StudyCase> study_cases(const Study& study);
+
+}  // namespace articular::tools

@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "sim/base/atomic_file.hpp"
+#include "sim/base/error.hpp"
+#include "sim/output/frame_writer.hpp"
+#include "tools/process/interruption.hpp"
+#include "tools/study/study_command.hpp"
+#include "tools/study/study_report.hpp"
+
+namespace articular::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostJobs = 256;
+
+struct StudyArguments {
+  fs::path study;
+  StudyRunOptions options;
+  bool cpu_time = false;
+};
+
+/// The front as a picture; without gnuplot its commands are there all the same.
+void draw(const std::string& commands, const fs::path& directory, const fs::path& picture) {
+  const fs::path script = directory / "pareto.gnuplot";
+  sim::write_text_file(script, commands);
+  if (commands.empty()) return;
+  std::string why;
+  try {
+    const ProgramUse use = run_measured({"gnuplot", script.string()}, {}, directory / "gnuplot.log",
+                                        {}, interruption_asked);
+    if (use.end == ProgramUse::End::Exited && use.code == 0) {
+      fmt::print("{}\n", picture.string());
+      return;
+    }
+    why = "gnuplot failed, see " + (directory / "gnuplot.log").string();
+  } catch (const sim::SystemError&) {
+    why = "gnuplot is missing (Debian: gnuplot-nox)";
+  }
+  fmt::print(stderr, "articular: no picture: {}; its commands are in {}\n", why, script.string());
+}
+
+int study(const StudyArguments& arguments) {
+  const Study study = read_study(arguments.study);
+  const std::vector<StudyCase> cases = study_cases(study);
+  StudyRunOptions options = arguments.options;
+  if (options.directory.empty()) options.directory = fs::path("out") / study.name;
+  std::error_code error;
+  fs::create_directories(options.directory, error);
+  if (error)
+    throw sim::SystemError(options.directory.string() + ": can't be made: " + error.message());
+  std::vector<CaseRecord> records;
+  try {
+    records = run_cases(study, cases, options);
+  } catch (const StudyInterrupted&) {
+    fmt::print(stderr, "articular: interrupted; the same command goes on with what is missing\n");
+    return kInterruptedExitCode;
+  }
+  const Assessment assessment =
+      assess(study, cases, records, options.directory, arguments.cpu_time || options.jobs > 1);
+  const fs::path table = options.directory / "study.csv", text = options.directory / "study.md",
+                 picture = options.directory / "pareto.svg";
+  sim::write_text_file(table, study_csv(study, cases, records, assessment));
+  sim::write_text_file(text, study_text(study, cases, records, assessment));
+  fmt::print("{}\n{}\n", text.string(), table.string());
+  draw(study_plot(cases, study.title, assessment, picture), options.directory, picture);
+  return 0;
+}
+
+const char* const kStudyHelp =
+    R"(Runs a scenario again and again with what STUDY.toml varies (steps, meshes, elements, solvers,
+...), and compares each run with what is right: a converged run, an exact value, or an
+extrapolation from three runs. Writes DIR/study.md (what is worth its time, what is not, what the
+next halving of the error costs), DIR/study.csv (all figures) and DIR/pareto.svg (error against
+time). A case that fails is a result like others. Started again, it runs only what is missing or
+was made with another program, scenario or arguments; meshes that changed it does not notice
+(--fresh). The format of STUDY.toml and an example: tools/README.md.)";
+
+}  // namespace
+
+void add_study_command(CLI::App& app, int& exit_code) {
+  const auto arguments = std::make_shared<StudyArguments>();
+  CLI::App& command =
+      *app.add_subcommand("study", "What settings of a scenario cost, and what they buy");
+  command.add_option("study", arguments->study, "Study file (.toml)")->required();
+  command
+      .add_option("--out", arguments->options.directory,
+                  "Folder of the results (default: out/NAME)")
+      ->type_name("DIR");
+  command
+      .add_option("--jobs", arguments->options.jobs,
+                  "Cases side by side; with more than one, times are those of the processor [1]")
+      ->check(CLI::Range(1, kMostJobs))
+      ->type_name("N");
+  command.add_flag("--cpu-time", arguments->cpu_time,
+                   "Judge by processor time, which other work on the machine disturbs less");
+  command.add_flag("--fresh", arguments->options.fresh, "Run everything again");
+  command.add_flag("--quiet", arguments->options.quiet, "No progress on stderr");
+  command.footer(kStudyHelp);
+  command.callback([arguments, &exit_code] {
+    listen_for_interruption();
+    exit_code = study(*arguments);
+  });
+}
+
+}  // namespace articular::tools
