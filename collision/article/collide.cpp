@@ -40,8 +40,8 @@ void intersection_test(const BucketContents& F, const BucketContents& W, Triangl
 }  // namespace
 
 void collide(const BucketTree& A, const BucketTree& B, std::vector<Penetration>& faces_of_a_in_b,
-             std::vector<Penetration>& faces_of_b_in_a, QueryCounts& counts,
-             QueryScratch& scratch) {
+             std::vector<Penetration>& faces_of_b_in_a, QueryCounts& counts, QueryScratch& scratch,
+             const QueryOptions& options) {
   scratch.a_in_b.clear(A.num_faces());
   scratch.b_in_a.clear(B.num_faces());
   if (overlap(A.bounds(), B.bounds())) {
@@ -55,8 +55,8 @@ void collide(const BucketTree& A, const BucketTree& B, std::vector<Penetration>&
       intersection_test(in_b, in_a, scratch.b_in_a.tested, counts);
     });
   }
-  narrow_phase(A, B, scratch.a_in_b, faces_of_a_in_b, counts);
-  narrow_phase(B, A, scratch.b_in_a, faces_of_b_in_a, counts);
+  narrow_phase(A, B, scratch.a_in_b, faces_of_a_in_b, counts, options);
+  narrow_phase(B, A, scratch.b_in_a, faces_of_b_in_a, counts, options);
 }
 
 void collide(const BucketTree& A, const BucketTree& B, std::vector<Penetration>& faces_of_a_in_b,

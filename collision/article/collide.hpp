@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "collision/article/bucket_tree.hpp"
 #include "collision/article/reports.hpp"
 #include "collision/article/tandem.hpp"
 #include "collision/mesh/penetrations.hpp"
+#include "collision/narrow/narrow_rule.hpp"
 
 /// Queries of the article's tree. One BucketTree a body; update it when its positions change, then
 /// query.
@@ -18,6 +20,13 @@ struct QueryCounts {
   std::int64_t narrow_tests = 0;
   std::int64_t reported = 0;
   double narrow_seconds = 0;  // wall time inside the narrow tests
+};
+
+/// What decides on a pair of elements whose boxes overlap.
+struct QueryOptions {
+  /// With it elements_meet(), so that the pairs are those of the block tree; without, as the
+  /// article has it, GJK (elements_overlap()).
+  std::optional<NarrowTest> rule;
 };
 
 /// Memory of a query. Kept from call to call, queries do not allocate once it has grown.
@@ -34,13 +43,15 @@ struct QueryScratch {
 void collide(const BucketTree& A, const BucketTree& B, std::vector<Penetration>& faces_of_a_in_b,
              std::vector<Penetration>& faces_of_b_in_a, QueryCounts& counts);
 void collide(const BucketTree& A, const BucketTree& B, std::vector<Penetration>& faces_of_a_in_b,
-             std::vector<Penetration>& faces_of_b_in_a, QueryCounts& counts, QueryScratch& scratch);
+             std::vector<Penetration>& faces_of_b_in_a, QueryCounts& counts, QueryScratch& scratch,
+             const QueryOptions& options = {});
 
 /// A body with itself (Listing 1.5.3, errata 7 and 8): pairs (face, tetrahedron) without a common
 /// node.
 void self_intersections(const BucketTree& tree, std::vector<Penetration>& pairs,
                         QueryCounts& counts);
 void self_intersections(const BucketTree& tree, std::vector<Penetration>& pairs,
-                        QueryCounts& counts, QueryScratch& scratch);
+                        QueryCounts& counts, QueryScratch& scratch,
+                        const QueryOptions& options = {});
 
 }  // namespace articular::collision

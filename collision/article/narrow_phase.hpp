@@ -12,6 +12,7 @@ namespace articular::collision {
 /// Narrow test of every pair in reports.tested, a face of F with a tetrahedron of W; those that
 /// intersect go to reports.collisions (Listing 1.5.11) and, sorted, to pairs.
 void narrow_phase(const BucketTree& F, const BucketTree& W, Reports& reports,
-                  std::vector<Penetration>& pairs, QueryCounts& counts);
+                  std::vector<Penetration>& pairs, QueryCounts& counts,
+                  const QueryOptions& options = {});
 
 }  // namespace articular::collision

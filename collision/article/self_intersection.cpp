@@ -35,7 +35,7 @@ void update_and_find_self_intersections(BucketTree& tree, const Eigen::Matrix3Xd
 }
 
 void self_intersections(const BucketTree& tree, std::vector<Penetration>& pairs,
-                        QueryCounts& counts, QueryScratch& scratch) {
+                        QueryCounts& counts, QueryScratch& scratch, const QueryOptions& options) {
   Reports& reports = scratch.a_in_b;
   reports.clear(tree.num_faces());
   const SelfIntersectionSearch search(tree, reports.tested, counts);
@@ -44,7 +44,7 @@ void self_intersections(const BucketTree& tree, std::vector<Penetration>& pairs,
     const std::span<const int> bucket = tree.non_empty_bucket(i);
     for (std::size_t k = 1; k < bucket.size(); ++k) search(bucket[k], bucket.first(k));
   }
-  narrow_phase(tree, tree, reports, pairs, counts);
+  narrow_phase(tree, tree, reports, pairs, counts, options);
 }
 
 void self_intersections(const BucketTree& tree, std::vector<Penetration>& pairs,

@@ -7,6 +7,9 @@
 /// The words of messages about what a user wrote.
 namespace articular::sim {
 
+/// The text without blanks, tabs and carriage returns at its ends.
+std::string_view trimmed(std::string_view text);
+
 /// The text in double quotes on one line: control characters are escaped, long texts are cut.
 std::string in_quotes(std::string_view text);
 

@@ -35,8 +35,8 @@ bool tied(const Collider& a, int triangle, const Collider& b, int face) {
 /// Keeps the candidates whose face itself meets the triangle's body. A triangle that passes the
 /// edge of a body also faces that body's far side, which it can't have come through: that side is
 /// outside.
-void drop_far_faces(const std::vector<collision::Penetration>& faces_in_triangles_body,
-                    std::size_t num_faces, std::vector<ContactCandidate>& pairs) {
+void drop_far_faces(const Penetrations& faces_in_triangles_body, std::size_t num_faces,
+                    std::vector<ContactCandidate>& pairs) {
   if (pairs.empty()) return;
   std::vector<char> meets(num_faces, 0);
   for (const collision::Penetration& p : faces_in_triangles_body)
@@ -72,8 +72,7 @@ DepthRange depth_range(const Collider& triangles, const Collider& faces, bool av
 }
 
 ContactSearch::ContactSearch(const Model& model) : model_(model) {
-  options_.narrow = model.scenario.detection.narrow_test;
-  options_.threads = model.scenario.threads;
+  std::vector<const Collider*> colliders;
   std::vector<int> moving_of_body(model.bodies.size(), -1);
   const auto moving_of = [&](int body) {
     int& index = moving_of_body[static_cast<std::size_t>(body)];
@@ -82,9 +81,9 @@ ContactSearch::ContactSearch(const Model& model) : model_(model) {
     const Collider& collider = *model.bodies[static_cast<std::size_t>(body)].collider;
     Moving moving;
     moving.body = body;
-    moving.tree =
-        std::make_unique<collision::BlockTree>(collider.tets, collider.surface, collider.X);
+    moving.index = moving_.size();
     moving_.push_back(std::move(moving));
+    colliders.push_back(&collider);
     seen_.resize(std::max(seen_.size(), collider.face_area.size()));
     return index;
   };
@@ -94,11 +93,13 @@ ContactSearch::ContactSearch(const Model& model) : model_(model) {
     const auto nonmortar = static_cast<std::size_t>(contact.reversed ? contact.b : contact.a);
     open_depth_ = std::max(open_depth_, model.bodies[nonmortar].collider->open_depth);
   }
+  penetrations_ =
+      make_penetration_search(colliders, model.scenario.detection, model.scenario.threads);
 }
 
 bool ContactSearch::needs_update(const Moving& moving, double margin) const {
   // Fixed bones are mapped once (for a margin).
-  return moving.tree->num_updates() == 0 || moving.tree->margin() != margin || moves(moving);
+  return moving.margin != margin || moves(moving);
 }
 
 bool ContactSearch::moves(const Moving& moving) const {
@@ -109,8 +110,7 @@ bool ContactSearch::moves(const Moving& moving) const {
 }
 
 void ContactSearch::fit(Moving& moving) {
-  if (moving.tree->is_fitted()) return;
-  moving.tree->fit();
+  if (!penetrations_->fit(moving.index)) return;
   // Of a fixed body a run that was resumed would count it once more.
   if (moves(moving)) ++counts_.evaluations[Term::TreeFit];
   const BodyModel& body = model_.bodies[static_cast<std::size_t>(moving.body)];
@@ -124,7 +124,8 @@ void ContactSearch::update(Moving& moving, const Configuration& configuration, d
   if (!needs_update(moving, margin)) return;
   const Collider& collider = *model_.bodies[static_cast<std::size_t>(moving.body)].collider;
   positions_of(configuration, collider.nodes, moving.x);
-  moving.tree->move(moving.x, margin);
+  penetrations_->move(moving.index, moving.x, margin);
+  moving.margin = margin;
   ++counts_.tree_updates;
   ++counts_.evaluations[moves(moving) ? Term::BodyUpdate : Term::FixedBodyUpdate];
 }
@@ -136,20 +137,20 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
   counts_.update_seconds += seconds_since(start);
 
   const auto query_start = Clock::now();
-  collision::BlockQueryCounts query;
+  PenetrationCost cost;
   num_lists_ = 0;
   for (std::size_t c = 0; c < pairs_.size(); ++c) {
     Moving &a = moving_[static_cast<std::size_t>(pairs_[c].a)],
            &b = moving_[static_cast<std::size_t>(pairs_[c].b)];
     if (&a == &b)
-      search_itself(static_cast<int>(c), a, margin, query);
+      search_itself(static_cast<int>(c), a, margin, cost);
     else
-      search(static_cast<int>(c), a, b, margin, query);
+      search(static_cast<int>(c), a, b, margin, cost);
   }
-  counts_.narrow_tests += query.candidates;
-  counts_.reported_pairs += query.pairs;
-  counts_.narrow_seconds += query.narrow_seconds;
-  counts_.traversal_seconds += seconds_since(query_start) - query.narrow_seconds;
+  counts_.narrow_tests += cost.narrow_tests;
+  counts_.reported_pairs += cost.pairs;
+  counts_.narrow_seconds += cost.narrow_seconds;
+  counts_.traversal_seconds += seconds_since(query_start) - cost.narrow_seconds;
 }
 
 /// Stays out of the candidates until num_lists_ counts it.
@@ -160,12 +161,10 @@ CandidateList& ContactSearch::next_list(int contact) {
   return list;
 }
 
-void ContactSearch::search_itself(int contact, Moving& a, double margin,
-                                  collision::BlockQueryCounts& query) {
+void ContactSearch::search_itself(int contact, Moving& a, double margin, PenetrationCost& cost) {
   fit(a);
   ++counts_.evaluations[Term::SelfQuery];
-  collision::faces_in_own_body(*a.tree, found_of_a_, query, scratch_, options_);
-  collision::sort_pairs(found_of_a_, *a.tree, *a.tree, sort_scratch_);
+  penetrations_->within(a.index, found_of_a_, cost);
   collect(found_of_a_, found_of_a_, a, a,
           model_.contacts[static_cast<std::size_t>(contact)].averaged, margin, of_a_);
   CandidateList& list = next_list(contact);
@@ -175,16 +174,13 @@ void ContactSearch::search_itself(int contact, Moving& a, double margin,
 }
 
 void ContactSearch::search(int contact, Moving& a, Moving& b, double margin,
-                           collision::BlockQueryCounts& query) {
+                           PenetrationCost& cost) {
   ++counts_.evaluations[Term::BoxTest];
-  if (!overlap(a.tree->bounds(), b.tree->bounds())) return;
+  if (!penetrations_->may_meet(a.index, b.index)) return;
   fit(a);
   fit(b);
   ++counts_.evaluations[Term::PairQuery];
-  collision::faces_in_body(*a.tree, *b.tree, found_of_a_, query, scratch_, options_);
-  collision::faces_in_body(*b.tree, *a.tree, found_of_b_, query, scratch_, options_);
-  collision::sort_pairs(found_of_a_, *a.tree, *b.tree, sort_scratch_);
-  collision::sort_pairs(found_of_b_, *b.tree, *a.tree, sort_scratch_);
+  penetrations_->between(a.index, b.index, found_of_a_, found_of_b_, cost);
   // In both directions, though one side alone looks for the other: what lies deep shows in either.
   const ContactModel& pair = model_.contacts[static_cast<std::size_t>(contact)];
   collect(found_of_a_, found_of_b_, a, b, pair.averaged, margin, of_a_);
@@ -197,8 +193,7 @@ void ContactSearch::search(int contact, Moving& a, Moving& b, double margin,
   num_lists_ += list.pairs.empty() ? 0 : 1;
 }
 
-void ContactSearch::collect(const std::vector<collision::Penetration>& found,
-                            const std::vector<collision::Penetration>& reverse, const Moving& a,
+void ContactSearch::collect(const Penetrations& found, const Penetrations& reverse, const Moving& a,
                             const Moving& b, bool averaged, double margin, Direction& direction) {
   const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
   const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
@@ -234,9 +229,9 @@ void ContactSearch::collect(const std::vector<collision::Penetration>& found,
 
 /// For triangles that lie deeper below the other surface than the range reaches: the faces behind
 /// them up to about that depth. Faces farther off are seen from beyond an edge.
-void ContactSearch::add_deep_pairs(const std::vector<collision::Penetration>& found,
-                                   const Moving& a, const Moving& b, const DepthRange& range,
-                                   double margin, std::vector<ContactCandidate>& pairs) {
+void ContactSearch::add_deep_pairs(const Penetrations& found, const Moving& a, const Moving& b,
+                                   const DepthRange& range, double margin,
+                                   std::vector<ContactCandidate>& pairs) {
   constexpr double kOfDepth = 1.5;  // along a triangle's normal it is farther than straight up
   const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
   const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;

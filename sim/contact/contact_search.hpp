@@ -2,15 +2,16 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "collision/blocks/block_collide.hpp"
 #include "sim/base/evaluation_counters.hpp"
+#include "sim/contact/penetration_search.hpp"
 #include "sim/gap/face_bounds.hpp"
 #include "sim/model/configuration.hpp"
 
-/// Who may touch whom during the next step: from the BlockTrees' penetrations with a margin to
+/// Who may touch whom during the next step: from penetrations with a margin to
 /// pairs of a surface triangle and a facing face of the other body.
 namespace articular::sim {
 
@@ -31,7 +32,7 @@ DepthRange depth_range(const Collider& triangles, const Collider& faces, bool av
 
 struct SearchCounts {
   std::int64_t tree_updates = 0;
-  std::int64_t reported_pairs = 0;  // by the BlockTrees, within the margin
+  std::int64_t reported_pairs = 0;  // within the margin
   std::int64_t narrow_tests = 0;
   std::int64_t deep_pairs = 0;  // candidates deeper than depth_range() reaches
   EvaluationCounts evaluations;
@@ -66,8 +67,9 @@ class ContactSearch {
  private:
   struct Moving {
     int body = 0;
-    std::unique_ptr<collision::BlockTree> tree;
-    Positions x;  // where it was found
+    std::size_t index = 0;         // its own
+    std::optional<double> margin;  // [m] of the last update; none yet
+    Positions x;                   // where it was found
     std::vector<FaceBounds> faces;
   };
   void update(Moving& moving, const Configuration& configuration, double margin);
@@ -79,20 +81,19 @@ class ContactSearch {
   struct Direction {
     std::vector<ContactCandidate> near, deep;
   };
-  void search(int contact, Moving& a, Moving& b, double margin, collision::BlockQueryCounts& query);
-  void search_itself(int contact, Moving& a, double margin, collision::BlockQueryCounts& query);
+  void search(int contact, Moving& a, Moving& b, double margin, PenetrationCost& cost);
+  void search_itself(int contact, Moving& a, double margin, PenetrationCost& cost);
   CandidateList& next_list(int contact);
   /// @param found    triangles of a in tetrahedra of b
   /// @param reverse  of b in a
-  void collect(const std::vector<collision::Penetration>& found,
-               const std::vector<collision::Penetration>& reverse, const Moving& a, const Moving& b,
-               bool averaged, double margin, Direction& direction);
-  void add_deep_pairs(const std::vector<collision::Penetration>& found, const Moving& a,
-                      const Moving& b, const DepthRange& range, double margin,
-                      std::vector<ContactCandidate>& pairs);
+  void collect(const Penetrations& found, const Penetrations& reverse, const Moving& a,
+               const Moving& b, bool averaged, double margin, Direction& direction);
+  void add_deep_pairs(const Penetrations& found, const Moving& a, const Moving& b,
+                      const DepthRange& range, double margin, std::vector<ContactCandidate>& pairs);
 
   const Model& model_;
-  std::vector<Moving> moving_;  // one a collider
+  std::vector<Moving> moving_;                       // one a collider
+  std::unique_ptr<PenetrationSearch> penetrations_;  // of them
   /// Of each contact, indices into moving_: all that most contacts of a large scene are asked for.
   struct MovingPair {
     int a = 0, b = 0;
@@ -102,11 +103,8 @@ class ContactSearch {
   std::size_t num_lists_ = 0;
   double margin_ = 0;      // [m]
   double open_depth_ = 0;  // [m] largest of all sides that are averaged over
-  std::vector<collision::Penetration> found_of_a_, found_of_b_;
+  Penetrations found_of_a_, found_of_b_;
   Direction of_a_, of_b_;
-  collision::BlockQueryScratch scratch_;
-  collision::BlockQueryOptions options_;
-  collision::SortScratch sort_scratch_;
   std::vector<int> seen_;  // per face: last triangle that it was paired with
   /// Triangles that may lie deeper in the other body than the range reaches, with what was found of
   /// each: found[begin .. end).

@@ -14,7 +14,8 @@ namespace {
 
 /// What bounds a part: there each χ >= 0. As PatchEdge has it.
 struct Cut {
-  int m;
+  PatchEdge::Kind kind;
+  int index;
   bool is_end;
   Vec3 level;
 };
@@ -22,45 +23,48 @@ struct Cut {
 struct Cuts {
   std::array<Cut, TrianglePolygon::kMaxCuts> cut;
   int count = 0;
-  void add(int m, bool is_end, const Vec3& level) {
-    cut[static_cast<std::size_t>(count++)] = {m, is_end, level};
+  void add(PatchEdge::Kind kind, int index, bool is_end, const Vec3& level) {
+    cut[static_cast<std::size_t>(count++)] = {kind, index, is_end, level};
   }
   std::span<const Cut> all() const { return {cut.data(), static_cast<std::size_t>(count)}; }
 };
 
 /// The polygon's edges inside the triangle, in units of its area.
 void find_edges(const TrianglePolygon& polygon, const Cuts& cuts, ContactPatch& patch) {
-  std::array<int, TrianglePolygon::kMaxCorners>
-      edge_of_side;  // index into patch.edge; −1 − i: own side
+  using At = PatchEdge::End::At;
+  std::array<PatchEdge::End, TrianglePolygon::kMaxCorners> of_side;
+  std::array<int, TrianglePolygon::kMaxCuts> first_corner;  // of the side, by edge
   for (int k = 0; k < polygon.count; ++k) {
     const int side = polygon.side[static_cast<std::size_t>(k)];
-    edge_of_side[static_cast<std::size_t>(k)] = side;
-    if (side < 0) continue;
-    edge_of_side[static_cast<std::size_t>(k)] = PatchEdge::kNone;
+    PatchEdge::End& end = of_side[static_cast<std::size_t>(k)];
+    if (side < 0) {
+      end = {At::Side, -1 - side};
+      continue;
+    }
     if (patch.num_edges == std::ssize(patch.edge)) continue;
     const Cut& cut = cuts.all()[static_cast<std::size_t>(side)];
     // 1/|∇χ| is the distance of a point from the edge by its χ: of the corner farthest off.
     Eigen::Index far = 0;
     const double level = cut.level.cwiseAbs().maxCoeff(&far);
     if (!(level > 0)) continue;
-    const int before = k == 0 ? polygon.count - 1 : k - 1,
-              after = k + 1 == polygon.count ? 0 : k + 1;
+    const int after = k + 1 == polygon.count ? 0 : k + 1;
     PatchEdge& edge = patch.edge[static_cast<std::size_t>(patch.num_edges)];
-    edge.m = cut.m;
+    edge.kind = cut.kind;
+    edge.index = cut.index;
     edge.is_end = cut.is_end;
     edge.level = cut.level;
     edge.a = polygon.corner[static_cast<std::size_t>(k)];
     edge.b = polygon.corner[static_cast<std::size_t>(after)];
     const Vec3 along = edge.b - edge.a, off = Vec3::Unit(far) - edge.a;
     edge.length = 2 * std::abs(along[1] * off[2] - along[2] * off[1]) / level;
-    edge.before = before;
-    edge.after = after;
-    edge_of_side[static_cast<std::size_t>(k)] = patch.num_edges++;
+    end = {At::Edge, patch.num_edges};
+    first_corner[static_cast<std::size_t>(patch.num_edges++)] = k;
   }
   for (int k = 0; k < patch.num_edges; ++k) {
     PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
-    edge.before = edge_of_side[static_cast<std::size_t>(edge.before)];
-    edge.after = edge_of_side[static_cast<std::size_t>(edge.after)];
+    const int corner = first_corner[static_cast<std::size_t>(k)];
+    edge.before = of_side[static_cast<std::size_t>(corner == 0 ? polygon.count - 1 : corner - 1)];
+    edge.after = of_side[static_cast<std::size_t>(corner + 1 == polygon.count ? 0 : corner + 1)];
   }
 }
 
@@ -154,27 +158,34 @@ void find_motion(const FlatTriangle& s, const FlatTriangle& f, ContactPatch& pat
   patch.inward = depth_motion(f, patch, patch.nearest);
   for (int k = 0; k < patch.num_edges; ++k) {
     PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
-    if (edge.m < PatchEdge::kOpen)
-      edge.motion = patch.face_g.col(edge.m);
-    else if (edge.m == PatchEdge::kOpen)
-      edge.motion = patch.c;
-    else
-      edge.motion = depth_motion(f, patch, edge.m - PatchEdge::kNextPart) - patch.inward;
+    switch (edge.kind) {
+      case PatchEdge::Kind::FaceEdge:
+        edge.motion = patch.face_g.col(edge.index);
+        break;
+      case PatchEdge::Kind::OpenDepth:
+        edge.motion = patch.c;
+        break;
+      case PatchEdge::Kind::NextPart:
+        edge.motion = depth_motion(f, patch, edge.index) - patch.inward;
+        break;
+    }
   }
 }
 
 /// @param behind  what lies so far behind the face [m]
 Cuts cuts_of_part(const FlatTriangle& f, const Vec3& behind, double open,
                   const ContactPatch& patch) {
+  using Kind = PatchEdge::Kind;
   Cuts cuts;
-  for (int m = 0; m < 3; ++m) cuts.add(m, (f.rims >> m & 1) != 0, patch.beta.row(m));
+  for (int m = 0; m < 3; ++m)
+    cuts.add(Kind::FaceEdge, m, (f.rims >> m & 1) != 0, patch.beta.row(m));
   if (patch.nearest == ContactPatch::kFace)
-    cuts.add(PatchEdge::kOpen, open > 0, behind.array() + open);
+    cuts.add(Kind::OpenDepth, 0, open > 0, behind.array() + open);
   else
-    cuts.add(PatchEdge::kNextPart + ContactPatch::kFace, false, behind - patch.depth);
+    cuts.add(Kind::NextPart, ContactPatch::kFace, false, behind - patch.depth);
   for (int m = 0; m < 3; ++m)
     if (m != patch.nearest && f.rim_height[m] > 0)
-      cuts.add(PatchEdge::kNextPart + m, false,
+      cuts.add(Kind::NextPart, m, false,
                f.rim_height[m] * patch.beta.row(m).transpose() - patch.depth);
   return cuts;
 }

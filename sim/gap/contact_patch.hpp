@@ -44,14 +44,20 @@ using Mat18x10 = Eigen::Matrix<double, 18, 10>;
 /// one here. ∮ f dl / |∇χ| along it is `length` times the mean of f. At an edge where the next
 /// patch takes over what this one loses its motion changes no sum.
 struct PatchEdge {
-  static constexpr int kOpen = 3, kNextPart = 4, kNone = 99;
-  int m = 0;                                // or kOpen, or kNextPart + its `nearest`
-  bool is_end = false;                      // φ does not go on beyond: at a rim, kOpen
+  enum class Kind { FaceEdge, OpenDepth, NextPart };
+  /// What the edge ends at: another one of the patch, or the triangle's side N_index = 0.
+  struct End {
+    enum class At { Nothing, Edge, Side } at = At::Nothing;
+    int index = 0;
+  };
+  Kind kind = Kind::FaceEdge;
+  int index = 0;                            // FaceEdge: m; NextPart: its `nearest`
+  bool is_end = false;                      // φ does not go on beyond: at a rim, an OpenDepth
   Vec3 level = Vec3::Zero();                // χ at the nodes of s
   Vec3 motion = Vec3::Zero();               // δχ = motion·u, see contact_patch.cpp
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // its ends, in barycentric coordinates of s
   double length = 0;                        // times w [m²; by a depth: m]
-  int before = kNone, after = kNone;        // edges that it meets at a and b; −1 − i: N_i = 0
+  End before, after;                        // what it ends at in a and b
 };
 
 struct ContactPatch {

@@ -21,9 +21,9 @@ double cross(const Eigen::Vector2d& v, const Eigen::Vector2d& w) {
 }
 
 /// ∇χ of what an edge ends at: an edge of the patch, or −1 − i: N_i = 0.
-Eigen::Vector2d gradient_of(const ContactPatch& patch, int edge) {
-  if (edge < 0) return gradient(Vec3::Unit(-1 - edge));
-  return gradient(patch.edge[static_cast<std::size_t>(edge)].level);
+Eigen::Vector2d gradient_of(const ContactPatch& patch, const PatchEdge::End& end) {
+  if (end.at == PatchEdge::End::At::Side) return gradient(Vec3::Unit(end.index));
+  return gradient(patch.edge[static_cast<std::size_t>(end.index)].level);
 }
 
 /// How the corner where two lines χ = 0 and χ' = 0 meet moves: δN = −own (δℓ·N) − other (δℓ'·N).
@@ -62,13 +62,13 @@ void add_motion(const ContactPatch& patch, const PatchEdge& edge, const PatchSum
   const Eigen::Vector2d line = gradient(edge.level);
   const Vec3 stretch = Vec3(0, along[1], along[2]) / along.tail<2>().squaredNorm();
   Mat3 own = -q * barycentric(line).transpose() / line.squaredNorm();
-  const auto add_end = [&](const Vec3& N, int other, double sign) {
-    if (other == PatchEdge::kNone) return;
-    const Corner corner = corner_of(line, gradient_of(patch, other));
+  const auto add_end = [&](const Vec3& N, const PatchEdge::End& end, double sign) {
+    if (end.at == PatchEdge::End::At::Nothing) return;
+    const Corner corner = corner_of(line, gradient_of(patch, end));
     const Mat3 change = sign * q * stretch.transpose() + by_end(patch, edge, sum, N);
     own -= change * corner.own * N.transpose();
-    if (other < 0) return;
-    const PatchEdge& beyond = patch.edge[static_cast<std::size_t>(other)];
+    if (end.at == PatchEdge::End::At::Side) return;
+    const PatchEdge& beyond = patch.edge[static_cast<std::size_t>(end.index)];
     add(levels, -change * corner.other * N.transpose(), opposite(patch, beyond.motion), H);
   };
   add_end(edge.a, edge.before, -1);

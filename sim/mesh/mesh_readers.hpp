@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/base/message_text.hpp"
 #include "sim/mesh/mesh_io.hpp"
 
 /// The readers behind read_mesh(), one a family of formats. Each returns the file's own unit and
@@ -32,8 +33,5 @@ MeshData read_with_vtk(const std::filesystem::path& file);
 /// One finite number, nothing before or after it; empty if it is none.
 std::optional<double> parse_number(std::string_view text);
 std::optional<int> parse_integer(std::string_view text);
-
-/// Without blanks, tabs and carriage returns at both ends.
-std::string_view trimmed(std::string_view text);
 
 }  // namespace articular::sim

@@ -35,6 +35,9 @@ void put_vector(const Eigen::VectorXd& values, std::string& bytes) {
 }
 
 /// Takes values off the front of a file's bytes.
+/// The file ends too early or is no checkpoint.
+struct Torn {};
+
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : rest_(bytes) {}
@@ -51,7 +54,7 @@ class Reader {
     if (size > 0) std::memcpy(values.data(), doubles.data(), doubles.size());
   }
   std::string_view take(std::size_t size) {
-    if (rest_.size() < size) throw InputError("");
+    if (rest_.size() < size) throw Torn{};
     const std::string_view part = rest_.substr(0, size);
     rest_.remove_prefix(size);
     return part;
@@ -140,17 +143,15 @@ std::optional<State> read_checkpoint(const std::filesystem::path& file,
   std::ifstream in(file, std::ios::binary);
   if (!in) return {};
   const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  const std::string damaged =
-      fmt::format("{} is not a whole checkpoint; remove it to start afresh", file.string());
   State state;
   try {
-    if (bytes.size() < sizeof(std::uint64_t)) throw InputError("");
+    if (bytes.size() < sizeof(std::uint64_t)) throw Torn{};
     const std::size_t body = bytes.size() - sizeof(std::uint64_t);
     std::uint64_t stored = 0;
     std::memcpy(&stored, bytes.data() + body, sizeof(stored));
-    if (stored != hash_bytes(bytes.data(), body)) throw InputError("");
+    if (stored != hash_bytes(bytes.data(), body)) throw Torn{};
     Reader reader(std::string_view(bytes).substr(0, body));
-    if (reader.take(std::strlen(kMagic)) != kMagic) throw InputError("");
+    if (reader.take(std::strlen(kMagic)) != kMagic) throw Torn{};
     if (reader.take(fingerprint.size()) != fingerprint)
       throw InputError(
           fmt::format("{} belongs to another scenario, mesh or setting; run without "
@@ -173,9 +174,9 @@ std::optional<State> read_checkpoint(const std::filesystem::path& file,
       each_of_overlap(state.overlap_resolution.overlaps.emplace_back(), get_member);
     reader.get_vector(state.stiffening);
     reader.get_vector(state.y);
-  } catch (const InputError& error) {
-    if (*error.what() != '\0') throw;
-    throw InputError(damaged);
+  } catch (const Torn&) {
+    throw InputError(
+        fmt::format("{} is not a whole checkpoint; remove it to start afresh", file.string()));
   }
   return state;
 }

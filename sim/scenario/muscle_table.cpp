@@ -16,12 +16,6 @@
 namespace articular::sim {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
-
 /// The fields of one line: `a, "b, c", "say ""d"""` -> a | b, c | say "d".
 std::vector<std::string> split_fields(std::string_view line, const Location& where) {
   std::vector<std::string> fields;

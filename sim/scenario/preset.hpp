@@ -1,16 +1,18 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "sim/scenario/scenario.hpp"
 
 namespace articular::sim {
 
-/// What `accuracy = "..."` stands for in a dynamic analysis; a static one takes nothing of it but
-/// the step and the tolerance.
+/// The keys of a scenario that `accuracy = "..."` stands for, each of which may be given beside it.
+/// A static analysis takes nothing of it but the step and the tolerance.
 struct Preset {
   Integrator integrator;
   Scenario::Response contact_response = Scenario::Response::Averaged;
+  std::optional<double> contact_stiffness_factor;  // default: chosen by the scheme
   /// What came out in mandible/opening-study.toml: largest error of the incisors' path, and that of
   /// the mean force on the joint.
   std::string promise;

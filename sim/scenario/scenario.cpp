@@ -49,8 +49,8 @@ Scenario read_scenario(const std::filesystem::path& file,
   const TableReader document(
       root, "scenario",
       {"choice", "title", "duration", "analysis", "accuracy", "settling", "contact_response",
-       "contact", "integrator", "detection", "output", "body", "attach", "muscle", "muscle_table",
-       "ligament", "load", "probe"});
+       "contact_stiffness_factor", "contact", "integrator", "detection", "output", "body", "attach",
+       "muscle", "muscle_table", "ligament", "load", "probe"});
   Scenario scenario;
   scenario.choices = choices;
   scenario.file = file;

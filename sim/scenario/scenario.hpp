@@ -287,6 +287,9 @@ struct Integrator {
 };
 
 struct Detection {
+  /// The tree that penetrations are searched by: blocks that move with the tissue, or the article's
+  /// buckets, which are filled anew. The pairs are the same.
+  enum class Tree { Blocks, Buckets } tree = Tree::Blocks;
   bool lagged = false;           // a dynamic analysis looks anew only when things have moved
   std::optional<double> margin;  // [m], least distance at which pairs are kept as candidates
   collision::NarrowTest narrow_test = collision::NarrowTest::SeparatingAxes;
@@ -320,6 +323,9 @@ struct Scenario {
   /// Of a dynamic analysis: depths count point by point, everywhere or at samples of each triangle,
   /// or as averages at nodes, which is what a static one does.
   enum class Response { Pointwise, Sampled, Averaged } contact_response = Response::Averaged;
+  /// Of averaged depths in a dynamic analysis: contact is this many times as stiff as the elements
+  /// at the surface; default: chosen by the scheme.
+  std::optional<double> contact_stiffness_factor;
   bool settling = true;  // bodies that overlap at the start are pushed apart first
   std::vector<ContactPair> contacts;
   std::vector<Probe> probes;

@@ -16,13 +16,14 @@ constexpr std::pair<std::string_view, Integrator::Scheme> kSchemes[] = {
     {"bdf", Integrator::Scheme::Bdf},
     {"explicit", Integrator::Scheme::Explicit}};
 
+constexpr const char* kResponses[] = {"pointwise", "sampled", "averaged"};
 constexpr const char* kSolvers[] = {"auto", "cholesky", "conjugate-gradients", "multigrid"};
 
 void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& integrator) {
   constexpr int kMostIterations = 1000;
-  const TableReader table(
-      node, "[integrator]",
-      {"scheme", "step", "solver", "position_tolerance", "max_iterations", "min_step"});
+  const TableReader table(node, "[integrator]",
+                          {"scheme", "step", "solver", "position_tolerance", "element_tolerance",
+                           "max_iterations", "min_step"});
   table.may("scheme", integrator.scheme, [](const Node& n) {
     return read_choice<Integrator::Scheme>(
         n, {kSchemes[0], kSchemes[1], kSchemes[2], kSchemes[3], kSchemes[4]});
@@ -38,6 +39,9 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
   });
   table.may("step", integrator.step, as_quantity(kTime, kPositive));
   table.may("position_tolerance", integrator.position_tolerance, as_quantity(kLength, kPositive));
+  if (integrator.position_tolerance)
+    table.refuse({"element_tolerance"}, "`position_tolerance` is given");
+  table.may("element_tolerance", integrator.element_tolerance, as_number(kPositive));
   table.may("max_iterations", integrator.max_iterations,
             [](const Node& n) { return read_integer(n, 1, kMostIterations); });
   table.may("min_step", integrator.min_step, as_quantity(kTime, kPositive));
@@ -48,9 +52,13 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
 }
 
 void read_detection(const Node& node, Scenario::Analysis analysis, Detection& detection) {
-  const TableReader table(node, "[detection]", {"lagged", "margin", "narrow_test"});
+  const TableReader table(node, "[detection]", {"tree", "lagged", "margin", "narrow_test"});
   if (analysis == Scenario::Analysis::Static)
     table.refuse({"lagged"}, "a static analysis looks wherever its iteration has come to");
+  table.may("tree", detection.tree, [](const Node& n) {
+    return read_choice<Detection::Tree>(
+        n, {{"blocks", Detection::Tree::Blocks}, {"buckets", Detection::Tree::Buckets}});
+  });
   table.may("lagged", detection.lagged, read_boolean);
   table.may("margin", detection.margin, as_quantity(kLength, kPositive));
   table.may("narrow_test", detection.narrow_test, [](const Node& n) {
@@ -99,6 +107,19 @@ int contact_parameters_set(const Scenario& scenario) {
   return count;
 }
 
+/// The keys that the preset stands for, as a scenario writes them.
+nlohmann::ordered_json preset_as_json(const Scenario& scenario) {
+  const Preset keys = preset(scenario.accuracy);
+  nlohmann::ordered_json json{{"integrator.step", fmt::format("{} s", keys.integrator.step)},
+                              {"integrator.element_tolerance", keys.integrator.element_tolerance}};
+  if (scenario.analysis == Scenario::Analysis::Static) return json;
+  json["integrator.scheme"] = kSchemes[static_cast<int>(keys.integrator.scheme)].first;
+  json["contact_response"] = kResponses[static_cast<int>(keys.contact_response)];
+  if (keys.contact_stiffness_factor)
+    json["contact_stiffness_factor"] = *keys.contact_stiffness_factor;
+  return json;
+}
+
 }  // namespace
 
 void read_settings(const TableReader& document, Scenario& scenario) {
@@ -116,7 +137,8 @@ void read_settings(const TableReader& document, Scenario& scenario) {
   });
   document.may("settling", scenario.settling, read_boolean);
   if (scenario.analysis == Scenario::Analysis::Static)
-    document.refuse({"contact_response"}, "a static analysis averages depths");
+    document.refuse({"contact_response", "contact_stiffness_factor"},
+                    "a static analysis averages depths");
   const Preset chosen = preset(scenario.accuracy);
   scenario.contact_response = chosen.contact_response;
   document.may("contact_response", scenario.contact_response, [](const Node& n) {
@@ -124,6 +146,10 @@ void read_settings(const TableReader& document, Scenario& scenario) {
                                                {"sampled", Scenario::Response::Sampled},
                                                {"averaged", Scenario::Response::Averaged}});
   });
+  scenario.contact_stiffness_factor = chosen.contact_stiffness_factor;
+  document.may("contact_stiffness_factor", scenario.contact_stiffness_factor, as_number(kPositive));
+  if (scenario.contact_response != Scenario::Response::Averaged)
+    document.refuse({"contact_stiffness_factor"}, "it is of averaged depths");
   scenario.integrator = chosen.integrator;
   if (const Node* node = document.find("integrator"))
     read_integrator(*node, scenario.analysis, scenario.integrator);
@@ -136,18 +162,20 @@ std::string settings_as_json(const Scenario& scenario) {
   const Integrator& integrator = scenario.integrator;
   const Output& output = scenario.output;
   constexpr const char* kAccuracies[] = {"fast", "balanced", "accurate"};
-  constexpr const char* kResponses[] = {"pointwise", "sampled", "averaged"};
   nlohmann::ordered_json json;
   json["title"] = scenario.title;
   for (const auto& [name, word] : scenario.choices) json["choice"][name] = word;
   json["duration_s"] = scenario.duration;
   json["accuracy"] = kAccuracies[static_cast<int>(scenario.accuracy)];
+  json["accuracy_stands_for"] = preset_as_json(scenario);
   json["analysis"] = scenario.analysis == Scenario::Analysis::Static ? "static" : "dynamic";
   json["settling"] = scenario.settling;
   json["contact"] = contact_as_json(scenario);
   json["contact_response"] = scenario.analysis == Scenario::Analysis::Static
                                  ? "averaged"
                                  : kResponses[static_cast<int>(scenario.contact_response)];
+  if (scenario.contact_stiffness_factor)
+    json["contact_stiffness_factor"] = *scenario.contact_stiffness_factor;
   json["contact_parameters_set"] = contact_parameters_set(scenario);
   json["integrator"] = {{"scheme", kSchemes[static_cast<int>(integrator.scheme)].first},
                         {"step_s", integrator.step},
@@ -159,6 +187,7 @@ std::string settings_as_json(const Scenario& scenario) {
   else
     json["integrator"]["position_tolerance_of_element"] = integrator.element_tolerance;
   json["detection"] = {
+      {"tree", scenario.detection.tree == Detection::Tree::Buckets ? "buckets" : "blocks"},
       {"lagged", scenario.detection.lagged},
       {"margin_m", nullptr},  // chosen by the elements
       {"narrow_test",

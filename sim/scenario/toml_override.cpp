@@ -12,12 +12,6 @@
 namespace articular::sim {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
-
 /// "a."b.c".d" -> a, b.c, d
 std::vector<std::string> split_path(std::string_view path, const Location& where) {
   std::vector<std::string> parts(1);

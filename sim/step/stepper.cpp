@@ -194,10 +194,10 @@ bool Stepper::try_time_step(State& state, double h) {
     return false;
   }
   const Configuration where = only_end ? end : predicted(model_, start_, 0.5 * h);
-  bool internal_variables = is_still_found(end);
-  state.counts.lagged_steps += internal_variables ? 1 : 0;
+  bool is_lagged = is_still_found(end);
+  state.counts.lagged_steps += is_lagged ? 1 : 0;
   for (;;) {
-    if (!internal_variables) find_contacts(where, state.next_margin);
+    if (!is_lagged) find_contacts(where, state.next_margin);
     y_ = state.y;
     const std::optional<double> reached =
         y_.size() == 0 ? std::optional(state.t + h)  // only driven bones move
@@ -221,8 +221,8 @@ bool Stepper::try_time_step(State& state, double h) {
         return false;
       }
       covered = stray <= 0.5 * search_->margin();
-      if (!internal_variables) state.next_margin = margin_for(model_, stray);
-      internal_variables = internal_variables && covered;
+      if (!is_lagged) state.next_margin = margin_for(model_, stray);
+      is_lagged = is_lagged && covered;
     }
     if (covered && !stiffen(state)) {
       state.y = y_;

@@ -38,6 +38,18 @@ ScenarioResults loaded_knee(double duration, const std::string& cartilage = "tis
                                          "choice.cartilage=" + cartilage});
 }
 
+TEST(KneeAxialLoad, IsTheSameByEitherTree) {
+  const auto knee = [](const std::string& tree) {
+    return coarse_knee("axial-load.toml", {"duration=0.1 s", "detection.tree=" + tree});
+  };
+  const ScenarioResults blocks = knee("blocks"), buckets = knee("buckets");
+  EXPECT_GT(blocks.count("reported_pairs"), 0);
+  EXPECT_EQ(blocks.count("reported_pairs"), buckets.count("reported_pairs"));
+  EXPECT_EQ(blocks.count("newton_iterations"), buckets.count("newton_iterations"));
+  for (const char* const column : {"femur.force.z [N]", "cartilage_medial.force.z [N]"})
+    EXPECT_EQ(blocks.column(column), buckets.column(column)) << column;
+}
+
 double sum_of(const ScenarioResults& results, const std::vector<std::string>& columns) {
   double sum = 0;
   for (const std::string& column : columns) sum += results.column(column).back();

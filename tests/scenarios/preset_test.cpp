@@ -84,6 +84,12 @@ std::vector<double> curve(const std::string& scenario, const std::string& column
   return values;
 }
 
+ScenarioResults press(std::vector<std::string> overrides) {
+  const TemporaryFolder folder;
+  overrides.push_back("duration=16 ms");
+  return run_scenario(folder.file("scene.toml", kPress).string(), overrides);
+}
+
 /// Root mean square of the difference to a run with a tenth of the finest preset's step.
 std::array<double, 3> errors(const std::string& scenario, const std::string& column) {
   const std::vector<double> right =
@@ -113,6 +119,23 @@ TEST(Presets, AreOrderedInErrorWhereTissueIsPressed) {
   EXPECT_GT(fast, 1.3 * balanced);
   EXPECT_GT(balanced, 1.3 * accurate);
   EXPECT_GT(accurate, 0);
+}
+
+/// What `accuracy` stands for, as of `--set`, by the record of a run with it.
+std::vector<std::string> plain_keys(const nlohmann::json& settings) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : settings.at("accuracy_stands_for").items())
+    keys.push_back(key + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
+  return keys;
+}
+
+TEST(Presets, AreNoMoreThanTheKeysThatTheyStandFor) {
+  for (const char* const preset : {"fast", "balanced", "accurate"}) {
+    const ScenarioResults named = press({std::string("accuracy=") + preset});
+    const ScenarioResults written = press(plain_keys(named.summary().at("settings")));
+    EXPECT_EQ(named.column("ball.force.z [N]"), written.column("ball.force.z [N]")) << preset;
+    EXPECT_EQ(named.count("newton_iterations"), written.count("newton_iterations")) << preset;
+  }
 }
 
 }  // namespace articular::preset_test

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <string>
 
+#include "tools/process/status_line.hpp"
+
 namespace articular::tools {
 
 /// Progress through frames on stderr, if it takes longer than a moment: a line that changes on a
@@ -19,7 +21,7 @@ class FrameProgress {
  private:
   using Clock = std::chrono::steady_clock;
   std::string what_;
-  bool terminal_, line_open_ = false;
+  StatusLine status_;
   std::size_t tenth_ = 0;
   Clock::time_point start_ = Clock::now(), shown_ = start_;
 };

@@ -152,7 +152,7 @@ std::string promise(const sim::Scenario& scenario) {
   if (scenario.analysis == sim::Scenario::Analysis::Static)
     return "in a static analysis `accuracy` sets the load step and the tolerance alone";
   return sim::preset(scenario.accuracy).promise +
-         " (scenarios/mandible/README.md), as far as [integrator] and contact_response leave it";
+         " (scenarios/mandible/README.md), as far as the scenario's own keys leave it";
 }
 
 Json explain(const sim::Model& model) {
@@ -238,6 +238,9 @@ void print(const Json& json) {
       "{}\n",
       json["settings"]["contact_parameters_set"].get<int>());
   fmt::print("Accuracy: {}\n", json["promise"].get<std::string>());
+  fmt::print("  It stands for these keys, each of which the scenario may set:\n");
+  for (const auto& [key, value] : json["settings"]["accuracy_stands_for"].items())
+    fmt::print("  {} = {}\n", key, value.dump());
   fmt::print("Settings: {}\n", json["settings"].dump());
   for (const Json& warning : json["warnings"])
     fmt::print("warning: {}\n", warning.get<std::string>());

@@ -1,11 +1,8 @@
 #include "tools/run/progress.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 namespace articular::tools {
@@ -15,7 +12,7 @@ constexpr std::chrono::milliseconds kBarInterval(100);
 
 }  // namespace
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(bool quiet) : quiet_(quiet) {}
 
 void Progress::update(const sim::State& state, double duration) {
   if (quiet_) return;
@@ -26,7 +23,7 @@ void Progress::update(const sim::State& state, double duration) {
     tenth_ = static_cast<int>(10 * state.t / duration);
     return;
   }
-  if (terminal_) {
+  if (status_.is_terminal()) {
     if (Clock::now() - shown_ < kBarInterval && state.t < duration) return;
     print(state, duration);
   } else if (const int tenth = static_cast<int>(10 * state.t / duration); tenth > tenth_) {
@@ -39,7 +36,9 @@ void Progress::update(double t, const sim::NewtonIteration& iteration) {
   if (quiet_) return;
   constexpr std::chrono::seconds kLineInterval(10);
   ++iterations_;
-  if (Clock::now() - shown_ < (terminal_ ? Clock::duration(kBarInterval) : kLineInterval)) return;
+  if (Clock::now() - shown_ <
+      (status_.is_terminal() ? Clock::duration(kBarInterval) : kLineInterval))
+    return;
   const std::string what =
       t > 0 ? fmt::format("load step to t = {:.1f} ms", 1e3 * t) : std::string("settling");
   put(fmt::format("{}: iteration {}, residual {:.1e} of the largest force", what, iterations_,
@@ -61,15 +60,9 @@ void Progress::print(const sim::State& state, double duration) {
 
 void Progress::put(const std::string& line) {
   shown_ = Clock::now();
-  bar_shown_ = terminal_;
-  const std::string text = terminal_ ? "\r" + bar_ + " " + line + "\x1b[K" : line + "\n";
-  std::fputs(text.c_str(), stderr);
-  std::fflush(stderr);
+  status_.show(status_.is_terminal() ? bar_ + " " + line : line);
 }
 
-void Progress::finish() {
-  if (bar_shown_) std::fputc('\n', stderr);
-  bar_shown_ = false;
-}
+void Progress::finish() { status_.end(); }
 
 }  // namespace articular::tools

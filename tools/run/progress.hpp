@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/statics/equilibrium.hpp"
+#include "tools/process/status_line.hpp"
 
 namespace articular::tools {
 
@@ -23,14 +24,14 @@ class Progress {
   void put(const std::string& line);
 
   using Clock = std::chrono::steady_clock;
-  bool quiet_, terminal_;
+  bool quiet_;
+  StatusLine status_;
   Clock::time_point start_ = Clock::now(), shown_ = Clock::now();
   double first_time_ = -1;  // simulated time at the first update [s]
   std::int64_t first_step_ = 0;
   int tenth_ = 0;
   int iterations_ = 0;  // since the last step
   std::string bar_ = "[" + std::string(kBarWidth, '.') + "]";
-  bool bar_shown_ = false;
 };
 
 }  // namespace articular::tools

@@ -75,6 +75,28 @@ TEST(BlockTree, MovedAndFittedIsUpdated) {
   EXPECT_GT(answer.pairs.size(), 100u);
 }
 
+// A long bar has several groups of blocks; the probe visits them all while the bar moves on.
+TEST(BlockTree, FollowsEveryUpdateInAllOfItsBlocks) {
+  std::mt19937 random(6);
+  const Mesh bar = testing::box_mesh(60, 3, 3, 1), probe = testing::box_mesh(2, 2, 2, 1);
+  BlockTree B = tree_of(bar, bar.X), P = tree_of(probe, probe.X);
+  ASSERT_GT(B.num_tet_blocks(), 3 * 16);
+  ASSERT_GT(B.num_face_blocks(), 16);
+  for (int k = 0; k < 12; ++k) {
+    const Eigen::Vector3d way(7 * k, -5 * k, 3 * k);  // of the bar
+    const Eigen::Vector3d place(5 * k + 0.5, 0.5, 0.5);
+    const Eigen::Matrix3Xd x = testing::jittered(bar.X, 0.2, random).colwise() + way;
+    const Eigen::Matrix3Xd y = probe.X.colwise() + (way + place);
+    B.update(x, 0.1);
+    P.update(y, 0.1);
+    const auto rule = NarrowTest::SeparatingAxes;
+    const std::vector<Penetration> expected = by_rule(probe, y, bar, x, 0.1, rule);
+    EXPECT_GT(expected.size(), 20u);
+    EXPECT_EQ(faces_in(P, B).pairs, expected) << k;
+    EXPECT_EQ(faces_in(B, P).pairs, by_rule(bar, x, probe, y, 0.1, rule)) << k;
+  }
+}
+
 TEST(BlockTree, SortedPairsAreTheSameForEveryInstructionSetAndNumberOfThreads) {
   std::mt19937 random(5);
   const Mesh a = testing::box_mesh(9, 9, 9, 1), b = testing::box_mesh(8, 8, 8, 1);

@@ -302,7 +302,8 @@ TEST(ContactPatch, AtRimsAndWhereDepthsBeginToCountTheGradientIsTheDerivativeOfT
     const std::vector<ContactPatch> parts = sum.parts();
     if (parts.empty() || parts[0].area < 0.05 * kRestArea) continue;
     for (int k = 0; k < parts[0].num_edges; ++k)
-      ++(parts[0].edge[static_cast<std::size_t>(k)].m == PatchEdge::kOpen ? open : at_rims);
+      ++(parts[0].edge[static_cast<std::size_t>(k)].kind == PatchEdge::Kind::OpenDepth ? open
+                                                                                       : at_rims);
     const Vec18 g = sum.gradient();
     double best = std::numeric_limits<double>::infinity();
     for (const double h : {1e-5, 1e-6})

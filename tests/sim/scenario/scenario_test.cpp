@@ -568,6 +568,8 @@ TEST_F(Presets, SetSchemeStepAndTolerance) {
   EXPECT_EQ(accurate.integrator.scheme, Integrator::Scheme::TrBdf2);
   EXPECT_EQ(accurate.integrator.element_tolerance, 5e-5);
   EXPECT_EQ(accurate.contact_response, Scenario::Response::Averaged);
+  EXPECT_EQ(accurate.contact_stiffness_factor, 1000);
+  EXPECT_FALSE(balanced.contact_stiffness_factor);
 }
 
 TEST_F(Presets, GiveWayToWhatTheScenarioSays) {

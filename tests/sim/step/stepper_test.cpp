@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "tests/sim/support/scene.hpp"
+#include "tests/sim/support/contact_scene.hpp"
 
 namespace articular::sim::stepper_test {
 
@@ -310,6 +310,44 @@ TEST(Stepper, AStretchedBarPullsItsDrivenAndItsFixedEndAlikeAndStoresTheWork) {
   const double stored = 0.5 * expected * 0.003;
   EXPECT_NEAR(run.stepper.stored_energy().elastic, stored, 1e-6 * stored);
   EXPECT_NEAR(run.state.energy.motion_work, stored, 1e-3 * stored);
+}
+
+/// A rigid box at rest is pulled down by this part of the margin in a step [m]; far below, a floor.
+std::int64_t searches_done_again(double part_of_margin) {
+  const double h = 1e-3, margin = 1e-3, size = 0.02;
+  Scenario s = contact_scene(h);
+  s.detection.margin = margin;
+  s.bodies = {box_body("box", Body::Kind::Rigid, Vec3::Constant(size)),
+              box_body("floor", Body::Kind::Fixed, Vec3::Constant(size), {0, 0, -1})};
+  s.loads = {gravity({0, 0, -part_of_margin * margin / (h * h)})};
+  Simulation run(s);
+  run.advance(h);
+  return run.state.counts.rejected_motion;
+}
+
+// Pairs are known up to the margin, of which each of two bodies may use half.
+TEST(Stepper, ContactsAreLookedForAgainWhereABodyStraysByMoreThanHalfTheMargin) {
+  EXPECT_EQ(searches_done_again(0.45), 0);
+  EXPECT_EQ(searches_done_again(0.55), 1);
+  EXPECT_EQ(searches_done_again(0.95), 1);
+}
+
+// v = v0 exp(−α t) of a block that mass damping alone slows down: it loses
+// ½ m v0² (1 − exp(−2 α t)), which the ledger adds up with an error of second order.
+TEST(Stepper, WhatDampingTakesFromATissueIsTheIntegralOfItsPower) {
+  const double alpha = 20, T = 0.1, v0 = 0.3, size = 0.02;
+  const double loss = 0.5 * 1000 * std::pow(size, 3) * v0 * v0 * (1 - std::exp(-2 * alpha * T));
+  const auto error = [&](double h) {
+    Scenario s = scene(h, Scheme::TrBdf2);
+    s.bodies = {box_body("block", Body::Kind::Tissue, Vec3::Constant(size))};
+    s.bodies[0].velocity = {v0, 0, 0};
+    s.bodies[0].material->mass_damping = alpha;
+    Simulation run(s);
+    run.advance(T);
+    return std::abs(run.state.energy.tissue_loss - loss);
+  };
+  EXPECT_LT(error(1e-3), 1e-3 * loss);
+  EXPECT_NEAR(measured_order(error, 4e-3), 2, 0.1);
 }
 
 TEST(Stepper, AStepEndsWhereItIsAskedTo) {
