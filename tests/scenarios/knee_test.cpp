@@ -139,7 +139,7 @@ TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
   const TemporaryFolder folder;
   const ProgramResult made =
       run_shell(folder, "out=$PWD; SIZE='4 mm' ARTICULAR='" ARTICULAR_PROGRAM
-                        "' '" ARTICULAR_SOURCE_DIR "/tools/subject-knee' \"$out/meshes\"");
+                        "' '" ARTICULAR_SOURCE_DIR "/tools/figures/subject-knee' \"$out/meshes\"");
   ASSERT_EQ(made.exit_code, 0) << made.err;
   sim::Scenario scenario = sim::read_scenario(
       std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee/subject-axial-load.toml",

@@ -1,4 +1,4 @@
-# Draws the tables of collision_study; see tools/collision-figures. Needs: out, the folder with the tables.
+# Draws the tables of collision_study; see tools/figures/collision-figures. Needs: out, the folder with the tables.
 set datafile separator ','
 set fit quiet nolog
 set print out.'/fits.md'
@@ -24,7 +24,7 @@ array c0[n]; array c1[n]; array c_sd[n]; array c_r2[n]
 array q0[n]; array q1[n]; array q2[n]; array q_sd[n]; array q_r2[n]
 line(m, x) = c0[m] + c1[m] * x
 parabola(m, x) = q0[m] + (q1[m] + q2[m] * x) * x
-panel = 'tools/collision_panel.gnuplot'
+panel = 'tools/figures/collision_panel.gnuplot'
 small = 21000
 everything = 1e9
 
@@ -80,7 +80,7 @@ set yrange [*:*]
 set format x '%.0s%c'
 set multiplot layout 1,3
 set xlabel 'tetrahedra in a body'
-panel = 'tools/collision_large.gnuplot'
+panel = 'tools/figures/collision_large.gnuplot'
 figure = '1.5.4 A'; series = 'two_1000'
 set title 'two, 800–1200 intersections'
 load panel

@@ -1,4 +1,4 @@
-# One panel of tools/collision_figures.gnuplot, in logarithmic axes: a line and a parabola through the points
+# One panel of tools/figures/collision_figures.gnuplot, in logarithmic axes: a line and a parabola through the points
 # of every method by their relative deviations, as the times differ by factors. Needs: series.
 do for [m = 1:n] {
   data = rows(series, m, 3, everything)

@@ -1,4 +1,4 @@
-# One panel of tools/collision_figures.gnuplot: a line and a parabola through the points of every method,
+# One panel of tools/figures/collision_figures.gnuplot: a line and a parabola through the points of every method,
 # one standard deviation of the points from each, and R². Needs: figure, series, column_of_x, limit, and
 # curved, which fit is the article's: that one is drawn with its standard deviation, the other one dashed.
 do for [m = 1:n] {

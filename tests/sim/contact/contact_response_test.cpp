@@ -197,8 +197,8 @@ TEST(AveragedContact, OverAnEdgeForcesAreTheDerivativeOfTheEnergy) {
   for (const ContactPairState::Patch& entry : block.response.pair_states()[0]->patches())
     for (int k = 0; k < entry.patch.num_edges; ++k) {
       const PatchEdge& edge = entry.patch.edge[static_cast<std::size_t>(k)];
-      at_rims += edge.is_end && edge.m != PatchEdge::kOpen ? 1 : 0;
-      open += edge.m == PatchEdge::kOpen ? 1 : 0;
+      at_rims += edge.is_end && edge.kind != PatchEdge::Kind::OpenDepth ? 1 : 0;
+      open += edge.kind == PatchEdge::Kind::OpenDepth ? 1 : 0;
     }
   EXPECT_GT(at_rims, 3);
   EXPECT_GT(open, 3);
