@@ -21,8 +21,8 @@ struct Rates {
 template <class Velocity>
 Rates rates_of(const ContactPairState& pair_state, const Collider& triangles, const Collider& faces,
                Velocity&& velocity_of) {
-  const std::ptrdiff_t num_sheets = std::ssize(triangles.group_node);
-  Rates rates{Eigen::VectorXd::Zero(num_sheets), Positions::Zero(3, num_sheets)};
+  const std::ptrdiff_t num_groups = std::ssize(triangles.group_node);
+  Rates rates{Eigen::VectorXd::Zero(num_groups), Positions::Zero(3, num_groups)};
   for (const ContactPairState::Patch& entry : pair_state.patches()) {
     if (!carries(pair_state, entry.triangle, triangles.groups)) continue;
     const auto nodes = nodes_of(triangles, faces, entry.triangle, entry.face);

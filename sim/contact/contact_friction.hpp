@@ -47,14 +47,14 @@ struct NodalDrag {
   double stiffening = 1;  // derivative of the node's pressure by that of the penalty
 };
 
-/// @param pressure  of the penalty [Pa], > 0
-/// @param normal    unit
-/// @param friction dual      g, no longer than 1; none: ŝ
+/// @param pressure       of the penalty [Pa], > 0
+/// @param normal         unit
+/// @param friction_dual  g, no longer than 1; none: ŝ
 NodalDrag nodal_drag(const SurfaceLaw& law, double pressure, double closing, const Vec3& slip,
                      const Vec3& normal, const std::optional<Vec3>& friction_dual = {});
 
 /// g that goes with a change δV of the slip: g s = V to first order, shortened to 1.
-/// @param friction dual  the last one; none: ŝ
+/// @param friction_dual  the last one; none: ŝ
 Vec3 next_friction_dual(const SurfaceLaw& law, const Vec3& slip, const Vec3& change,
                         const std::optional<Vec3>& friction_dual);
 

@@ -13,10 +13,10 @@ ContactPairState& ContactResponse::pair_state_of(const CandidateList& list) {
   if (known != nullptr) return *known;
   ContactPairState& pair_state = pair_states_.emplace_back();
   pair_state.contact = list.contact;
-  const Eigen::Index num_sheets = std::ssize(sides_of(model_, pair_state).triangles.group_node);
+  const Eigen::Index num_groups = std::ssize(sides_of(model_, pair_state).triangles.group_node);
   for (Eigen::VectorXd* values :
        {&pair_state.area, &pair_state.measure, &pair_state.depth, &pair_state.pressure})
-    values->setZero(num_sheets);
+    values->setZero(num_groups);
   known = &pair_state;
   return pair_state;
 }

@@ -47,8 +47,8 @@ class ContactResponse {
   bool augment();
   /// From the next evaluate() on, λ = 0.
   void drop_multipliers();
-  /// From the next evaluate() on, the friction duals of friction are those after a change of the
-  /// blocks' velocities.
+  /// From the next evaluate() on, friction duals are those after a change of the blocks'
+  /// velocities.
   void update_friction_duals(const Configuration& configuration, const Eigen::VectorXd& change);
   /// From the next evaluate() on, there are none.
   void drop_friction_duals();

@@ -152,7 +152,7 @@ void ContactStiffness::add_coupling(const ContactPairState& pair_state,
   for (FrictionCoupling::Entry& entry : coupled_)
     entry.pressure = factor * gradient_.col(entry.block);
   drop_gathered();
-  coupling.add_sheet(coupled_);
+  coupling.add_group(coupled_);
 }
 
 /// Σ k_a/A_a (A_a ∇g_a) (A_a ∇g_a)ᵀ, the same with the damping, and what friction resists with; how

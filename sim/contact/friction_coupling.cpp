@@ -16,13 +16,13 @@ void FrictionCoupling::clear() {
   begin_.assign(1, 0);
 }
 
-void FrictionCoupling::add_sheet(const std::vector<Entry>& entries) {
+void FrictionCoupling::add_group(const std::vector<Entry>& entries) {
   entries_.insert(entries_.end(), entries.begin(), entries.end());
   begin_.push_back(static_cast<int>(entries_.size()));
 }
 
 Eigen::VectorXd FrictionCoupling::pressures(const Eigen::VectorXd& w) const {
-  Eigen::VectorXd p = Eigen::VectorXd::Zero(num_sheets());
+  Eigen::VectorXd p = Eigen::VectorXd::Zero(num_groups());
   for (std::size_t a = 0; a + 1 < begin_.size(); ++a)
     for (int e = begin_[a]; e < begin_[a + 1]; ++e) {
       const Entry& entry = entries_[static_cast<std::size_t>(e)];

@@ -20,8 +20,8 @@ class FrictionCoupling {
     Vec3 pressure;  // of G
   };
   void clear();
-  void add_sheet(const std::vector<Entry>& entries);
-  int num_sheets() const { return static_cast<int>(begin_.size()) - 1; }
+  void add_group(const std::vector<Entry>& entries);
+  int num_groups() const { return static_cast<int>(begin_.size()) - 1; }
   /// Gᵀ w [Pa], one a group.
   Eigen::VectorXd pressures(const Eigen::VectorXd& w) const;
   /// f += scale S p

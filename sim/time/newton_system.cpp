@@ -108,7 +108,7 @@ bool NewtonSystem::solve_linear(SolverCounts& counts) {
   const FrictionCoupling& coupling = dynamics_.friction_coupling();
   const bool solved =
       solve_symmetric(mass_rhs_, w_, counts) &&
-      (coupling.num_sheets() == 0 || solve_with_friction(coupling, solve, mass_rhs_, w_));
+      (coupling.num_groups() == 0 || solve_with_friction(coupling, solve, mass_rhs_, w_));
   used_consistent_ |= solved && tangent_ == fem::Tangent::Consistent;
   return solved;
 }

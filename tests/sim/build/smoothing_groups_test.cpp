@@ -11,43 +11,43 @@ namespace articular::sim::smoothing_groups_test {
 
 constexpr double kCrease = 0.5;
 
-struct Sheets {
-  explicit Sheets(const MeshData& mesh)
+struct Groups {
+  explicit Groups(const MeshData& mesh)
       : faces(collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())).faces),
-        node_of(number_smoothing_groups(mesh.X, faces, kCrease, sheets)) {
-    for (const int sheet : sheets.reshaped())
-      at_node[node_of[static_cast<std::size_t>(sheet)]].insert(sheet);
+        node_of(number_smoothing_groups(mesh.X, faces, kCrease, groups)) {
+    for (const int group : groups.reshaped())
+      at_node[node_of[static_cast<std::size_t>(group)]].insert(group);
   }
-  Eigen::Matrix3Xi faces, sheets;
+  Eigen::Matrix3Xi faces, groups;
   std::vector<int> node_of;
   std::map<int, std::set<int>> at_node;  // of the surface
 };
 
-TEST(SmoothSheets, ABoxHasThreeAtACornerTwoAtAnEdgeAndOneElsewhere) {
+TEST(SmoothingGroups, ABoxHasThreeAtACornerTwoAtAnEdgeAndOneElsewhere) {
   const MeshData box = box_mesh({{0.03, 0.03, 0.03}, {3, 3, 3}, Vec3::Zero()});
-  const Sheets s(box);
+  const Groups s(box);
   std::map<std::size_t, int> nodes_with;
-  for (const auto& [node, sheets] : s.at_node) {
-    ++nodes_with[sheets.size()];
-    EXPECT_EQ(*sheets.begin(), node);  // the first
+  for (const auto& [node, groups] : s.at_node) {
+    ++nodes_with[groups.size()];
+    EXPECT_EQ(*groups.begin(), node);  // the first
   }
   const std::map<std::size_t, int> expected = {{3, 8}, {2, 12 * 2}, {1, 6 * 4}};
   EXPECT_EQ(nodes_with, expected);
   for (Eigen::Index i = 0; i < s.faces.size(); ++i)
     EXPECT_EQ(s.node_of[static_cast<std::size_t>(s.groups.reshaped()[i])], s.faces.reshaped()[i]);
-  // Faces of one sheet look the same way.
+  // Faces of one group look the same way.
   std::map<int, Vec3> normal_of;
   for (Eigen::Index f = 0; f < s.faces.cols(); ++f) {
     const Vec3 a = box.X.col(s.faces(0, f));
     const Vec3 n = (box.X.col(s.faces(1, f)) - a).cross(box.X.col(s.faces(2, f)) - a).normalized();
-    for (const int sheet : s.groups.col(f))
-      EXPECT_LT((normal_of.try_emplace(sheet, n).first->second - n).norm(), 1e-12);
+    for (const int group : s.groups.col(f))
+      EXPECT_LT((normal_of.try_emplace(group, n).first->second - n).norm(), 1e-12);
   }
 }
 
-TEST(SmoothSheets, ABoxEndsItsSheetsAtItsEdges) {
+TEST(SmoothingGroups, ABoxEndsItsSheetsAtItsEdges) {
   const MeshData box = box_mesh({{0.03, 0.03, 0.03}, {3, 3, 3}, Vec3::Zero()});
-  const Sheets s(box);
+  const Groups s(box);
   const std::vector<unsigned> rims = rims_of_smoothing_groups(box.X, s.faces, kCrease);
   int count = 0;
   for (Eigen::Index f = 0; f < s.faces.cols(); ++f)
@@ -63,10 +63,10 @@ TEST(SmoothSheets, ABoxEndsItsSheetsAtItsEdges) {
 }
 
 // A box of which a quarter is cut out: along the inner edge the body is not convex.
-TEST(SmoothSheets, HeightsOverRimsAreThoseOfTheFacesButAtInnerEdges) {
+TEST(SmoothingGroups, HeightsOverRimsAreThoseOfTheFacesButAtInnerEdges) {
   const MeshData angle = carved({{0.04, 0.04, 0.02}, {4, 4, 2}, Vec3::Zero()},
                                 [](const Vec3& X) { return X.x() < 0 || X.y() < 0; });
-  const Sheets s(angle);
+  const Groups s(angle);
   const std::vector<unsigned> rims = rims_of_smoothing_groups(angle.X, s.faces, kCrease);
   const Positions heights = heights_over_convex_rims(angle.X, s.faces, kCrease);
   int inner = 0, outer = 0;
@@ -87,19 +87,19 @@ TEST(SmoothSheets, HeightsOverRimsAreThoseOfTheFacesButAtInnerEdges) {
   EXPECT_EQ(outer, 2 * (16 + 16 + 5 * 2));
 }
 
-TEST(SmoothSheets, ABallHasNoCreases) {
-  const Sheets s(sphere_mesh({0.01, 4e-3, Vec3::Zero()}));
-  for (const auto& [node, sheets] : s.at_node) EXPECT_EQ(sheets.size(), 1U);
+TEST(SmoothingGroups, ABallHasNoCreases) {
+  const Groups s(sphere_mesh({0.01, 4e-3, Vec3::Zero()}));
+  for (const auto& [node, groups] : s.at_node) EXPECT_EQ(groups.size(), 1U);
 }
 
 // Two elements that have but a node in common.
-TEST(SmoothSheets, PartsThatMeetAtANodeOnlyAreApart) {
+TEST(SmoothingGroups, PartsThatMeetAtANodeOnlyAreApart) {
   MeshData mesh;
   mesh.X.resize(3, 7);
   mesh.X << 0, 1, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, -1;
   mesh.tets.resize(4, 2);
   mesh.tets << 0, 0, 1, 5, 2, 4, 3, 6;
-  EXPECT_EQ(Sheets(mesh).at_node.at(0).size(), 6U);  // three faces of each, at right angles
+  EXPECT_EQ(Groups(mesh).at_node.at(0).size(), 6U);  // three faces of each, at right angles
 }
 
 /// Pressures where a block without lateral contraction is pressed onto the floor of a tray.
@@ -138,7 +138,7 @@ Eigen::VectorXd pressures_in_tray(double gap, const TemporaryFolder& folder) {
 
 // Over all around an edge, the means of what lies on the floor would have the gaps to the wall in
 // them, and the edges carry nothing.
-TEST(SmoothSheets, AWallInFrontOfABlocksSidesDoesNotLiftItsEdges) {
+TEST(SmoothingGroups, AWallInFrontOfABlocksSidesDoesNotLiftItsEdges) {
   const TemporaryFolder folder;
   const Eigen::VectorXd free = pressures_in_tray(4e-3, folder),
                         between = pressures_in_tray(2e-4, folder);

@@ -181,7 +181,7 @@ TEST(FrictionCoupling, IsSolvedForByAFewSolutionsOfTheSymmetricMatrix) {
       s.middleRows<3>(3 * block) = entries.back().drag;
       g.middleRows<3>(3 * block) = entries.back().pressure;
     }
-    coupling.add_sheet(entries);
+    coupling.add_group(entries);
     all += s * g.transpose();
   }
   int solutions = 0;

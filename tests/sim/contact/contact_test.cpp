@@ -6,6 +6,7 @@
 
 #include "sim/build/build_model.hpp"
 #include "sim/contact/initial_overlap.hpp"
+#include "tests/sim/support/contact_scene.hpp"
 #include "tests/sim/support/probes.hpp"
 
 namespace articular::sim::contact_test {
@@ -196,14 +197,6 @@ TEST(Contact, ABlockThatRestsOnAnotherCarriesItsWeight) {
     }
   }
   EXPECT_NEAR(run.force_on(0).z(), -(lower + upper), 1e-4 * lower);
-}
-
-Vec3 momentum(const Simulation& run) {
-  Vec3 sum = Vec3::Zero();
-  for (const Tissue& tissue : run.model.tissues)
-    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
-      sum += tissue.lumped_mass[static_cast<Eigen::Index>(i)] * run.now().velocity(tissue.nodes[i]);
-  return sum;
 }
 
 // The columns of every Newton matrix sum to the masses, contact included: each iteration keeps the
