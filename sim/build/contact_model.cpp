@@ -17,8 +17,8 @@ namespace {
 /// on forces of averaged depths no longer depend on it. Statics ends there and begins softer: from
 /// afar a stiff iteration is thrown back and forth. In time, where that ends by how far things
 /// still move, it takes the accurate preset's tolerance, which asks for it: what is left of motion
-/// is noise of the forces; by other tolerances a tenth of it is enough. Explicit steps are as long as the stiffness
-/// lets them. Two bones, which give way nowhere, have nothing of it.
+/// is noise of the forces; by other tolerances a tenth of it is enough. Explicit steps are as long
+/// as the stiffness lets them. Two bones, which give way nowhere, have nothing of it.
 constexpr double kSoftFactor = 10, kFirmFactor = 100, kStiffFactor = 1000;
 
 double stiffness_factor(const Scenario& scenario, bool averaged) {

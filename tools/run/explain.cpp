@@ -152,7 +152,7 @@ std::string promise(const sim::Scenario& scenario) {
   if (scenario.analysis == sim::Scenario::Analysis::Static)
     return "in a static analysis `accuracy` sets the load step and the tolerance alone";
   return sim::preset(scenario.accuracy).promise +
-         " (scenarios/mandible/README.md), as far as the scenario's own keys leave it";
+         " (scenarios/mandible/RESULTS.md), as far as the scenario's own keys leave it";
 }
 
 Json explain(const sim::Model& model) {

@@ -11,7 +11,6 @@
 namespace articular::tools {
 namespace {
 
-
 using CaseValues = std::vector<OutputValue>;  // one an output; empty: the case did not finish
 
 CaseValues values_of(const Study& study, const std::filesystem::path& results) {

@@ -111,8 +111,9 @@ RunHistory read_history(const std::filesystem::path& file) {
   while (std::getline(stream, line)) {
     const std::vector<std::string> cells = cells_of(line);
     for (std::size_t i = 0; i < history.columns.size(); ++i)
-      history.columns[i].push_back(
-          i < cells.size() && !cells[i].empty() ? std::strtod(cells[i].c_str(), nullptr) : kNoValue);
+      history.columns[i].push_back(i < cells.size() && !cells[i].empty()
+                                       ? std::strtod(cells[i].c_str(), nullptr)
+                                       : kNoValue);
   }
   if (history.columns[0].empty())
     throw sim::SystemError(file.string() + ": holds no row of results");

@@ -6,8 +6,8 @@
 // tetrahedra while the number of intersections stays in the band of the article, and against the
 // number of intersections in one mesh, for two V-shapes and for one that intersects itself; and
 // mapping.csv, the time of an update with direct mapping and with coordinate sorting.
-// tools/figures/collision-figures makes the figures of them. Methods take turns and must find equally many
-// pairs; medians of processor time, one thread.
+// tools/figures/collision-figures makes the figures of them. Methods take turns and must find
+// equally many pairs; medians of processor time, one thread.
 
 #include <cstdio>
 #include <cstring>

@@ -64,8 +64,8 @@ void write_run(const std::filesystem::path& folder) {
                         i, time);
     writer.write_contact_surface(
         {"disc", x, triangles, {{"contact_pressure", "Pa", 2 * pressure}}, {}}, i, time);
-    writer.write_bone({"skull", plate, triangles, {}, {}}, i, time);
-    writer.write_bone({"jaw", x, triangles, {}, {}}, i, time);
+    writer.write_rigid_body({"skull", plate, triangles, {}, {}}, i, time);
+    writer.write_rigid_body({"jaw", x, triangles, {}, {}}, i, time);
     Positions muscle(3, 3), ligament(3, 2);
     muscle << -1, -1.2, -1, 0, 0, 0, 0, 1, 2;
     ligament << 1, 1, 0, 0, 0, 2;
