@@ -1,6 +1,7 @@
 // How far contact may penetrate, and the responses that a scenario may choose.
 #include <gtest/gtest.h>
 
+#include "sim/scenario/preset.hpp"
 #include "tests/sim/support/contact_scene.hpp"
 
 namespace articular::sim::contact_bound_test {
@@ -112,11 +113,12 @@ TEST(ContactResponses, CarryTheWeight) {
 }
 
 /// Force of a ball that is pressed into the block and stays there.
-double force_of_a_ball(Scenario::Analysis analysis, Scenario::Accuracy accuracy) {
+/// @param stiffness_factor  of averages in time; none: by default
+double force_of_a_ball(Scenario::Analysis analysis, std::optional<double> stiffness_factor) {
   Scenario s = pressed({}, {});
   s.analysis = analysis;
-  s.accuracy = accuracy;
   s.contact_response = Scenario::Response::Averaged;
+  s.contact_stiffness_factor = stiffness_factor;
   if (analysis == Scenario::Analysis::Dynamic) s.integrator.step = 10e-3;
   s.bodies[1].material->mass_damping = 20;
   s.bodies[2].box.reset();
@@ -131,10 +133,10 @@ double force_of_a_ball(Scenario::Analysis analysis, Scenario::Accuracy accuracy)
 // is a tenth as stiff: here, with less than an element over the contact's radius, the force misses
 // a hundredth.
 TEST(ContactResponses, AveragedInTimeRestWhereStaticsDoes) {
-  using Accuracy = Scenario::Accuracy;
-  const double still = force_of_a_ball(Scenario::Analysis::Static, Accuracy::Balanced);
-  const double firm = force_of_a_ball(Scenario::Analysis::Dynamic, Accuracy::Balanced);
-  const double stiff = force_of_a_ball(Scenario::Analysis::Dynamic, Accuracy::Accurate);
+  const double still = force_of_a_ball(Scenario::Analysis::Static, {});
+  const double firm = force_of_a_ball(Scenario::Analysis::Dynamic, {});
+  const double stiff = force_of_a_ball(
+      Scenario::Analysis::Dynamic, preset(Scenario::Accuracy::Accurate).contact_stiffness_factor);
   EXPECT_NEAR(firm, 0.987 * still, 4e-3 * still);
   EXPECT_NEAR(stiff, still, 1e-4 * still);
 }
@@ -143,7 +145,7 @@ TEST(ContactResponses, AveragedInTimeRestWhereStaticsDoes) {
 // contact don't come to an end, and only those that start from soft contact do.
 TEST(ContactResponses, StiffContactLandsWithoutShorterSteps) {
   Scenario s = contact_scene(10e-3);
-  s.accuracy = Scenario::Accuracy::Accurate;
+  s.contact_stiffness_factor = preset(Scenario::Accuracy::Accurate).contact_stiffness_factor;
   s.contact_response = Scenario::Response::Averaged;
   s.integrator.element_tolerance = 5e-5;
   s.bodies = {stand("plate"),
