@@ -14,8 +14,8 @@ struct AnyMaterial;
 
 /// Relaxation of the distortion's stress by a Prony series, in the rest frame, which rotations
 /// leave alone [Simo 1987; Holzapfel 2000, ch. 6.10]. S0 = F⁻¹ P0 is the second Piola–Kirchhoff
-/// stress of a sudden strain; each term has an internal variable L_i that internal variables behind
-/// it:
+/// stress of a sudden strain; each term has an internal variable L_i that lags
+/// behind it:
 ///
 ///   S = S0 − Σ g_i L_i,   dL_i/dt = (S0 − L_i)/τ_i
 ///

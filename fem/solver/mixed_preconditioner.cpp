@@ -5,7 +5,7 @@
 namespace articular::fem {
 namespace {
 
-// Both chosen with `solver_speed pressure`; see fem/README.md.
+// Both chosen with `solver_speed pressure`; see fem/RESULTS.md.
 constexpr double kSchur = 2;           // α [-]
 constexpr double kOverRelaxation = 2;  // σ [-]
 constexpr double kRowScale = 3;        // [-] how much more a change of volume counts than its force

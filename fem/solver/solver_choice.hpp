@@ -26,7 +26,7 @@ struct SolverChoice {
 };
 
 /// The solver that is the fastest, or takes at most about a fifth longer, on what `solver_speed
-/// choice` measures (fem/README.md).
+/// choice` measures (fem/RESULTS.md).
 SolverChoice choose_solver(const SolverProblem& problem);
 
 /// @param tolerance  on |r| / |b|; a direct solver does without

@@ -1,6 +1,6 @@
 // tests/benchmarks/locking_study [accuracy | meshes | newton | modes | fibres | cost]...
 //
-// Which linear tetrahedron neither locks nor softens: the tables of fem/README.md, in markdown.
+// Which linear tetrahedron neither locks nor softens: the tables of fem/RESULTS.md, in markdown.
 // Without arguments all but fibres (a few minutes; fibres alone five). Problems:
 // tests/fem/support/loaded_body.hpp.
 //
