@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "fem/base/tangent.hpp"
@@ -11,17 +9,7 @@
 namespace articular::fem {
 
 /// The nearest positive semidefinite matrix (in the Frobenius norm): eigenvalues below 0 become 0.
-inline Mat9 projected(const Mat9& tangent) {
-  // One whose lowest eigenvalue lies above minus this part of its norm is positive semidefinite up
-  // to round-off: rigid rotations put zeros there.
-  constexpr double kRoundOff = 1e-13;  // [-]
-  const double round_off = kRoundOff * tangent.norm();
-  const Eigen::LLT<Mat9> shifted(tangent + round_off * Mat9::Identity());
-  if (shifted.info() == Eigen::Success) return tangent;
-  const Eigen::SelfAdjointEigenSolver<Mat9> eigen(tangent);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-         eigen.eigenvectors().transpose();
-}
+Mat9 projected(const Mat9& tangent);
 
 template <Hyperelastic M>
 Mat9 projected_tangent(const M& material, const Mat3& F) {

@@ -138,8 +138,8 @@ TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
     GTEST_SKIP() << "ARTICULAR_DATA does not name the folder with the real anatomy";
   const TemporaryFolder folder;
   const ProgramResult made =
-      run_shell(folder, "out=$PWD; SIZE='4 mm' ARTICULAR='" ARTICULAR_PROGRAM
-                        "' '" ARTICULAR_SOURCE_DIR "/tools/figures/subject-knee' \"$out/meshes\"");
+      run_shell(folder, "out=$PWD; SIZE='4 mm' ARTICULAR=\"$articular\" '" ARTICULAR_SOURCE_DIR
+                        "/tools/figures/subject-knee' \"$out/meshes\"");
   ASSERT_EQ(made.exit_code, 0) << made.err;
   sim::Scenario scenario = sim::read_scenario(
       std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee/subject-axial-load.toml",

@@ -5,7 +5,10 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 option(ARTICULAR_WERROR "Treat warnings in our own code as errors" ON)
-option(ARTICULAR_SLOW_TESTS "Build and run the tests labelled slow (a minute each with sanitizers) and render (graphics drivers leak)" ON)
+option(ARTICULAR_SLOW_TESTS "Build and run the tests labelled slow and render" ON)
+option(ARTICULAR_SANITIZED "Build all libraries and the program a second time, with sanitizers, and run the tests with those too" OFF)
+
+set(sanitizer_options -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
 
 function(articular_settings target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -20,56 +23,151 @@ function(articular_settings target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()
 
-# articular_library(name SOURCES ... [PUBLIC libs...] [PRIVATE libs...])
-function(articular_library name)
+# articular_module(target SOURCES ... [PUBLIC libs...] [PRIVATE libs...]): a static library; with ARTICULAR_SANITIZED
+# another one, <target>_sanitized, that links what is sanitized of its libraries.
+function(articular_module target)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  add_library(articular_${name} STATIC ${arg_SOURCES})
-  add_library(articular::${name} ALIAS articular_${name})
+  add_library(${target} STATIC ${arg_SOURCES})
+  articular_settings(${target})
+  target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  if(ARTICULAR_SANITIZED)
+    articular_sanitized_names(public ${arg_PUBLIC})
+    articular_sanitized_names(private ${arg_PRIVATE})
+    add_library(${target}_sanitized STATIC ${arg_SOURCES})
+    articular_settings(${target}_sanitized)
+    articular_sanitize(${target}_sanitized)
+    target_link_libraries(${target}_sanitized PUBLIC ${public} PRIVATE ${private})
+  endif()
+endfunction()
+
+# As in Debug, with assertions, but for -O1: what is sanitized is slow enough.
+function(articular_sanitize target)
+  target_compile_options(${target} PRIVATE -O1 -g1 -UNDEBUG ${sanitizer_options}
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # sees it where there is none
+endfunction()
+
+# The names of libraries with those of ours replaced by their sanitized twins.
+function(articular_sanitized_names result)
+  set(names)
+  foreach(library ${ARGN})
+    if(TARGET ${library}_sanitized)
+      set(library ${library}_sanitized)
+    endif()
+    list(APPEND names ${library})
+  endforeach()
+  set(${result} ${names} PARENT_SCOPE)
+endfunction()
+
+# articular_library(name SOURCES ... [PUBLIC libs...] [PRIVATE libs...]): articular::name
+function(articular_library name)
+  articular_module(articular_${name} ${ARGN})
   set_target_properties(articular_${name} PROPERTIES EXPORT_NAME ${name})
-  articular_settings(articular_${name})
   target_include_directories(articular_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/articular>)
-  target_link_libraries(articular_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  add_library(articular::${name} ALIAS articular_${name})
+  if(ARTICULAR_SANITIZED)
+    target_include_directories(articular_${name}_sanitized PUBLIC ${PROJECT_SOURCE_DIR})
+    add_library(articular::${name}_sanitized ALIAS articular_${name}_sanitized)
+  endif()
+endfunction()
+
+# articular_program(target SOURCES ... LIBRARIES ...): with ARTICULAR_SANITIZED another one, <target>_sanitized.
+function(articular_program target)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${target} ${arg_SOURCES})
+  articular_settings(${target})
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES})
+  if(ARTICULAR_SANITIZED)
+    articular_sanitized_names(libraries ${arg_LIBRARIES})
+    add_executable(${target}_sanitized ${arg_SOURCES})
+    articular_settings(${target}_sanitized)
+    articular_sanitize(${target}_sanitized)
+    target_link_options(${target}_sanitized PRIVATE ${sanitizer_options})
+    target_link_libraries(${target}_sanitized PRIVATE ${libraries})
+  endif()
 endfunction()
 
 # articular_test(name SOURCES ... LIBRARIES ... [LABELS ...] [IN_ONE_PROCESS]): one GoogleTest program, each of its tests
-# a ctest, or all of them one.
+# a ctest, or all of them one. With ARTICULAR_SANITIZED the same objects are linked a second time, with the sanitized
+# libraries: those tests have names that begin with "sanitized/", and that label. Tests take longest to compile, and
+# what they are to find is in the libraries. Slow ones would take minutes with sanitizers, and graphics drivers leak.
 function(articular_test name)
   cmake_parse_arguments(arg "IN_ONE_PROCESS" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   if(NOT ARTICULAR_SLOW_TESTS AND arg_LABELS MATCHES "slow|render")
     return()
   endif()
-  add_executable(${name} ${arg_SOURCES})
-  articular_settings(${name})
+  add_library(${name}_objects OBJECT ${arg_SOURCES})
+  articular_settings(${name}_objects)
   # Time goes into the libraries, which are optimised: tests are compiled twice as fast with less of it.
   # g++ then sees uninitialised memory in Eigen where there is none.
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>
+  target_compile_options(${name}_objects PRIVATE $<$<CONFIG:Release>:-O1>
     $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-Wno-maybe-uninitialized>)
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_include_directories(${name}_objects PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name}_objects PRIVATE ${arg_LIBRARIES} GTest::gtest_main)
+  add_executable(${name} $<TARGET_OBJECTS:${name}_objects>)
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} GTest::gtest_main)
-  include(GoogleTest)
-  set(properties TIMEOUT 600)
-  if(arg_LABELS)
-    list(APPEND properties LABELS "${arg_LABELS}")
-  endif()
-  if(arg_IN_ONE_PROCESS)
-    add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES ${properties})
-  else()
-    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+  articular_register_tests(${name} "" "${arg_IN_ONE_PROCESS}" "${arg_LABELS}")
+  if(ARTICULAR_SANITIZED AND NOT arg_LABELS MATCHES "slow|render")
+    articular_sanitized_names(libraries ${arg_LIBRARIES})
+    add_executable(${name}_sanitized $<TARGET_OBJECTS:${name}_objects>)
+    target_link_libraries(${name}_sanitized PRIVATE ${libraries} GTest::gtest_main)
+    # Of functions in headers, which both the tests and the libraries hold, the linker takes the first: the sanitized.
+    articular_own_libraries(own ${libraries})
+    target_link_options(${name}_sanitized PRIVATE ${sanitizer_options}
+      LINKER:--whole-archive ${own} LINKER:--no-whole-archive)
+    articular_register_tests(${name}_sanitized "sanitized/" "${arg_IN_ONE_PROCESS}" "${arg_LABELS};sanitized")
   endif()
 endfunction()
 
-# articular_starts_the_program(TARGET...): tests that start `articular` and read what lies in this tree. Those that are
-# not built (slow ones, with sanitizers) are left out.
-function(articular_starts_the_program)
-  foreach(target ${ARGN})
-    if(TARGET ${target})
-      target_compile_definitions(${target} PRIVATE
-        ARTICULAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ARTICULAR_PROGRAM="$<TARGET_FILE:articular>")
-      add_dependencies(${target} articular)
+# The files of those libraries that are sanitized, and of what these link.
+function(articular_own_libraries result)
+  set(files)
+  foreach(library ${ARGN})
+    if(library MATCHES "_sanitized$")
+      get_target_property(linked ${library} LINK_LIBRARIES)
+      articular_own_libraries(more ${linked})
+      list(APPEND files $<TARGET_FILE:${library}> ${more})
     endif()
   endforeach()
+  list(REMOVE_DUPLICATES files)
+  set(${result} ${files} PARENT_SCOPE)
+endfunction()
+
+include(GoogleTest)
+function(articular_register_tests program prefix in_one_process labels)
+  set(properties TIMEOUT 600)
+  if(labels)
+    list(APPEND properties LABELS "${labels}")
+  endif()
+  if(prefix)
+    list(APPEND properties ENVIRONMENT "ARTICULAR_PROGRAM=$<TARGET_FILE:articular_sanitized>")
+  endif()
+  if(in_one_process)
+    add_test(NAME ${prefix}${program} COMMAND ${program})
+    set_tests_properties(${prefix}${program} PROPERTIES ${properties})
+  else()
+    gtest_discover_tests(${program} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${prefix}" PROPERTIES ${properties})
+  endif()
+endfunction()
+
+# articular_starts_the_program(TEST...): tests that start `articular` (tests/tools/support/program.hpp) and read what
+# lies in this tree. Those that are not built (slow ones, with sanitizers) are left out.
+function(articular_starts_the_program)
+  foreach(test ${ARGN})
+    if(TARGET ${test})
+      articular_knows_the_tree(${test})
+      target_compile_definitions(${test}_objects PRIVATE ARTICULAR_PROGRAM="$<TARGET_FILE:articular>")
+      add_dependencies(${test} articular)
+    endif()
+    if(TARGET ${test}_sanitized)
+      add_dependencies(${test}_sanitized articular_sanitized)
+    endif()
+  endforeach()
+endfunction()
+
+# articular_knows_the_tree(TEST): the test reads what lies in this tree.
+function(articular_knows_the_tree test)
+  target_compile_definitions(${test}_objects PRIVATE ARTICULAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endfunction()
 
 # articular_install(name): the library and the headers of this folder, as component and package of their

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include "tests/fem/support/dense.hpp"
 #include "tests/fem/support/laws.hpp"
 #include "tests/fem/support/random_matrices.hpp"
+#include "tests/fem/support/spectrum.hpp"
 
 // Properties that every law has, whatever it says of tissue.
 namespace articular::fem::law_properties_test {
@@ -203,8 +203,7 @@ Elasticity one_element(const LawExample& example) {
 }
 
 double lowest_relative_eigenvalue(const Eigen::MatrixXd& K) {
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values = eigenvalues(K);
   return values[0] / values.tail<1>()[0];
 }
 

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "tests/fem/support/dense.hpp"
 #include "tests/fem/support/laws.hpp"
 #include "tests/fem/support/random_matrices.hpp"
+#include "tests/fem/support/spectrum.hpp"
 
 // The loops over eight domains or elements at a time against the formulas of
 // smoothed_elasticity.hpp, one domain after the other, with the laws of the tests.
@@ -49,12 +49,6 @@ SmoothedElasticity elasticity_of(const Problem& problem, InstructionSet set) {
           problem.smoothing,
           kFibre.replicate(1, problem.mesh.tets.cols()),
           set};
-}
-
-Mat9 positive_part(const Mat9& C) {
-  const Eigen::SelfAdjointEigenSolver<Mat9> eigen(C);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-         eigen.eigenvectors().transpose();
 }
 
 /// All that the assembly gives, with the sizes of the terms that were added: sums cancel.

@@ -131,9 +131,9 @@ TEST(Collide, InterruptedSearchSaysSoAndWritesNothing) {
   VShapes shapes;
   write_vtk(folder / "v.vtk", shapes.bar.tets, shapes.upright(-0.3));
   const ProgramResult result =
-      run_shell(folder, "'" ARTICULAR_PROGRAM
-                        "' collide v.vtk --repeat 1000000 --pairs pairs.csv & pid=$!; "
-                        "sleep 0.5; kill -TERM $pid; wait $pid");
+      run_shell(folder,
+                "\"$articular\" collide v.vtk --repeat 1000000 --pairs pairs.csv & pid=$!; "
+                "sleep 0.5; kill -TERM $pid; wait $pid");
   EXPECT_EQ(result.exit_code, 130);
   EXPECT_EQ(result.out, "");
   EXPECT_NE(result.err.find("articular: interrupted"), std::string::npos) << result.err;

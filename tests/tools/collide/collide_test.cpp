@@ -1,6 +1,6 @@
 // What `articular collide` finds is what brute force finds, however it is asked.
 #include "tools/collide/collide.hpp"
-#include "tests/address_sanitizer.hpp"
+#include "tests/tools/support/address_sanitizer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -153,7 +153,7 @@ TEST_F(Series, JsonHasExactlyTheseKeysAndCountsWhatTheTableHolds) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
   EXPECT_EQ(keys, (std::vector<std::string>{"bodies", "frames", "memory_bytes"}));
-  if (!kAddressSanitizer) {
+  if (!has_address_sanitizer()) {
     EXPECT_GT(json["memory_bytes"], 10'000);
   }
   ASSERT_EQ(json["bodies"].size(), 2u);

@@ -18,7 +18,7 @@ TEST(Program, InterruptedRunResumesToTheSameHistory) {
   ASSERT_EQ(run_program(folder, "run " + arguments + "whole").exit_code, 0);
   // Stopped as soon as there is a checkpoint.
   const ProgramResult stopped = run_shell(
-      folder, "'" ARTICULAR_PROGRAM "' run " + arguments +
+      folder, "\"$articular\" run " + arguments +
                   "parts & pid=$!; "
                   "while [ ! -f parts/checkpoint/state.bin ] && kill -0 $pid; do sleep 0.02; done; "
                   "kill -TERM $pid; wait $pid");
@@ -36,7 +36,7 @@ TEST(Program, ALongLoadStepShowsItsIterationsAndIsInterrupted) {
   const TemporaryFolder folder;
   const ProgramResult stopped = run_shell(
       folder,
-      "echo 'echo $$ > pid; exec \"" ARTICULAR_PROGRAM "\" run \"" ARTICULAR_SOURCE_DIR
+      "echo 'echo $$ > pid; exec \"$articular\" run \"" ARTICULAR_SOURCE_DIR
       "/scenarios/knee/axial-load.toml\" --out knee' > start; touch terminal; "
       "script -qefc 'sh start' terminal > /dev/null & pid=$!; "
       "while ! grep -q 'iteration [0-9]*, residual' terminal && kill -0 $pid; do sleep 0.05; done; "

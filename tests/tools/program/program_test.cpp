@@ -6,7 +6,7 @@
 #include <ostream>
 #include <set>
 
-#include "tests/address_sanitizer.hpp"
+#include "tests/tools/support/address_sanitizer.hpp"
 #include "tests/tools/support/program.hpp"
 
 namespace articular::program_test {
@@ -236,7 +236,7 @@ TEST(Program, ExplainMeasuresTermsAndMemory) {
   EXPECT_GT(json.at("costs").at("iteration_s").at("factor").get<double>(), 0);
   EXPECT_GT(json.at("costs").at("longest_explicit_step_s").get<double>(), 0);
 
-  if (!kAddressSanitizer) {
+  if (!has_address_sanitizer()) {
     ASSERT_EQ(
         run_program(folder, "run " + scene + " --quiet --out out --set duration='10 ms'").exit_code,
         0);

@@ -105,10 +105,10 @@ TEST(Study, InterruptedItGoesOnWithWhatIsMissing) {
                             "'1000 s' }\n" +
                             kEnd + kExact);
   const ProgramResult stopped =
-      run_shell(folder, "'" ARTICULAR_PROGRAM
-                        "' study s.toml & pid=$!; "
-                        "while [ ! -f out/s/cases/long/log ] && kill -0 $pid; do sleep 0.02; done; "
-                        "kill -TERM $pid; wait $pid");
+      run_shell(folder,
+                "\"$articular\" study s.toml & pid=$!; "
+                "while [ ! -f out/s/cases/long/log ] && kill -0 $pid; do sleep 0.02; done; "
+                "kill -TERM $pid; wait $pid");
   EXPECT_EQ(stopped.exit_code, 130);
   EXPECT_NE(stopped.err.find("interrupted; the same command goes on"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(folder / "out/s/cases/as_it_is/case.json"));

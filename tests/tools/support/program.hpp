@@ -14,9 +14,16 @@ struct ProgramResult {
   std::string out, err;
 };
 
-/// Runs a shell script with the folder as working folder.
+/// The program under test: another one than that beside the tests where the environment says so.
+inline std::string program_path() {
+  const char* given = std::getenv("ARTICULAR_PROGRAM");
+  return given != nullptr ? given : ARTICULAR_PROGRAM;
+}
+
+/// Runs a shell script with the folder as working folder. $articular is the program.
 inline ProgramResult run_shell(const TemporaryFolder& folder, const std::string& script) {
-  const std::string command = "cd '" + folder.path().string() + "' || exit 99; { " + script +
+  const std::string command = "export articular='" + program_path() + "'; cd '" +
+                              folder.path().string() + "' || exit 99; { " + script +
                               "; } > .stdout 2> .stderr < /dev/null";
   const int status = std::system(command.c_str());
   ProgramResult result;
@@ -28,7 +35,7 @@ inline ProgramResult run_shell(const TemporaryFolder& folder, const std::string&
 
 /// Runs `articular ARGUMENTS`, as the shell reads them.
 inline ProgramResult run_program(const TemporaryFolder& folder, const std::string& arguments) {
-  return run_shell(folder, "'" ARTICULAR_PROGRAM "' " + arguments);
+  return run_shell(folder, "\"$articular\" " + arguments);
 }
 
 }  // namespace articular
