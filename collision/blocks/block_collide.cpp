@@ -1,14 +1,10 @@
 #include "collision/blocks/block_collide.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <exception>
-#include <functional>
 #include <memory>
 #include <numeric>
-#include <system_error>
-#include <thread>
+#include <utility>
 
 #include "collision/blocks/box_group.hpp"
 #include "collision/mesh/bad_input.hpp"
@@ -81,12 +77,13 @@ struct Worker {
   std::vector<std::uint32_t> accepted, doubtful;
   std::vector<Penetration> pairs;
   std::int64_t candidates = 0, doubts = 0;
-  std::exception_ptr failure;
 };
 
 }  // namespace
 
 struct BlockQueryScratch::Parts {
+  std::shared_ptr<ThreadPool> pool;
+  std::vector<Worker> workers;  // of each thread
   // The face blocks within reach, their boxes and those of their faces in the frame of W.
   std::vector<int> face_blocks;
   std::vector<FloatBox> face_block_boxes;
@@ -94,10 +91,13 @@ struct BlockQueryScratch::Parts {
   std::vector<BoxList> lists;  // a level
   std::vector<Task> tasks;
   std::vector<int> task_faces;  // indices into face_blocks
-  std::vector<Worker> workers;
 };
 
-BlockQueryScratch::BlockQueryScratch() : parts_(std::make_unique<Parts>()) {}
+BlockQueryScratch::BlockQueryScratch(std::shared_ptr<ThreadPool> pool)
+    : parts_(std::make_unique<Parts>()) {
+  parts_->workers.resize(static_cast<std::size_t>(pool->num_threads()));
+  parts_->pool = std::move(pool);
+}
 BlockQueryScratch::~BlockQueryScratch() = default;
 BlockQueryScratch::BlockQueryScratch(BlockQueryScratch&&) noexcept = default;
 BlockQueryScratch& BlockQueryScratch::operator=(BlockQueryScratch&&) noexcept = default;
@@ -275,45 +275,26 @@ class Search {
   BlockQueryScratch::Parts& s_;
 };
 
-/// Tasks go to whoever is free. Each worker keeps the pairs that it finds.
-void run_tasks(const Search& search, BlockQueryScratch::Parts& s, int threads) {
-  const auto num = static_cast<std::size_t>(threads);
-  if (s.workers.size() < num) s.workers.resize(num);
-  for (std::size_t w = 0; w < num; ++w) {
-    s.workers[w].pairs.clear();
-    s.workers[w].candidates = s.workers[w].doubts = 0;
-    s.workers[w].failure = nullptr;
+/// Each worker keeps the pairs that it finds.
+void run_tasks(const Search& search, BlockQueryScratch::Parts& s) {
+  for (Worker& worker : s.workers) {
+    worker.pairs.clear();
+    worker.candidates = worker.doubts = 0;
   }
-  std::atomic<std::size_t> next{0};
-  const auto work = [&](Worker& worker) {
-    try {
-      for (std::size_t i = next++; i < s.tasks.size(); i = next++) {
-        const std::size_t begin = worker.pairs.size();
-        search.run_task(s.tasks[i], worker);
-        s.tasks[i].found_by = &worker;
-        s.tasks[i].first_pair = begin;
-        s.tasks[i].num_pairs = worker.pairs.size() - begin;
-      }
-    } catch (...) {
-      worker.failure = std::current_exception();
-    }
-  };
-  std::vector<std::jthread> others;
-  try {
-    for (std::size_t w = 1; w < num; ++w) others.emplace_back(work, std::ref(s.workers[w]));
-  } catch (const std::system_error&) {
-    // The system gives no more threads: those that there are do the work.
-  }
-  work(s.workers[0]);
-  others.clear();  // joins
-  for (std::size_t w = 0; w < num; ++w)
-    if (s.workers[w].failure) std::rethrow_exception(s.workers[w].failure);
+  s.pool->run(static_cast<int>(s.tasks.size()), [&](int k, int w) {
+    Task& task = s.tasks[static_cast<std::size_t>(k)];
+    Worker& worker = s.workers[static_cast<std::size_t>(w)];
+    task.found_by = &worker;
+    task.first_pair = worker.pairs.size();
+    search.run_task(task, worker);
+    task.num_pairs = worker.pairs.size() - task.first_pair;
+  });
 }
 
 /// The pairs in the order of the tasks, whoever found them.
-void gather(BlockQueryScratch::Parts& s, int threads, std::vector<Penetration>& pairs) {
+void gather(BlockQueryScratch::Parts& s, std::vector<Penetration>& pairs) {
   pairs.clear();
-  if (threads == 1) {
+  if (s.workers.size() == 1) {
     pairs.swap(s.workers[0].pairs);
     return;
   }
@@ -345,13 +326,12 @@ void query(const BlockTree& F, const BlockTree& W, bool one_mesh, std::vector<Pe
   counts.traverse_seconds += seconds_since(start);
 
   const Clock::time_point narrow_start = Clock::now();
-  const int threads = std::clamp(options.threads, 1, std::max(1, static_cast<int>(s.tasks.size())));
-  run_tasks(search, s, threads);
-  gather(s, threads, pairs);
+  run_tasks(search, s);
+  gather(s, pairs);
   counts.narrow_seconds += seconds_since(narrow_start);
-  for (int w = 0; w < threads; ++w) {
-    counts.candidates += s.workers[static_cast<std::size_t>(w)].candidates;
-    counts.doubtful += s.workers[static_cast<std::size_t>(w)].doubts;
+  for (const Worker& worker : s.workers) {
+    counts.candidates += worker.candidates;
+    counts.doubtful += worker.doubts;
   }
   counts.pairs += static_cast<std::int64_t>(pairs.size());
 }

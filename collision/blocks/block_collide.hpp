@@ -7,6 +7,7 @@
 #include "collision/blocks/block_tree.hpp"
 #include "collision/mesh/penetrations.hpp"
 #include "collision/narrow/narrow_rule.hpp"
+#include "parallel/thread_pool.hpp"
 
 /// Penetrations between bodies, each in a BlockTree. Update a tree when its body has moved, then
 /// query.
@@ -14,7 +15,6 @@ namespace articular::collision {
 
 struct BlockQueryOptions {
   NarrowTest narrow = NarrowTest::SeparatingAxes;
-  int threads = 1;  // the answer is the same with any number, in the same order
   InstructionSet instruction_set = best_instruction_set();
 };
 
@@ -27,11 +27,13 @@ struct BlockQueryCounts {
   double narrow_seconds = 0;    // and in the blocks
 };
 
-/// Memory of a query. Kept from call to call, queries of one thread do not allocate once it has
-/// grown.
+/// Memory and threads of queries. Kept from call to call, queries of one thread do not allocate
+/// once the memory has grown.
 class BlockQueryScratch {
  public:
-  BlockQueryScratch();
+  /// @param pool  shared with others who compute at other times; the answer is the same with any
+  ///              number of threads, in the same order
+  explicit BlockQueryScratch(std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1));
   ~BlockQueryScratch();
   BlockQueryScratch(BlockQueryScratch&&) noexcept;
   BlockQueryScratch& operator=(BlockQueryScratch&&) noexcept;

@@ -50,7 +50,7 @@ Elasticity::Elasticity(const Positions& X, const Tetrahedra& tets, AnyMaterial m
       tets_(tets),
       material_(std::make_shared<const AnyMaterial>(std::move(material))),
       fibres_(std::move(fibres)),
-      options_(options),
+      options_(std::move(options)),
       volume_(checked_volumes(X, tets)),
       elements_(X, tets_, volume_),
       slots_(elements_, make_matrix(), every_node(num_nodes_)) {
@@ -74,7 +74,7 @@ template <class Function>
 void Elasticity::for_each_element(const Positions& x, double activation, Function function) const {
   assert(x.cols() == num_nodes_);
   assert(activation >= 0 && activation <= 1);
-  for_each_chunk(elements_, options_.threads,
+  for_each_chunk(elements_, *options_.pool,
                  [&](int, int chunk) { for_each_element(chunk, x, activation, function); });
 }
 
@@ -93,7 +93,7 @@ double Elasticity::energy(const Positions& x, double activation) const {
   assert(x.cols() == num_nodes_);
   const std::optional<BatchLaw> batched = batch_law(*material_);
   std::array<double, ElementBatches::kInnerParts + 1> W{};  // of each part
-  for_each_chunk(elements_, options_.threads, [&](int part, int chunk) {
+  for_each_chunk(elements_, *options_.pool, [&](int part, int chunk) {
     double& W_part = W[static_cast<std::size_t>(part)];
     if (batched) {
       const LawKernels& kernels = element_kernels(options_.instruction_set, batched->kind);
@@ -110,7 +110,7 @@ double Elasticity::energy(const Positions& x, double activation) const {
 void Elasticity::add_internal_force(const Positions& x, Positions& f, double activation) const {
   assert(x.cols() == num_nodes_);
   assert(f.cols() == num_nodes_);
-  for_each_chunk(elements_, options_.threads,
+  for_each_chunk(elements_, *options_.pool,
                  [&](int, int chunk) { add_force(chunk, x, activation, f); });
 }
 
@@ -169,7 +169,7 @@ void Elasticity::add(const Positions& x, Tangent tangent, double scale, const St
     const auto stiffness = projected ? kernels.projected_stiffness : kernels.stiffness;
     const auto both =
         projected ? kernels.force_and_projected_stiffness : kernels.force_and_stiffness;
-    for_each_chunk(elements_, options_.threads, [&](int, int chunk) {
+    for_each_chunk(elements_, *options_.pool, [&](int, int chunk) {
       ChunkJob work = job(*law, x, chunk);
       slots.describe(chunk, work);
       work.f = f == nullptr ? nullptr : f->data();
@@ -179,7 +179,7 @@ void Elasticity::add(const Positions& x, Tangent tangent, double scale, const St
     });
     return;
   }
-  for_each_chunk(elements_, options_.threads, [&](int, int chunk) {
+  for_each_chunk(elements_, *options_.pool, [&](int, int chunk) {
     if (f != nullptr) add_force(chunk, x, activation, *f);
     for_each_element(chunk, x, activation, [&](const PointLaw& law, int place, const Mat3& F) {
       const Mat9 C = law.tangent(F, tangent);

@@ -10,6 +10,7 @@
 #include "fem/element/stiffness_slots.hpp"
 #include "fem/simd/element_kernels.hpp"
 #include "fem/sparse/block_matrix.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace articular::fem {
 
@@ -18,7 +19,9 @@ struct AnyMaterial;  // any_material.hpp
 /// How to compute, not what: the same sums but for round-off.
 struct AssemblyOptions {
   InstructionSet instruction_set = best_instruction_set();  // one that the machine has
-  int threads = 1;  // up to ElementBatches::kInnerParts; their number changes no bit of a result
+  /// Shared with others who compute at other times. Up to ElementBatches::kInnerParts of its
+  /// threads work; their number changes no bit of a result.
+  std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1);
 };
 
 /// Elastic energy, internal force and stiffness of one mesh of linear tetrahedra with one material.

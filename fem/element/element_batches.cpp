@@ -13,7 +13,7 @@ namespace {
 
 std::size_t batch_of(int place) { return static_cast<std::size_t>(place / kBatchSize); }
 
-// Smaller meshes are one part: threads would take longer to start than to work.
+// Smaller meshes are one part: threads would take longer to wake than to work.
 constexpr int kSmallestToDivide = 8192;  // elements
 
 Positions centers_of(const Positions& X, const Tetrahedra& tets) {

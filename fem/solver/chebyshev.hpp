@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "fem/base/thread_pool.hpp"
 #include "fem/sparse/block_rows.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace articular::fem {
 

@@ -6,6 +6,7 @@
 #include "fem/base/types.hpp"
 #include "fem/sparse/block_matrix.hpp"
 #include "fem/sparse/pressure_term.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace articular::fem {
 
@@ -67,8 +68,11 @@ std::unique_ptr<LinearSolver> make_saddle_point_solver(double tolerance, int max
 /// its age has cost add up to the price of that. With the terms of a nodal pressure it is flexible
 /// GMRES on the mixed system (mixed_multigrid.hpp), whose iterations do not depend on ν either.
 /// @param tolerance  on |r| / |b|
-/// @param threads    the answer has the same bits with any number
-std::unique_ptr<LinearSolver> make_multigrid(double tolerance, int max_iterations, int threads = 1);
+/// @param pool       shared with others who compute at other times; the answer has the same bits
+///                   with any number of threads
+std::unique_ptr<LinearSolver> make_multigrid(
+    double tolerance, int max_iterations,
+    std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1));
 
 /// Another solver, started from the best combination of its last solutions in the energy norm
 /// instead of the value given. Costs a product for each of them in prepare(), with a solution of C

@@ -3,12 +3,12 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "fem/base/thread_pool.hpp"
 #include "fem/solver/flexible_gmres.hpp"
 #include "fem/solver/linear_solver.hpp"
 #include "fem/solver/mixed_preconditioner.hpp"
 #include "fem/solver/mixed_system.hpp"
 #include "fem/solver/preconditioner_reuse.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace articular::fem {
 

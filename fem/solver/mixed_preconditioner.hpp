@@ -2,11 +2,11 @@
 
 #include <Eigen/Core>
 
-#include "fem/base/thread_pool.hpp"
 #include "fem/base/types.hpp"
 #include "fem/solver/mixed_system.hpp"
 #include "fem/solver/multigrid_preconditioner.hpp"
 #include "fem/sparse/mirrored_matrix.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace articular::fem {
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "fem/base/thread_pool.hpp"
 #include "fem/sparse/mirrored_matrix.hpp"
 #include "fem/sparse/pressure_term.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace articular::fem {
 

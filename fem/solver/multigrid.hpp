@@ -4,12 +4,12 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "fem/base/thread_pool.hpp"
 #include "fem/solver/aggregation.hpp"
 #include "fem/solver/chebyshev.hpp"
 #include "fem/solver/galerkin.hpp"
 #include "fem/solver/prolongation.hpp"
 #include "fem/sparse/block_rows.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace articular::fem {
 

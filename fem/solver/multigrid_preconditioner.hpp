@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "fem/base/thread_pool.hpp"
 #include "fem/base/types.hpp"
 #include "fem/solver/multigrid.hpp"
 #include "fem/sparse/mirrored_matrix.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace articular::fem {
 

@@ -1,8 +1,10 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "fem/solver/linear_solver.hpp"
@@ -20,10 +22,10 @@ namespace {
 /// [Notay 2000] Notay. Flexible Conjugate Gradients. SIAM Journal on Scientific Computing 22(4).
 class MultigridSolver final : public LinearSolver {
  public:
-  MultigridSolver(double tolerance, int max_iterations, int threads)
+  MultigridSolver(double tolerance, int max_iterations, std::shared_ptr<ThreadPool> pool)
       : tolerance_(tolerance),
         max_iterations_(max_iterations),
-        pool_(threads),
+        pool_(std::move(pool)),
         mixed_(tolerance, max_iterations) {}
 
   using LinearSolver::prepare;
@@ -37,7 +39,7 @@ class MultigridSolver final : public LinearSolver {
       for (Eigen::VectorXd* vector : {&r_, &z_, &p_, &q_}) vector->resize(size);
       parts_.resize((A.num_blocks() + kRowsOfSums - 1) / kRowsOfSums);
     }
-    if (!A_.take_values(A, pool_) || !has_positive_diagonal()) {
+    if (!A_.take_values(A, *pool_) || !has_positive_diagonal()) {
       return FactorStatus::NotPositiveDefinite;
     }
     if (!built_ || age_.is_too_old() || x.cols() != x_.cols()) {
@@ -45,7 +47,7 @@ class MultigridSolver final : public LinearSolver {
       if (!build()) return FactorStatus::NotPositiveDefinite;
     } else {
       x_ = x;
-      preconditioner_.turn(A_, x_, pool_);
+      preconditioner_.turn(A_, x_, *pool_);
       is_current_ = false;
     }
     ready_ = true;
@@ -56,14 +58,14 @@ class MultigridSolver final : public LinearSolver {
   FactorStatus prepare_with_pressure(const BlockMatrix& A, const Positions& x,
                                      const PressurePart& part) override {
     if (part.terms.empty()) return prepare(A, x);
-    const FactorStatus status = mixed_.prepare(A, x, part, pool_);
+    const FactorStatus status = mixed_.prepare(A, x, part, *pool_);
     ready_ = with_pressure_ = status == FactorStatus::Ready;
     return status;
   }
 
   SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) override {
     assert(ready_);
-    if (with_pressure_) return mixed_.solve(b, x, pool_);
+    if (with_pressure_) return mixed_.solve(b, x, *pool_);
     assert(b.size() == r_.size());
     SolveReport report;
     const double b_norm = b.norm();
@@ -106,7 +108,7 @@ class MultigridSolver final : public LinearSolver {
   }
 
   bool build() {
-    built_ = preconditioner_.build(A_, !has_pattern_, x_, pool_);
+    built_ = preconditioner_.build(A_, !has_pattern_, x_, *pool_);
     has_pattern_ = built_;
     is_current_ = built_;
     sure_bounds_ = false;
@@ -129,7 +131,7 @@ class MultigridSolver final : public LinearSolver {
   /// f(begin, end) over pieces of the blocks. @return the sum of the two numbers that it returns
   template <class Function>
   Eigen::Vector2d sum_over_pieces(const Function& f) {
-    pool_.run_pieces(A_.num_rows(), kRowsOfSums, [&](int begin, int end, int) {
+    pool_->run_pieces(A_.num_rows(), kRowsOfSums, [&](int begin, int end, int) {
       parts_[begin / kRowsOfSums] = f(Eigen::Index{begin}, Eigen::Index{end});
     });
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -155,14 +157,14 @@ class MultigridSolver final : public LinearSolver {
     const int patience = may_be_too_old ? age_.patience(norm / goal) : max_iterations_;
     // The preconditioner gets r over its last known norm, to stay within single precision.
     double scale = norm;
-    pool_.run_pieces(A_.num_rows(), kRowsOfSums, [&](int begin, int end, int) {
+    pool_->run_pieces(A_.num_rows(), kRowsOfSums, [&](int begin, int end, int) {
       preconditioner_.enter(begin, end, r_.data(), 1 / scale);
     });
     double alpha = 0, rz = 0;
     p_.setZero();
     q_.setZero();
     while (true) {
-      use_cycle_ ? preconditioner_.apply_cycle(pool_) : preconditioner_.apply_nothing();
+      use_cycle_ ? preconditioner_.apply_cycle(*pool_) : preconditioner_.apply_nothing();
       const Eigen::Vector2d dots = sum_over_pieces([&](Eigen::Index begin, Eigen::Index end) {
         preconditioner_.leave(begin, end, scale, z_.data());
         const auto z = z_.segment(3 * begin, 3 * (end - begin));
@@ -173,7 +175,7 @@ class MultigridSolver final : public LinearSolver {
       // β = z·(r − r of before) / (r·z of before), and r is r of before − α q.
       const double beta = iterations > first ? -alpha * dots[1] / rz : 0;
       rz = dots[0];
-      pool_.run_pieces(A_.num_rows(), kRowsOfSums, [&](Eigen::Index begin, Eigen::Index end, int) {
+      pool_->run_pieces(A_.num_rows(), kRowsOfSums, [&](Eigen::Index begin, Eigen::Index end, int) {
         auto p = p_.segment(3 * begin, 3 * (end - begin));
         p = z_.segment(3 * begin, p.size()) + beta * p;
       });
@@ -202,7 +204,7 @@ class MultigridSolver final : public LinearSolver {
 
   double tolerance_;
   int max_iterations_;
-  ThreadPool pool_;
+  std::shared_ptr<ThreadPool> pool_;
   MixedMultigrid mixed_;
   MirroredMatrix A_;
   Positions x_;  // of the nodes, as of the last prepare()
@@ -222,15 +224,15 @@ class MultigridSolver final : public LinearSolver {
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_multigrid(double tolerance, int max_iterations, int threads) {
-  if (!(tolerance > 0) || max_iterations < 1 || threads < 1) {
+std::unique_ptr<LinearSolver> make_multigrid(double tolerance, int max_iterations,
+                                             std::shared_ptr<ThreadPool> pool) {
+  if (!(tolerance > 0) || max_iterations < 1) {
     std::ostringstream message;
     message << "multigrid: tolerance is " << tolerance << ", must be positive; at most "
-            << max_iterations << " iterations on " << threads
-            << " threads, both must be at least 1";
+            << max_iterations << " iterations, must be at least 1";
     throw std::invalid_argument(message.str());
   }
-  return std::make_unique<MultigridSolver>(tolerance, max_iterations, threads);
+  return std::make_unique<MultigridSolver>(tolerance, max_iterations, std::move(pool));
 }
 
 }  // namespace articular::fem

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "fem/base/thread_pool.hpp"
 #include "fem/base/types.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace articular::fem {
 

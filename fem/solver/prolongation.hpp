@@ -3,10 +3,10 @@
 #include <array>
 #include <vector>
 
-#include "fem/base/thread_pool.hpp"
 #include "fem/base/types.hpp"
 #include "fem/solver/aggregation.hpp"
 #include "fem/sparse/block_rows.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace articular::fem {
 

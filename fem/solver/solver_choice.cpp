@@ -82,7 +82,8 @@ SolverChoice choose_solver(const SolverProblem& problem) {
 }
 
 std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, double tolerance,
-                                                 int max_iterations, int threads) {
+                                                 int max_iterations,
+                                                 std::shared_ptr<ThreadPool> pool) {
   std::unique_ptr<LinearSolver> solver;
   switch (choice.kind) {
     case SolverKind::Cholesky:
@@ -94,7 +95,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, dou
       solver = make_conjugate_gradients(tolerance, max_iterations);
       break;
     case SolverKind::Multigrid:
-      solver = make_multigrid(tolerance, max_iterations, threads);
+      solver = make_multigrid(tolerance, max_iterations, std::move(pool));
       break;
   }
   if (choice.num_kept == 0) return solver;

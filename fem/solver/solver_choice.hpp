@@ -30,8 +30,10 @@ struct SolverChoice {
 SolverChoice choose_solver(const SolverProblem& problem);
 
 /// @param tolerance  on |r| / |b|; a direct solver does without
+/// @param pool       of multigrid; the others have one thread
 /// @throws std::invalid_argument as the solvers do
-std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, double tolerance,
-                                                 int max_iterations, int threads = 1);
+std::unique_ptr<LinearSolver> make_linear_solver(
+    const SolverChoice& choice, double tolerance, int max_iterations,
+    std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1));
 
 }  // namespace articular::fem

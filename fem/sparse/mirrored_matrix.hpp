@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fem/base/thread_pool.hpp"
 #include "fem/sparse/block_matrix.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace articular::fem {
 

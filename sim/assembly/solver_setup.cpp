@@ -76,7 +76,7 @@ std::string name_of(fem::SolverKind kind) {
 
 std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model) {
   return fem::make_linear_solver(choose_linear_solver(model), kLinearTolerance,
-                                 kMostLinearIterations, model.scenario.threads);
+                                 kMostLinearIterations, model.pool);
 }
 
 bool prepare_linear(fem::LinearSolver& solver, const fem::BlockMatrix& A, const Positions& x,

@@ -25,7 +25,10 @@ constexpr double kLeastForceAtRest = 0.1;
 
 class Builder {
  public:
-  explicit Builder(Scenario scenario) { model_.scenario = std::move(scenario); }
+  explicit Builder(Scenario scenario) {
+    model_.scenario = std::move(scenario);
+    model_.pool = std::make_shared<ThreadPool>(model_.scenario.threads);
+  }
 
   Model build() {
     read_bodies();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "fem/element/elasticity.hpp"
 #include "fem/element/smoothed_elasticity.hpp"
@@ -62,11 +63,11 @@ FibreDirections make_fibres(const Model& model, const std::vector<BodyGeometry>&
 }
 
 TissueElements make_elements(const TissueMaterial& material, const MeshData& mesh,
-                             const FibreDirections& fibres, int threads) {
+                             const FibreDirections& fibres, std::shared_ptr<ThreadPool> pool) {
   if (material.element == TissueMaterial::Element::Smoothed)
     return TissueElements(fem::SmoothedElasticity(mesh.X, mesh.tets, *material.law, {}, fibres));
   return TissueElements(
-      fem::Elasticity(mesh.X, mesh.tets, *material.law, fibres, {.threads = threads}));
+      fem::Elasticity(mesh.X, mesh.tets, *material.law, fibres, {.pool = std::move(pool)}));
 }
 
 /// Bulk and shear modulus at small strain.
@@ -91,7 +92,7 @@ Tissue make_tissue(const Model& model, const std::vector<BodyGeometry>& geometry
   }
   try {
     Tissue tissue{.body = index,
-                  .elements = make_elements(material, mesh, fibres, model.scenario.threads),
+                  .elements = make_elements(material, mesh, fibres, model.pool),
                   .dashpots = {},
                   .relaxation = {},
                   .lumped_mass = fem::lumped_mass(mesh.X, mesh.tets, *body.density),

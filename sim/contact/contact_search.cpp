@@ -93,8 +93,7 @@ ContactSearch::ContactSearch(const Model& model) : model_(model) {
     const auto nonmortar = static_cast<std::size_t>(contact.reversed ? contact.b : contact.a);
     open_depth_ = std::max(open_depth_, model.bodies[nonmortar].collider->open_depth);
   }
-  penetrations_ =
-      make_penetration_search(colliders, model.scenario.detection, model.scenario.threads);
+  penetrations_ = make_penetration_search(colliders, model.scenario.detection, model.pool);
 }
 
 bool ContactSearch::needs_update(const Moving& moving, double margin) const {

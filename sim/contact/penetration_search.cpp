@@ -13,9 +13,10 @@ using collision::BucketTree;
 
 class BlockSearch final : public PenetrationSearch {
  public:
-  BlockSearch(const std::vector<const Collider*>& bodies, const Detection& detection, int threads) {
+  BlockSearch(const std::vector<const Collider*>& bodies, const Detection& detection,
+              std::shared_ptr<ThreadPool> pool)
+      : scratch_(std::move(pool)) {
     options_.narrow = detection.narrow_test;
-    options_.threads = threads;
     trees_.reserve(bodies.size());
     for (const Collider* body : bodies) trees_.emplace_back(body->tets, body->surface, body->X);
   }
@@ -110,10 +111,11 @@ class BucketSearch final : public PenetrationSearch {
 }  // namespace
 
 std::unique_ptr<PenetrationSearch> make_penetration_search(
-    const std::vector<const Collider*>& bodies, const Detection& detection, int threads) {
+    const std::vector<const Collider*>& bodies, const Detection& detection,
+    std::shared_ptr<ThreadPool> pool) {
   if (detection.tree == Detection::Tree::Buckets)
     return std::make_unique<BucketSearch>(bodies, detection);
-  return std::make_unique<BlockSearch>(bodies, detection, threads);
+  return std::make_unique<BlockSearch>(bodies, detection, std::move(pool));
 }
 
 }  // namespace articular::sim

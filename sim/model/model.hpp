@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,6 +9,7 @@
 #include "collision/mesh/surface.hpp"
 #include "fem/element/dashpots.hpp"
 #include "fem/element/relaxation.hpp"
+#include "parallel/thread_pool.hpp"
 #include "sim/base/pose.hpp"
 #include "sim/gap/contact_patch.hpp"
 #include "sim/model/joint_coordinates.hpp"
@@ -180,6 +182,8 @@ struct Model {
   double position_tolerance = 0;  // [m], of the Newton iteration
   double detection_margin = 0;    // [m], least one
   int num_blocks = 0;             // with the blocks of fixed and driven bones
+  /// Of the whole run: elements, linear solver and contact search share it, one after the other.
+  std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1);
   std::vector<std::string> warnings;
 };
 

@@ -20,10 +20,11 @@ using Order = std::vector<std::string>;                            // folders, t
 
 /// Modules, and those that each may include.
 const std::map<std::string, std::set<std::string>> kModules = {
-    {"fem", {}},
-    {"collision", {}},
-    {"sim", {"fem", "collision"}},
-    {"tools", {"fem", "collision", "sim"}}};
+    {"parallel", {}},
+    {"fem", {"parallel"}},
+    {"collision", {"parallel"}},
+    {"sim", {"parallel", "fem", "collision"}},
+    {"tools", {"parallel", "fem", "collision", "sim"}}};
 
 const fs::path kRoot = ARTICULAR_SOURCE_DIR;
 
@@ -140,6 +141,13 @@ TEST_P(Module, HeadersIncludeEachOtherInNoCircle) {
 INSTANTIATE_TEST_SUITE_P(All, Module, testing::Values("fem", "collision", "sim", "tools"),
                          [](const auto& module) { return module.param; });
 
+TEST(IncludeOrder, ParallelHasNoFoldersAndIncludesNoOtherModule) {
+  const Includes includes = includes_of("parallel");
+  EXPECT_FALSE(includes.empty());
+  EXPECT_EQ(faults(includes, {""}), std::vector<std::string>());
+  EXPECT_EQ(file_in_a_circle(includes), "");
+}
+
 TEST(IncludeOrder, UpwardSidewardAndUnknownIncludesAreFaults) {
   const Order order = {"base", "model", "run"};
   const auto count = [&](const std::string& file, const std::string& path) {
@@ -152,6 +160,7 @@ TEST(IncludeOrder, UpwardSidewardAndUnknownIncludesAreFaults) {
   EXPECT_EQ(count("sim/model/a.hpp", "sim/elsewhere/b.hpp"), 1U);
   EXPECT_EQ(count("sim/model/a.hpp", "tools/run/b.hpp"), 1U);
   EXPECT_EQ(count("fem/base/a.hpp", "collision/mesh/b.hpp"), 1U);
+  EXPECT_EQ(count("fem/base/a.hpp", "parallel/b.hpp"), 0U);
   EXPECT_EQ(count("sim/a.hpp", "sim/base/b.hpp"), 1U);  // lies in no folder
 }
 

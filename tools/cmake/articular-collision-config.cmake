@@ -1,5 +1,5 @@
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 3.4)
-find_dependency(Threads)
+find_dependency(articular-parallel)
 find_dependency(ccd)
 include(${CMAKE_CURRENT_LIST_DIR}/articular-collision-targets.cmake)

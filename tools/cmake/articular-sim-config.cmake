@@ -1,4 +1,5 @@
 include(CMakeFindDependencyMacro)
+find_dependency(articular-parallel)
 find_dependency(articular-fem)
 find_dependency(articular-collision)
 find_dependency(fmt)

@@ -45,9 +45,8 @@ BucketTree article_tree(const MeshSeries& body) {
 class BlockSearch final : public CollideSearch {
  public:
   BlockSearch(std::span<const MeshSeries> bodies, const SearchSettings& settings)
-      : margin_(settings.margin) {
+      : margin_(settings.margin), scratch_(std::make_shared<ThreadPool>(settings.threads)) {
     options_.narrow = settings.narrow;
-    options_.threads = settings.threads;
     for (const MeshSeries& body : bodies) trees_.push_back(block_tree(body));
   }
 

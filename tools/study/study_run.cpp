@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <atomic>
 #include <cstdlib>
-#include <exception>
 #include <fstream>
 #include <functional>
 #include <mutex>
 #include <sstream>
-#include <thread>
 
+#include "parallel/thread_pool.hpp"
 #include "sim/base/error.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "tools/process/interruption.hpp"
@@ -186,31 +184,6 @@ class CaseProgress {
   bool quiet_;
 };
 
-/// Does the work of each task, `jobs` of them at a time. The first error ends it and is thrown.
-void side_by_side(const std::vector<std::size_t>& tasks, int jobs,
-                  const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  std::exception_ptr error;
-  const auto worker = [&] {
-    for (std::size_t t = next++; t < tasks.size(); t = next++) {
-      try {
-        work(tasks[t]);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!error) error = std::current_exception();
-        next = tasks.size();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int j = 1; j < jobs; ++j) others.emplace_back(worker);
-    worker();
-  }
-  if (error) std::rethrow_exception(error);
-}
-
 /// The cases that round number `round` has to run. Times of references don't matter: they run once.
 std::vector<std::size_t> tasks_of_round(const std::vector<StudyCase>& cases,
                                         const std::vector<CaseRecord>& records, int round) {
@@ -240,11 +213,15 @@ std::vector<CaseRecord> run_cases(const Study& study, const std::vector<StudyCas
   for (int round = 0; round < study.repeats; ++round)
     all += tasks_of_round(cases, records, round).size();
   CaseProgress progress(all, options.quiet);
-  for (int round = 0; round < study.repeats; ++round)
-    side_by_side(tasks_of_round(cases, records, round), options.jobs, [&](std::size_t i) {
+  ThreadPool pool(options.jobs);  // each thread waits for a program
+  for (int round = 0; round < study.repeats; ++round) {
+    const std::vector<std::size_t> tasks = tasks_of_round(cases, records, round);
+    pool.run(static_cast<int>(tasks.size()), [&](int k, int) {
+      const std::size_t i = tasks[static_cast<std::size_t>(k)];
       runner.run(cases[i], records[i]);
       progress.finished(cases[i], records[i]);
     });
+  }
   return records;
 }
 

@@ -28,14 +28,12 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return elapsed.count();
 }
 
-void query(const std::vector<BlockTree>& trees, int threads, BlockQueryScratch& scratch) {
+void query(const std::vector<BlockTree>& trees, BlockQueryScratch& scratch) {
   static std::vector<Penetration> pairs;
   BlockQueryCounts counts;
-  BlockQueryOptions options;
-  options.threads = threads;
-  if (trees.size() == 1) return faces_in_own_body(trees[0], pairs, counts, scratch, options);
-  faces_in_body(trees[0], trees[1], pairs, counts, scratch, options);
-  faces_in_body(trees[1], trees[0], pairs, counts, scratch, options);
+  if (trees.size() == 1) return faces_in_own_body(trees[0], pairs, counts, scratch);
+  faces_in_body(trees[0], trees[1], pairs, counts, scratch);
+  faces_in_body(trees[1], trees[0], pairs, counts, scratch);
 }
 
 void measure(const char* name, const VShapes& shapes, double apart,
@@ -44,15 +42,17 @@ void measure(const char* name, const VShapes& shapes, double apart,
   for (const Mesh& mesh : shapes.bodies()) trees.emplace_back(mesh.tets, mesh.surface, mesh.X);
   std::vector<std::vector<double>> milliseconds(numbers_of_threads.size());
   std::vector<double> updates;
-  BlockQueryScratch scratch;
+  std::vector<BlockQueryScratch> scratch;
+  for (const int threads : numbers_of_threads)
+    scratch.emplace_back(std::make_shared<articular::ThreadPool>(threads));
   for (int round = 0; round < kRounds; ++round)
     for (const Positions& x : oscillation(shapes, apart, kMotion)) {
       const auto begin = std::chrono::steady_clock::now();
       for (std::size_t k = 0; k < trees.size(); ++k) trees[k].update(x[k]);
       updates.push_back(milliseconds_since(begin));
-      for (std::size_t i = 0; i < numbers_of_threads.size(); ++i) {
+      for (std::size_t i = 0; i < scratch.size(); ++i) {
         const auto start = std::chrono::steady_clock::now();
-        query(trees, numbers_of_threads[i], scratch);
+        query(trees, scratch[i]);
         milliseconds[i].push_back(milliseconds_since(start));
       }
     }

@@ -11,14 +11,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
-#include <thread>
 
+#include "parallel/thread_pool.hpp"
 #include "tests/benchmarks/extremes/extreme.hpp"
 #include "tests/benchmarks/extremes/table.hpp"
 
@@ -59,20 +58,15 @@ int study(const Arguments& arguments) {
   const std::vector<Extreme> extremes = chosen(arguments);
   const fs::path out = fs::absolute(arguments.out);
   std::vector<Row> rows(extremes.size());
-  std::atomic<std::size_t> next = 0;
   std::mutex printing;
-  const auto work = [&] {
-    for (std::size_t i = 0; (i = next++) < extremes.size();) {
-      rows[i] = row_of(extremes[i], fs::absolute(arguments.program), out / fmt::format("{:02}", i));
-      const std::scoped_lock lock(printing);
-      fmt::print(stderr, "{} {}: {}\n", rows[i].name, rows[i].range,
-                 name_of(rows[i].finding.outcome));
-    }
-  };
-  std::vector<std::jthread> threads;
-  for (int i = 1; i < arguments.jobs; ++i) threads.emplace_back(work);
-  work();
-  threads.clear();
+  ThreadPool pool(arguments.jobs);  // each thread waits for a program
+  pool.run(static_cast<int>(extremes.size()), [&](int k, int) {
+    const auto i = static_cast<std::size_t>(k);
+    rows[i] = row_of(extremes[i], fs::absolute(arguments.program), out / fmt::format("{:02}", i));
+    const std::scoped_lock lock(printing);
+    fmt::print(stderr, "{} {}: {}\n", rows[i].name, rows[i].range,
+               name_of(rows[i].finding.outcome));
+  });
   fs::create_directories(out);
   std::ofstream(out / "extremes.csv") << csv(rows);
   fmt::print("{}", markdown(rows));

@@ -94,7 +94,7 @@ class BlockMinres {
     z << z_u_.cast<double>(), z_p_.cast<double>();
   }
 
-  fem::ThreadPool pool_{1};
+  ThreadPool pool_{1};
   fem::MixedSystem system_;
   fem::MixedPreconditioner preconditioner_;
   Eigen::Index n_ = 0;

@@ -164,7 +164,10 @@ void threads(int most_cells, int runs) {
     std::vector<Candidate> all;
     for (const int n : {1, 2}) {
       all.push_back({n == 1 ? "1" : "2",
-                     [n] { return make_multigrid(kTolerance, kMostIterations, n); },
+                     [n] {
+                       return make_multigrid(kTolerance, kMostIterations,
+                                             std::make_shared<articular::ThreadPool>(n));
+                     },
                      {},
                      {},
                      {}});

@@ -29,7 +29,8 @@ TEST(BlockTree, FindsWhatTheRuleFindsOnTwoDeformedBodies) {
         const BlockTree A = tree_of(a, x_a, margin), B = tree_of(b, x_b, margin);
         for (const InstructionSet set : instruction_sets())
           for (const int threads : {1, 3})
-            EXPECT_EQ(faces_in(A, B, {narrow, threads, set}).pairs, expected);
+            EXPECT_EQ(faces_in(A, B, {narrow, set}, std::make_shared<ThreadPool>(threads)).pairs,
+                      expected);
         found += expected.size();
       }
   }
@@ -47,7 +48,7 @@ TEST(BlockTree, FindsWhatTheRuleFindsInOneFoldedBody) {
           by_rule(bar, x, bar, x, margin, NarrowTest::SeparatingAxes, true);
       EXPECT_GT(expected.size(), 10u);
       for (const InstructionSet set : instruction_sets())
-        EXPECT_EQ(faces_in(tree, tree, {NarrowTest::SeparatingAxes, 1, set}).pairs, expected);
+        EXPECT_EQ(faces_in(tree, tree, {NarrowTest::SeparatingAxes, set}).pairs, expected);
     }
   }
 }
@@ -104,16 +105,17 @@ TEST(BlockTree, SortedPairsAreTheSameForEveryInstructionSetAndNumberOfThreads) {
   const BlockTree B = tree_of(b, testing::placed(b.X, Eigen::Vector3d(6, 6, 6), random));
   std::vector<Penetration> first, pairs;
   BlockQueryCounts counts;
-  BlockQueryScratch scratch;
   SortScratch sort_scratch;
-  for (const InstructionSet set : testing::instruction_sets())
-    for (const int threads : {1, 4}) {
-      faces_in_body(A, B, pairs, counts, scratch, {NarrowTest::SeparatingAxes, threads, set});
+  for (const int threads : {1, 4}) {
+    BlockQueryScratch scratch(std::make_shared<ThreadPool>(threads));
+    for (const InstructionSet set : testing::instruction_sets()) {
+      faces_in_body(A, B, pairs, counts, scratch, {NarrowTest::SeparatingAxes, set});
       sort_pairs(pairs, A, B, sort_scratch);
       EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
       if (first.empty()) first = pairs;
       EXPECT_EQ(pairs, first);
     }
+  }
   EXPECT_GT(first.size(), 500u);
 }
 

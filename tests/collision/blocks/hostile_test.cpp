@@ -20,10 +20,12 @@ void expect_the_rule(const Mesh& F, const Eigen::Matrix3Xd& x_f, const Mesh& W,
   const bool one_mesh = &F == &W;
   const auto expected = by_rule(F, x_f, W, x_w, margin, narrow, one_mesh);
   const BlockTree own = tree_of(F, x_f, margin), other = tree_of(W, x_w, margin);
-  for (const InstructionSet set : instruction_sets())
-    for (const int threads : {1, 3})
-      EXPECT_EQ(faces_in(own, one_mesh ? own : other, {narrow, threads, set}).pairs, expected)
+  for (const int threads : {1, 3}) {
+    const auto pool = std::make_shared<ThreadPool>(threads);
+    for (const InstructionSet set : instruction_sets())
+      EXPECT_EQ(faces_in(own, one_mesh ? own : other, {narrow, set}, pool).pairs, expected)
           << "instruction set " << static_cast<int>(set) << ", " << threads << " threads";
+  }
 }
 
 void expect_the_rule(const HostilePair& p, double margin, NarrowTest narrow) {

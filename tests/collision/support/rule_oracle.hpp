@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "collision/blocks/block_collide.hpp"
@@ -47,9 +49,10 @@ struct Answer {
 };
 
 inline Answer faces_in(const BlockTree& F, const BlockTree& W,
-                       const BlockQueryOptions& options = {}) {
+                       const BlockQueryOptions& options = {},
+                       std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1)) {
   Answer answer;
-  BlockQueryScratch scratch;
+  BlockQueryScratch scratch(std::move(pool));
   if (&F == &W)
     faces_in_own_body(F, answer.pairs, answer.counts, scratch, options);
   else

@@ -124,7 +124,8 @@ TEST_P(StiffnessSlotsTest, SameBitsForAnyNumberOfThreads) {
   BlockMatrix K_of_one;
   double W_of_one = 0;
   for (const int threads : {1, 2, 3, 4, 7}) {
-    const Elasticity elasticity(mesh.X, mesh.tets, material(), {}, {.threads = threads});
+    const Elasticity elasticity(mesh.X, mesh.tets, material(), {},
+                                {.pool = std::make_shared<ThreadPool>(threads)});
     Positions f = Positions::Zero(3, x.cols());
     elasticity.add_internal_force(x, f);
     BlockMatrix K = elasticity.make_matrix();

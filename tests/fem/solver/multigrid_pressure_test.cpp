@@ -216,7 +216,8 @@ TEST(MultigridWithPressure, GivesTheSameBitsForAnyNumberOfThreads) {
   SmoothedBox box = smoothed_box(cube(10), 0.499);
   std::vector<Eigen::VectorXd> x(3);
   for (int threads = 1; threads <= 3; ++threads) {
-    const auto solver = make_multigrid(kTolerance, kMostIterations, threads);
+    const auto solver =
+        make_multigrid(kTolerance, kMostIterations, std::make_shared<ThreadPool>(threads));
     EXPECT_TRUE(solve(*solver, box, x[static_cast<std::size_t>(threads) - 1]).converged);
   }
   EXPECT_EQ(x[0], x[1]);

@@ -184,7 +184,8 @@ TEST(Multigrid, GivesTheSameBitsForAnyNumberOfThreads) {
   const ClampedBox box = cube(16);
   std::vector<Eigen::VectorXd> x(3);
   for (int threads = 1; threads <= 3; ++threads) {
-    const auto solver = make_multigrid(kTolerance, kMostIterations, threads);
+    const auto solver =
+        make_multigrid(kTolerance, kMostIterations, std::make_shared<ThreadPool>(threads));
     EXPECT_TRUE(solve(*solver, box, x[threads - 1]).converged);
     EXPECT_TRUE(solve(*solver, box, x[threads - 1]).converged);  // with its pattern known
   }
@@ -271,7 +272,6 @@ TEST(Multigrid, ReportsNotANumberBesideTheDiagonalAndRecovers) {
 TEST(Multigrid, RefusesBadSettings) {
   EXPECT_THROW(make_multigrid(0, 10), std::invalid_argument);
   EXPECT_THROW(make_multigrid(1e-6, 0), std::invalid_argument);
-  EXPECT_THROW(make_multigrid(1e-6, 10, 0), std::invalid_argument);
 }
 
 }  // namespace articular::fem::multigrid_test

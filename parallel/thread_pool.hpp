@@ -4,18 +4,18 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
-#include <mutex>
 #include <thread>
 #include <vector>
 
-namespace articular::fem {
+namespace articular {
 
 /// Threads that wait, asleep, for numbered tasks. Whoever is free takes the next one, so that a
 /// thread the system does not run holds nobody up; what a task computes must not depend on who runs
 /// it.
 class ThreadPool {
  public:
-  /// @param num_threads  with the caller's, >= 1; fewer where the system gives no more
+  /// @param num_threads  with the caller's; fewer where the system gives no more
+  /// @throws std::invalid_argument below 1
   explicit ThreadPool(int num_threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -25,8 +25,9 @@ class ThreadPool {
 
   /// task(k, worker) for k = 0 .. num_tasks - 1, each once, in any order; returns when all are
   /// done. worker, in [0, num_threads()), is not used by two tasks at the same time: for scratch
-  /// memory. The first exception of a task is thrown here. One caller at a time; tasks do not call
-  /// run().
+  /// memory. The first exception of a task is thrown here; tasks that have not begun by then are
+  /// left out. One caller at a time (a pool of one thread keeps nothing of a run, and serves
+  /// several); tasks do not call run().
   template <class Task>
   void run(int num_tasks, const Task& task) {
     if (threads_.empty() || num_tasks <= 1) {
@@ -64,9 +65,9 @@ class ThreadPool {
   std::atomic<std::uint64_t> ticket_{0};
   std::atomic<int> num_finished_{0};
   std::atomic<bool> stop_{false};
-  std::mutex failure_mutex_;
-  std::exception_ptr failure_;
+  std::atomic<bool> failed_{false};
+  std::exception_ptr failure_;  // written by the task that raises failed_
   std::vector<std::jthread> threads_;
 };
 
-}  // namespace articular::fem
+}  // namespace articular

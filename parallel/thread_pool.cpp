@@ -1,10 +1,12 @@
-#include "fem/base/thread_pool.hpp"
+#include "parallel/thread_pool.hpp"
 
 #include <cassert>
+#include <stdexcept>
+#include <string>
 #include <system_error>
 #include <utility>
 
-namespace articular::fem {
+namespace articular {
 namespace {
 
 constexpr int kTaskBits = 20;
@@ -20,7 +22,10 @@ std::uint64_t next_job(std::uint64_t ticket, int num_tasks) {
 }  // namespace
 
 ThreadPool::ThreadPool(int num_threads) {
-  assert(num_threads >= 1);
+  if (num_threads < 1) {
+    throw std::invalid_argument("a pool of " + std::to_string(num_threads) +
+                                " threads, must be at least 1");
+  }
   try {
     for (int worker = 1; worker < num_threads; ++worker) {
       threads_.emplace_back([this, worker] { wait_for_work(worker); });
@@ -44,17 +49,16 @@ void ThreadPool::share(int num_tasks) {
   ticket_.notify_all();
   take_tasks(0);
   for (int n = num_finished_; n < num_tasks; n = num_finished_) num_finished_.wait(n);
-  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  if (failed_.exchange(false)) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 void ThreadPool::take_tasks(int worker) {
   for (std::uint64_t ticket = ticket_; next_task(ticket) < task_count(ticket);) {
     if (!ticket_.compare_exchange_weak(ticket, ticket + 1)) continue;
     try {
-      job_.call(job_.task, next_task(ticket), worker);
+      if (!failed_) job_.call(job_.task, next_task(ticket), worker);
     } catch (...) {
-      const std::scoped_lock lock(failure_mutex_);
-      if (!failure_) failure_ = std::current_exception();
+      if (!failed_.exchange(true)) failure_ = std::current_exception();
     }
     if (++num_finished_ == task_count(ticket)) num_finished_.notify_one();
     ticket = ticket_;
@@ -69,4 +73,4 @@ void ThreadPool::wait_for_work(int worker) {
   }
 }
 
-}  // namespace articular::fem
+}  // namespace articular
