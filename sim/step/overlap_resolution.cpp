@@ -139,24 +139,20 @@ class OverlapResolver {
     for (const ResolvedOverlap& overlap : resolution_.overlaps)
       allowances[static_cast<std::size_t>(overlap.contact)] = allowed * overlap.before;
     dynamics_.set_allowances(std::move(allowances));
-    const double reach = dynamics_.trusted_motion();
-    double motion = kFirstMotion * reach;
-    for (int k = 0; k < kMostEquilibria; ++k) {
-      look(y, motion);
-      if (is_settled()) return true;
-      Eigen::VectorXd trial = y;
-      const bool solved =
-          equilibrium_.solve(trial, 0, equilibrium_.largest_acceleration() / motion);
-      ++resolution_.solutions;
-      if (solved) dynamics_.evaluate(trial.data(), 0);
-      if (!solved || !hooks_.covered()) {
-        motion *= kMotionFall;
-        continue;
-      }
-      y = trial;
-      motion = std::min(kMotionRise * motion, reach);
-    }
-    return false;
+    return approach_in_pseudo_time(dynamics_.trusted_motion(), kMostEquilibria,
+                                   [&](double motion) { return move_on(motion, y); });
+  }
+
+  PseudoStep move_on(double motion, Eigen::VectorXd& y) {
+    look(y, motion);
+    if (is_settled()) return PseudoStep::Arrived;
+    Eigen::VectorXd trial = y;
+    const bool solved = equilibrium_.solve(trial, 0, equilibrium_.largest_acceleration() / motion);
+    ++resolution_.solutions;
+    if (solved) dynamics_.evaluate(trial.data(), 0);
+    if (!solved || !hooks_.covered()) return PseudoStep::Failed;
+    y = trial;
+    return PseudoStep::Moved;
   }
 
   bool is_settled() const {
