@@ -5,17 +5,13 @@
 
 namespace articular::sim {
 
-/// The linear solver that the scenario asks for, or with "auto" the one that suits its size, its
-/// elements and its analysis, with the reason.
-fem::SolverChoice choose_linear_solver(const Model& model);
-
 /// The explicit scheme does without.
-bool needs_linear_solver(const Model& model);
+bool needs_linear_solver(const Model& model, Integrator::Scheme scheme);
 
 /// As scenario files call it: "cholesky", "conjugate-gradients", "multigrid".
 std::string name_of(fem::SolverKind kind);
 
-std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model);
+std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model, int threads);
 
 /// Takes a matrix, where its free nodes are, and what couples all nodes through pressures.
 /// @return whether it can be solved

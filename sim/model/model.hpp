@@ -8,6 +8,7 @@
 #include "collision/mesh/surface.hpp"
 #include "fem/element/dashpots.hpp"
 #include "fem/element/relaxation.hpp"
+#include "fem/solver/solver_choice.hpp"
 #include "sim/base/pose.hpp"
 #include "sim/gap/contact_patch.hpp"
 #include "sim/model/joint_coordinates.hpp"
@@ -16,7 +17,8 @@
 #include "sim/model/tissue_elements.hpp"
 #include "sim/scenario/scenario.hpp"
 
-/// The scenario made ready to compute: immutable, holding only what the scene requires.
+/// The scene made ready to compute: immutable, holding only what the scene requires. How it is
+/// moved on is said by StepSettings, what is written of it by the scenario.
 ///
 /// Unknown velocities come in blocks of three: one block a free tissue node, then two a rigid bone
 /// (velocity of its centre of mass, angular velocity). Bones that are fixed or driven have two
@@ -79,6 +81,8 @@ struct Tissue {
   Positions X;                      // at the start, world [m]
   FibreDirections fibres;           // one an element, or none
   int muscle = -1;                  // index into Model::muscles: what activates the fibres
+  double bulk_modulus = 0, shear_modulus = 0;  // at small strain [Pa]
+  Vec3 start_velocity = Vec3::Zero();          // [m/s]
 };
 
 struct BodyModel {
@@ -88,6 +92,7 @@ struct BodyModel {
   int rigid = -1;   // index into Model::rigid_bodies
   Positions X;      // bones: what is drawn, in the bone's frame [m]
   Triangles triangles;
+  bool touches_as_drawn = true;  // a bone: not by surfaces of their own
   std::optional<Collider> collider;
 };
 
@@ -165,7 +170,7 @@ struct Layout {
 };
 
 struct Model {
-  Scenario scenario;
+  bool is_static = false;  // equilibrium under loads over time; else motion in time
   std::vector<BodyModel> bodies;
   std::vector<Tissue> tissues;
   std::vector<RigidBody> rigid_bodies;  // rigid ones first: bone r < layout.num_rigid is unknown
@@ -180,6 +185,7 @@ struct Model {
   double position_tolerance = 0;  // [m], of the Newton iteration
   double detection_margin = 0;    // [m], least one
   int num_blocks = 0;             // with the blocks of fixed and driven bones
+  fem::SolverChoice linear_solver;
   std::vector<std::string> warnings;
 };
 

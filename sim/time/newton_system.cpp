@@ -40,11 +40,14 @@ double lengthening(const Line& line, const Configuration& now, const Eigen::Vect
 
 }  // namespace
 
-NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
-    : model_(model), dynamics_(dynamics), solver_(make_linear_solver(model)) {}
+NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics, int threads)
+    : model_(model),
+      dynamics_(dynamics),
+      threads_(threads),
+      solver_(make_linear_solver(model, threads)) {}
 
 void NewtonSystem::restart() {
-  solver_ = make_linear_solver(model_);
+  solver_ = make_linear_solver(model_, threads_);
   gamma_ = 0;
 }
 

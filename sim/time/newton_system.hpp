@@ -20,7 +20,8 @@ namespace articular::sim {
 /// it.
 class NewtonSystem {
  public:
-  NewtonSystem(const Model& model, Dynamics& dynamics);
+  /// @param threads  of the linear solver
+  NewtonSystem(const Model& model, Dynamics& dynamics, int threads);
 
   /// Drops what the linear solver knows of earlier steps.
   void restart();
@@ -73,6 +74,7 @@ class NewtonSystem {
 
   const Model& model_;
   Dynamics& dynamics_;
+  const int threads_;
   std::unique_ptr<fem::LinearSolver> solver_;
   Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_, velocity_change_;
   Eigen::VectorXd weighted_, forces_, trial_;            // of the line search
