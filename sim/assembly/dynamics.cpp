@@ -85,7 +85,7 @@ void Dynamics::read_internal_variables(std::size_t t, const double* y) {
   const Tissue& tissue = model_.tissues[t];
   TissueMoment& now = tissues_[t];
   tissue.relaxation->stress(now.x, activation_of(t), now.stress);
-  if (model_.scenario.analysis != Scenario::Analysis::Static) {
+  if (!model_.is_static) {
     now.internal_variables = Eigen::Map<const Eigen::VectorXd>(
         y + model_.layout.internal_variables() + tissue.first_internal_variable,
         tissue.relaxation->num_internal_variables());
@@ -174,8 +174,7 @@ Vec6 Dynamics::reaction(int rigid) const {
   const auto b = static_cast<std::size_t>(rigid);
   const RigidBody& held = model_.rigid_bodies[b];
   if (!held.unknown) return f_.segment<6>(3 * held.block);
-  if (model_.scenario.analysis == Scenario::Analysis::Static)
-    return all_force_[b] - free_part(held, all_force_[b]);
+  if (model_.is_static) return all_force_[b] - free_part(held, all_force_[b]);
   return force_on_hold(held, configuration_.poses[b], configuration_.velocities[b], instant(),
                        all_force_[b]);
 }
@@ -352,7 +351,7 @@ double Dynamics::elastic_energy() const {
   double energy = 0;
   for (std::size_t t = 0; t < tissues_.size(); ++t)
     energy += model_.tissues[t].elements.energy(tissues_[t].x, activation_of(t));
-  if (model_.scenario.analysis == Scenario::Analysis::Static)
+  if (model_.is_static)
     for (std::size_t t = 0; t < tissues_.size(); ++t)
       if (const auto& relaxation = model_.tissues[t].relaxation)
         energy += relaxation->settled_energy(tissues_[t].x, activation_of(t));
@@ -372,7 +371,7 @@ double Dynamics::damping_power() const {
       velocities_of(configuration_, tissue.nodes, v_);
       power += tissue.dashpots->power(tissues_[t].x, v_);
     }
-    if (tissue.relaxation && model_.scenario.analysis != Scenario::Analysis::Static) {
+    if (tissue.relaxation && !model_.is_static) {
       velocities_of(configuration_, tissue.nodes, v_);
       damping_.setZero(3, v_.cols());
       tissue.relaxation->add_force(tissues_[t].x, tissues_[t].internal_variables, 1, damping_);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "fem/element/smoothed_elasticity.hpp"
-#include "sim/assembly/solver_setup.hpp"
 #include "sim/contact/contact_stencils.hpp"
 #include "sim/model/constrained_rigid_body.hpp"
 
@@ -63,7 +62,7 @@ double activation_of(const Tissue& tissue, const Configuration& now) {
 
 NewtonMatrix::NewtonMatrix(const Model& model)
     : model_(model),
-      for_multigrid_(choose_linear_solver(model).kind == fem::SolverKind::Multigrid),
+      for_multigrid_(model.linear_solver.kind == fem::SolverKind::Multigrid),
       tissues_(model.tissues.size()),
       contact_(model) {
   for (std::size_t t = 0; t < tissues_.size(); ++t) {

@@ -79,16 +79,14 @@ std::string in_words(const Model& model, const BodyMotions& motions,
   const Vec3 shift = part.head<3>(), turn = part.tail<3>();
   const bool shifts = shift.norm() >= turn.norm();
   const Vec3 axis = rounded((shifts ? shift : turn).normalized());
-  const double unit = 1 / model.scenario.output.length_unit;
   const std::string name = model.bodies[static_cast<std::size_t>(motions.body)].name;
   if (shifts)
     return fmt::format("body `{}` can shift along ({:.2f} {:.2f} {:.2f})", name, axis.x(), axis.y(),
                        axis.z());
-  const Vec3 c = unit * motions.center;
+  const Vec3 mm = 1e3 * motions.center;
   return fmt::format(
-      "body `{}` can turn about the axis ({:.2f} {:.2f} {:.2f}) through ({:.3g} {:.3g} {:.3g}) {}",
-      name, axis.x(), axis.y(), axis.z(), c.x(), c.y(), c.z(),
-      model.scenario.output.length_unit_name);
+      "body `{}` can turn about the axis ({:.2f} {:.2f} {:.2f}) through ({:.3g} {:.3g} {:.3g}) mm",
+      name, axis.x(), axis.y(), axis.z(), mm.x(), mm.y(), mm.z());
 }
 
 /// The largest stiffness of a free node or of a bone's translation [N/m].

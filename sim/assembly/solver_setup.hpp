@@ -5,12 +5,8 @@
 
 namespace articular::sim {
 
-/// The linear solver that the scenario asks for, or with "auto" the one that suits its size, its
-/// elements and its analysis, with the reason.
-fem::SolverChoice choose_linear_solver(const Model& model);
-
 /// The explicit scheme does without.
-bool needs_linear_solver(const Model& model);
+bool needs_linear_solver(const Model& model, Integrator::Scheme scheme);
 
 /// As scenario files call it: "cholesky", "conjugate-gradients", "multigrid".
 std::string name_of(fem::SolverKind kind);

@@ -37,14 +37,13 @@ bool can_touch(const Scenario& scenario, std::size_t b) {
 
 Collider tissue_collider(const Model& model, std::size_t b) {
   const Tissue& tissue = model.tissues[static_cast<std::size_t>(model.bodies[b].tissue)];
-  const TissueMaterial& material = *model.scenario.bodies[b].material;
   Collider collider;
   collider.X = tissue.X;
   collider.tets = tissue.elements.tets();
   collider.nodes = tissue.nodes;
   complete_collider(collider, {});
-  collider.compliance = collider.height / constrained_modulus(material);
-  collider.mean_compliance = collider.size / constrained_modulus(material);
+  collider.compliance = collider.height / constrained_modulus(tissue);
+  collider.mean_compliance = collider.size / constrained_modulus(tissue);
   collider.reach = kTissueReach * collider.size;
   collider.open_depth = kOpenDepth * collider.size;
   return collider;
@@ -73,8 +72,8 @@ void report_dropped(const Body& body, Eigen::Index given, Eigen::Index kept, Mod
   model.warnings.push_back(prefix(body.where) + what + " and are left out of contact");
 }
 
-Collider bone_collider(const BodyGeometry& geometry, std::size_t b, Model& model) {
-  const Body& body = model.scenario.bodies[b];
+Collider bone_collider(const Body& body, const BodyGeometry& geometry, std::size_t b,
+                       Model& model) {
   const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(model.bodies[b].rigid)];
   const bool shell = geometry.contact.X.cols() > 0 || geometry.mesh.tets.cols() == 0;
   Collider collider;
@@ -112,15 +111,16 @@ Collider bone_collider(const BodyGeometry& geometry, std::size_t b, Model& model
 
 }  // namespace
 
-void make_colliders(const std::vector<BodyGeometry>& geometry, Model& model) {
+void make_colliders(const Scenario& scenario, const std::vector<BodyGeometry>& geometry,
+                    Model& model) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!can_touch(model.scenario, b)) continue;
-    const Body& body = model.scenario.bodies[b];
+    if (!can_touch(scenario, b)) continue;
+    const Body& body = scenario.bodies[b];
     try {
       if (model.bodies[b].tissue >= 0)
         model.bodies[b].collider = tissue_collider(model, b);
       else if (geometry[b].mesh.X.cols() > 0 || geometry[b].contact.X.cols() > 0)
-        model.bodies[b].collider = bone_collider(geometry[b], b, model);
+        model.bodies[b].collider = bone_collider(body, geometry[b], b, model);
     } catch (const std::exception& error) {
       throw InputError(body.mesh ? body.mesh->where : body.where,
                        fmt::format("body `{}`: {}", body.name, error.what()));

@@ -10,6 +10,7 @@
 #include "sim/build/body_collider.hpp"
 #include "sim/build/body_geometry.hpp"
 #include "sim/build/contact_model.hpp"
+#include "sim/build/linear_solver.hpp"
 #include "sim/build/make_tissue.hpp"
 #include "sim/build/region.hpp"
 #include "sim/lines/muscle_law.hpp"
@@ -25,42 +26,42 @@ constexpr double kLeastForceAtRest = 0.1;
 
 class Builder {
  public:
-  explicit Builder(Scenario scenario) {
-    model_.scenario = std::move(scenario);
-    model_.pool = std::make_shared<ThreadPool>(model_.scenario.threads);
+  explicit Builder(const Scenario& scenario) : scenario_(scenario) {
+    model_.pool = std::make_shared<ThreadPool>(scenario.threads);
   }
 
   Model build() {
+    model_.is_static = scenario_.analysis == Scenario::Analysis::Static;
     read_bodies();
     make_bones();
     make_tissues();
     number_blocks();
     carry_tissue_mass();
-    make_colliders(geometry_, model_);
+    make_colliders(scenario_, geometry_, model_);
     make_lines();
     make_loads();
-    make_contacts(model_);
+    make_contacts(scenario_, model_);
     make_probes();
-    model_.position_tolerance = position_tolerance(model_);
-    model_.detection_margin = detection_margin(model_);
+    model_.position_tolerance = position_tolerance(scenario_.integrator, model_);
+    model_.detection_margin = detection_margin(scenario_.detection, model_);
+    model_.linear_solver = choose_linear_solver(scenario_, model_);
     return std::move(model_);
   }
 
  private:
-  const Scenario& scenario() const { return model_.scenario; }
-
   static Vec3 reference_point(const RigidBody& rigid) {
     return rigid.hold && rigid.hold->at ? *rigid.hold->at : rigid.mass.center;
   }
 
-  int body_index(const std::string& name) const { return sim::body_index(scenario(), name); }
+  int body_index(const std::string& name) const { return sim::body_index(scenario_, name); }
 
   void read_bodies() {
-    for (const Body& body : scenario().bodies) {
+    for (const Body& body : scenario_.bodies) {
       geometry_.push_back(read_geometry(body));
       BodyModel entry;
       entry.name = body.name;
       entry.kind = body.kind;
+      entry.touches_as_drawn = body.contact_meshes.empty();
       model_.bodies.push_back(std::move(entry));
     }
   }
@@ -68,8 +69,8 @@ class Builder {
   void make_bones() {
     // Rigid ones first: their blocks are unknowns.
     for (const Body::Kind kind : {Body::Kind::Rigid, Body::Kind::Fixed})
-      for (std::size_t b = 0; b < scenario().bodies.size(); ++b) {
-        const Body& body = scenario().bodies[b];
+      for (std::size_t b = 0; b < scenario_.bodies.size(); ++b) {
+        const Body& body = scenario_.bodies[b];
         if (body.kind != kind) continue;
         RigidBody rigid;
         rigid.body = static_cast<int>(b);
@@ -87,7 +88,7 @@ class Builder {
         model_.bodies[b].rigid = static_cast<int>(model_.rigid_bodies.size());
         model_.rigid_bodies.push_back(rigid);
       }
-    for (const Load& load : scenario().loads) {
+    for (const Load& load : scenario_.loads) {
       if (load.kind != Load::Kind::Motion) continue;
       RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(
           model_.bodies[static_cast<std::size_t>(body_index(load.body))].rigid)];
@@ -102,14 +103,14 @@ class Builder {
   }
 
   void make_tissues() {
-    for (std::size_t b = 0; b < scenario().bodies.size(); ++b) {
-      if (scenario().bodies[b].kind != Body::Kind::Tissue) continue;
+    for (std::size_t b = 0; b < scenario_.bodies.size(); ++b) {
+      if (scenario_.bodies[b].kind != Body::Kind::Tissue) continue;
       const MeshData& mesh = geometry_[b].mesh;
       surface_.push_back(collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())));
       model_.bodies[b].tissue = static_cast<int>(model_.tissues.size());
       model_.tissues.push_back(
-          make_tissue(model_, geometry_, surface_.back(), static_cast<int>(b)));
-      tell_flat_elements(scenario().bodies[b], mesh);
+          make_tissue(scenario_, model_, geometry_, surface_.back(), static_cast<int>(b)));
+      tell_flat_elements(scenario_.bodies[b], mesh);
     }
   }
 
@@ -126,7 +127,7 @@ class Builder {
 
   /// Attached nodes to their bones, the others to blocks of their own; then the bones' blocks.
   void number_blocks() {
-    for (const Attachment& attachment : scenario().attachments) {
+    for (const Attachment& attachment : scenario_.attachments) {
       const auto b = static_cast<std::size_t>(body_index(attachment.body));
       Tissue& tissue = model_.tissues[static_cast<std::size_t>(model_.bodies[b].tissue)];
       const int rigid = model_.bodies[static_cast<std::size_t>(body_index(attachment.to))].rigid;
@@ -159,7 +160,7 @@ class Builder {
       for (NodeRef& node : tissue.nodes)
         if (node.rigid >= 0)
           node.block = model_.rigid_bodies[static_cast<std::size_t>(node.rigid)].block;
-    model_.layout.num_muscles = static_cast<int>(scenario().muscles.size());
+    model_.layout.num_muscles = static_cast<int>(scenario_.muscles.size());
     for (Tissue& tissue : model_.tissues) {
       if (!tissue.relaxation) continue;
       tissue.first_internal_variable = model_.layout.num_internal_variables;
@@ -277,7 +278,7 @@ class Builder {
   }
 
   void make_lines() {
-    for (const Muscle& muscle : scenario().muscles) {
+    for (const Muscle& muscle : scenario_.muscles) {
       if (!muscle.tissue.empty()) {
         make_fibre_muscle(muscle);
         continue;
@@ -297,7 +298,7 @@ class Builder {
       model_.muscles.push_back(std::move(m));
       model_.lines.push_back(std::move(line));
     }
-    for (const Ligament& ligament : scenario().ligaments) {
+    for (const Ligament& ligament : scenario_.ligaments) {
       Line line = make_line(ligament.name, ligament.path, ligament.where);
       line.ligament = static_cast<int>(model_.ligaments.size());
       double slack = line.start_length;
@@ -317,7 +318,7 @@ class Builder {
   }
 
   void make_loads() {
-    for (const Load& load : scenario().loads) {
+    for (const Load& load : scenario_.loads) {
       if (load.kind == Load::Kind::Gravity) model_.gravity += load.acceleration;
       if (load.kind != Load::Kind::Force) continue;
       ForceModel force;
@@ -373,8 +374,8 @@ class Builder {
   std::vector<int> probes_called(const std::vector<std::string>& names) const {
     std::vector<int> found;
     for (const std::string& name : names)
-      for (std::size_t p = 0; p < scenario().probes.size(); ++p)
-        if (scenario().probes[p].name == name) found.push_back(static_cast<int>(p));
+      for (std::size_t p = 0; p < scenario_.probes.size(); ++p)
+        if (scenario_.probes[p].name == name) found.push_back(static_cast<int>(p));
     return found;
   }
 
@@ -393,7 +394,7 @@ class Builder {
   }
 
   void make_probes() {
-    for (const Probe& probe : scenario().probes) {
+    for (const Probe& probe : scenario_.probes) {
       ProbeModel p;
       p.given = probe;
       if (probe.kind == Probe::Kind::Point) p.point = resolve(probe.anchor);
@@ -411,6 +412,7 @@ class Builder {
     }
   }
 
+  const Scenario& scenario_;
   Model model_;
   std::vector<BodyGeometry> geometry_;       // one a body
   std::vector<collision::Surface> surface_;  // one a tissue
@@ -419,6 +421,25 @@ class Builder {
 
 }  // namespace
 
-Model build_model(Scenario scenario) { return Builder(std::move(scenario)).build(); }
+Model build_model(const Scenario& scenario) { return Builder(scenario).build(); }
+
+Model with_pointwise_contact(Model model, Scenario scenario) {
+  scenario.analysis = Scenario::Analysis::Dynamic;
+  scenario.contact_response = Scenario::Response::Pointwise;
+  model.is_static = false;
+  model.contacts.clear();
+  make_contacts(scenario, model);
+  model.linear_solver = choose_linear_solver(scenario, model);
+  return model;
+}
+
+StepSettings step_settings(const Scenario& scenario) {
+  const Integrator& integrator = scenario.integrator;
+  return {.scheme = integrator.scheme,
+          .step = integrator.step,
+          .min_step = integrator.min_step,
+          .max_iterations = integrator.max_iterations,
+          .detection = scenario.detection};
+}
 
 }  // namespace articular::sim

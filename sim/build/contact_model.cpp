@@ -47,7 +47,8 @@ double mean_face_area(const Collider& collider) {
 bool is_nonmortar(const Model& model, int a, int b, const Collider& A, const Collider& B) {
   constexpr double kMuchSofter = 3;
   const auto modulus = [&](int body) {
-    return constrained_modulus(*model.scenario.bodies[static_cast<std::size_t>(body)].material);
+    const int tissue = model.bodies[static_cast<std::size_t>(body)].tissue;
+    return constrained_modulus(model.tissues[static_cast<std::size_t>(tissue)]);
   };
   const bool soft_a = model.bodies[static_cast<std::size_t>(a)].tissue >= 0;
   const bool soft_b = model.bodies[static_cast<std::size_t>(b)].tissue >= 0;
@@ -57,15 +58,15 @@ bool is_nonmortar(const Model& model, int a, int b, const Collider& A, const Col
   return mean_face_area(A) <= mean_face_area(B);
 }
 
-void add_contact(int a, int b, const ContactPair& pair, Model& model) {
+void add_contact(const Scenario& scenario, int a, int b, const ContactPair& pair, Model& model) {
   const auto& A = model.bodies[static_cast<std::size_t>(a)].collider;
   const auto& B = model.bodies[static_cast<std::size_t>(b)].collider;
   if (!A || !B) return;
   ContactModel contact;
   contact.a = a;
   contact.b = b;
-  const bool is_static = model.scenario.analysis == Scenario::Analysis::Static;
-  const Scenario::Response response = model.scenario.contact_response;
+  const bool is_static = model.is_static;
+  const Scenario::Response response = scenario.contact_response;
   // In time two bones count depths point by point: there is no tissue whose facets averages let
   // give way, and where edges slip off each other stiff contact would make energy.
   const bool has_tissue = model.bodies[static_cast<std::size_t>(a)].tissue >= 0 ||
@@ -73,7 +74,7 @@ void add_contact(int a, int b, const ContactPair& pair, Model& model) {
   contact.averaged = is_static || (has_tissue && response == Scenario::Response::Averaged);
   if (!is_static && response == Scenario::Response::Sampled) contact.samples = triangle_samples();
   contact.share = a == b ? 0.5 : 1;
-  const double factor = stiffness_factor(model.scenario, contact.averaged);
+  const double factor = stiffness_factor(scenario, contact.averaged);
   const double layers = A->layer_compliance + B->layer_compliance;
   contact.mean_stiffness =
       pair.stiffness.value_or(1 / ((A->mean_compliance + B->mean_compliance) / factor + layers));
@@ -97,38 +98,38 @@ void add_contact(int a, int b, const ContactPair& pair, Model& model) {
   contact.law.friction = pair.friction;
   contact.law.damping = contact.share * pair.damping;
   contact.law.slip_velocity =
-      pair.slip_velocity.value_or(kCreep * std::min(A->size, B->size) / model.scenario.duration);
+      pair.slip_velocity.value_or(kCreep * std::min(A->size, B->size) / scenario.duration);
   model.contacts.push_back(std::move(contact));
 }
 
 }  // namespace
 
-void make_contacts(Model& model) {
-  if (!model.scenario.contact) return;
-  for (const ContactPair& pair : model.scenario.contacts) {
-    const int a = body_index(model.scenario, pair.a), b = body_index(model.scenario, pair.b);
+void make_contacts(const Scenario& scenario, Model& model) {
+  if (!scenario.contact) return;
+  for (const ContactPair& pair : scenario.contacts) {
+    const int a = body_index(scenario, pair.a), b = body_index(scenario, pair.b);
     for (const int body : {a, b})
       if (!model.bodies[static_cast<std::size_t>(body)].collider)
         throw InputError(pair.where,
                          fmt::format("body `{}` has nothing to touch with: it needs a mesh and "
                                      "must not have collides = false",
                                      model.bodies[static_cast<std::size_t>(body)].name));
-    add_contact(a, b, pair, model);
+    add_contact(scenario, a, b, pair, model);
   }
-  if (!model.scenario.contacts.empty()) return;
+  if (!scenario.contacts.empty()) return;
   const auto n = static_cast<int>(model.bodies.size());
   for (int a = 0; a < n; ++a)
     for (int b = a + 1; b < n; ++b) {
       const auto fixed = [&](int body) {
         return model.bodies[static_cast<std::size_t>(body)].kind == Body::Kind::Fixed;
       };
-      if (!(fixed(a) && fixed(b))) add_contact(a, b, ContactPair{}, model);
+      if (!(fixed(a) && fixed(b))) add_contact(scenario, a, b, ContactPair{}, model);
     }
 }
 
-double detection_margin(const Model& model) {
+double detection_margin(const Detection& detection, const Model& model) {
   constexpr double kMarginOfElement = 0.1;
-  if (model.scenario.detection.margin) return *model.scenario.detection.margin;
+  if (detection.margin) return *detection.margin;
   double least = std::numeric_limits<double>::infinity();
   for (const BodyModel& body : model.bodies)
     if (body.collider) least = std::min(least, body.collider->size);

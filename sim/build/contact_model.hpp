@@ -7,10 +7,10 @@ namespace articular::sim {
 /// The pairs of bodies that may touch, as the scenario names them or all that can meet, with their
 /// stiffness. The colliders are there.
 /// @throws InputError for a pair with a body that has nothing to touch with
-void make_contacts(Model& model);
+void make_contacts(const Scenario& scenario, Model& model);
 
 /// [m] Within which pairs are kept as candidates at least: as the scenario says, or by the
 /// elements.
-double detection_margin(const Model& model);
+double detection_margin(const Detection& detection, const Model& model);
 
 }  // namespace articular::sim

@@ -47,10 +47,8 @@ FibreDirections fibres_of_array(const Body& body, const MeshData& mesh) {
                                 : fmt::format("; it has {}", names)));
 }
 
-FibreDirections make_fibres(const Model& model, const std::vector<BodyGeometry>& geometry,
-                            const Surface& surface, std::size_t b) {
-  const Body& body = model.scenario.bodies[b];
-  const MeshData& mesh = geometry[b].mesh;
+FibreDirections make_fibres(const Body& body, const MeshData& mesh, const Surface& surface,
+                            const Model& model, const std::vector<BodyGeometry>& geometry) {
   const Fibres& fibres = *body.material->fibres;
   if (fibres.direction) return fem::constant_fibres(*fibres.direction, mesh.tets.cols());
   if (fibres.array) return fibres_of_array(body, mesh);
@@ -70,22 +68,17 @@ TissueElements make_elements(const TissueMaterial& material, const MeshData& mes
       fem::Elasticity(mesh.X, mesh.tets, *material.law, fibres, {.pool = std::move(pool)}));
 }
 
-/// Bulk and shear modulus at small strain.
-std::pair<double, double> moduli(const fem::AnyMaterial& law) {
-  return {fem::bulk_modulus(law), fem::shear_modulus(law)};
-}
-
 }  // namespace
 
-Tissue make_tissue(const Model& model, const std::vector<BodyGeometry>& geometry,
-                   const Surface& surface, int index) {
+Tissue make_tissue(const Scenario& scenario, const Model& model,
+                   const std::vector<BodyGeometry>& geometry, const Surface& surface, int index) {
   const auto b = static_cast<std::size_t>(index);
-  const Body& body = model.scenario.bodies[b];
+  const Body& body = scenario.bodies[b];
   const TissueMaterial& material = *body.material;
   const MeshData& mesh = geometry[b].mesh;
   FibreDirections fibres;
   try {
-    if (material.fibres) fibres = make_fibres(model, geometry, surface, b);
+    if (material.fibres) fibres = make_fibres(body, mesh, surface, model, geometry);
   } catch (const std::invalid_argument& error) {
     throw InputError(material.fibres->where, fmt::format("fibres of tissue `{}`{}: {}", body.name,
                                                          mesh_name(body), error.what()));
@@ -99,12 +92,15 @@ Tissue make_tissue(const Model& model, const std::vector<BodyGeometry>& geometry
                   .mass_damping = material.mass_damping,
                   .nodes = {},
                   .X = mesh.X,
-                  .fibres = fibres};
+                  .fibres = fibres,
+                  .bulk_modulus = fem::bulk_modulus(*material.law),
+                  .shear_modulus = fem::shear_modulus(*material.law),
+                  .start_velocity = body.velocity};
     tissue.nodes.resize(static_cast<std::size_t>(mesh.X.cols()));
     if (material.stiffness_damping > 0) {
-      const auto [kappa, mu] = moduli(*material.law);
       tissue.dashpots.emplace(mesh.X, mesh.tets,
-                              fem::stiffness_damping(material.stiffness_damping, mu, kappa),
+                              fem::stiffness_damping(material.stiffness_damping,
+                                                     tissue.shear_modulus, tissue.bulk_modulus),
                               tissue.elements.make_plain_matrix());
     }
     if (!material.relaxation.empty())

@@ -12,7 +12,8 @@ namespace articular::sim {
 /// @param body      index into the scenario's bodies
 /// @param geometry  of each of them
 /// @throws InputError with the place in the scenario
-Tissue make_tissue(const Model& model, const std::vector<BodyGeometry>& geometry,
-                   const collision::Surface& surface, int body);
+Tissue make_tissue(const Scenario& scenario, const Model& model,
+                   const std::vector<BodyGeometry>& geometry, const collision::Surface& surface,
+                   int body);
 
 }  // namespace articular::sim

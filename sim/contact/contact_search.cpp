@@ -71,7 +71,7 @@ DepthRange depth_range(const Collider& triangles, const Collider& faces, bool av
   return {averaged ? triangles.open_depth : 0, std::min(2 * triangles.reach, faces.reach)};
 }
 
-ContactSearch::ContactSearch(const Model& model) : model_(model) {
+ContactSearch::ContactSearch(const Model& model, const StepSettings& settings) : model_(model) {
   std::vector<const Collider*> colliders;
   std::vector<int> moving_of_body(model.bodies.size(), -1);
   const auto moving_of = [&](int body) {
@@ -93,7 +93,7 @@ ContactSearch::ContactSearch(const Model& model) : model_(model) {
     const auto nonmortar = static_cast<std::size_t>(contact.reversed ? contact.b : contact.a);
     open_depth_ = std::max(open_depth_, model.bodies[nonmortar].collider->open_depth);
   }
-  penetrations_ = make_penetration_search(colliders, model.scenario.detection, model.pool);
+  penetrations_ = make_penetration_search(colliders, settings.detection, model.pool);
 }
 
 bool ContactSearch::needs_update(const Moving& moving, double margin) const {

@@ -10,6 +10,7 @@
 #include "sim/contact/penetration_search.hpp"
 #include "sim/gap/face_bounds.hpp"
 #include "sim/model/configuration.hpp"
+#include "sim/model/step_settings.hpp"
 
 /// Who may touch whom during the next step: from penetrations with a margin to
 /// pairs of a surface triangle and a facing face of the other body.
@@ -41,7 +42,7 @@ struct SearchCounts {
 
 class ContactSearch {
  public:
-  explicit ContactSearch(const Model& model);
+  ContactSearch(const Model& model, const StepSettings& settings);
 
   /// The first three lines of Listing 1.5.1's loop body: all bodies where they are now, tissues
   /// against each other, then each against itself where the scene asks for it.

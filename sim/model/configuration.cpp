@@ -23,7 +23,7 @@ namespace {
 /// In statics nothing has a velocity.
 RigidVelocity velocity_of_motion(const Model& model, const RigidBody& rigid, const Pose& rest,
                                  double t) {
-  if (model.scenario.analysis == Scenario::Analysis::Static) return {};
+  if (model.is_static) return {};
   return driven_velocity(*rigid.motion, rest, t);
 }
 

@@ -12,12 +12,11 @@ Eigen::VectorXd initial_state(const Model& model) {
   const Layout& layout = model.layout;
   Eigen::VectorXd y = Eigen::VectorXd::Zero(layout.size());
   for (const Tissue& tissue : model.tissues) {
-    const Vec3& velocity = model.scenario.bodies[static_cast<std::size_t>(tissue.body)].velocity;
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
       const NodeRef& node = tissue.nodes[i];
       if (node.rigid >= 0) continue;
       y.segment<3>(layout.node_x(node.block)) = tissue.X.col(static_cast<Eigen::Index>(i));
-      y.segment<3>(layout.velocities() + 3 * node.block) = velocity;
+      y.segment<3>(layout.velocities() + 3 * node.block) = tissue.start_velocity;
     }
   }
   for (int r = 0; r < layout.num_rigid; ++r) {

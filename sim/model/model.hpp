@@ -9,6 +9,7 @@
 #include "collision/mesh/surface.hpp"
 #include "fem/element/dashpots.hpp"
 #include "fem/element/relaxation.hpp"
+#include "fem/solver/solver_choice.hpp"
 #include "parallel/thread_pool.hpp"
 #include "sim/base/pose.hpp"
 #include "sim/gap/contact_patch.hpp"
@@ -18,7 +19,8 @@
 #include "sim/model/tissue_elements.hpp"
 #include "sim/scenario/scenario.hpp"
 
-/// The scenario made ready to compute: immutable, holding only what the scene requires.
+/// The scene made ready to compute: immutable, holding only what the scene requires. How it is
+/// moved on is said by StepSettings, what is written of it by the scenario.
 ///
 /// Unknown velocities come in blocks of three: one block a free tissue node, then two a rigid bone
 /// (velocity of its centre of mass, angular velocity). Bones that are fixed or driven have two
@@ -81,6 +83,8 @@ struct Tissue {
   Positions X;                      // at the start, world [m]
   FibreDirections fibres;           // one an element, or none
   int muscle = -1;                  // index into Model::muscles: what activates the fibres
+  double bulk_modulus = 0, shear_modulus = 0;  // at small strain [Pa]
+  Vec3 start_velocity = Vec3::Zero();          // [m/s]
 };
 
 struct BodyModel {
@@ -90,6 +94,7 @@ struct BodyModel {
   int rigid = -1;   // index into Model::rigid_bodies
   Positions X;      // bones: what is drawn, in the bone's frame [m]
   Triangles triangles;
+  bool touches_as_drawn = true;  // a bone: not by surfaces of their own
   std::optional<Collider> collider;
 };
 
@@ -167,7 +172,7 @@ struct Layout {
 };
 
 struct Model {
-  Scenario scenario;
+  bool is_static = false;  // equilibrium under loads over time; else motion in time
   std::vector<BodyModel> bodies;
   std::vector<Tissue> tissues;
   std::vector<RigidBody> rigid_bodies;  // rigid ones first: bone r < layout.num_rigid is unknown
@@ -184,6 +189,7 @@ struct Model {
   int num_blocks = 0;             // with the blocks of fixed and driven bones
   /// Of the whole run: elements, linear solver and contact search share it, one after the other.
   std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1);
+  fem::SolverChoice linear_solver;
   std::vector<std::string> warnings;
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "fem/material/point_law.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
@@ -28,8 +27,7 @@ double turning_radius(const RigidBody& rigid) {
   return std::sqrt(rigid.mass.inertia.trace() / (2 * rigid.mass.mass));
 }
 
-double position_tolerance(const Model& model) {
-  const Integrator& integrator = model.scenario.integrator;
+double position_tolerance(const Integrator& integrator, const Model& model) {
   if (integrator.position_tolerance) return *integrator.position_tolerance;
   double size = std::numeric_limits<double>::infinity();
   for (const Tissue& tissue : model.tissues) size = std::min(size, element_size(tissue));
@@ -59,11 +57,10 @@ void set_weights(const Model& model, double h, Eigen::Ref<Eigen::VectorXd> weigh
       std::sqrt(static_cast<double>(layout.size()) / layout.internal_variables());
   for (const Tissue& tissue : model.tissues) {
     if (!tissue.relaxation) continue;
-    const Body& body = model.scenario.bodies[static_cast<std::size_t>(tissue.body)];
     weight
         .segment(layout.internal_variables() + tissue.first_internal_variable,
                  tissue.relaxation->num_internal_variables())
-        .setConstant(1 / (kStrainTolerance * fem::shear_modulus(*body.material->law)));
+        .setConstant(1 / (kStrainTolerance * tissue.shear_modulus));
   }
 }
 

@@ -13,7 +13,7 @@ void set_weights(const Model& model, double h, Eigen::Ref<Eigen::VectorXd> weigh
 
 /// What the scenario gives, or its part of the mean element size of the finest tissue; without
 /// tissue, of the smallest bone's radius of gyration [m].
-double position_tolerance(const Model& model);
+double position_tolerance(const Integrator& integrator, const Model& model);
 
 /// Radius of gyration [m]: how far a turn by one radian moves the bone's mass.
 double turning_radius(const RigidBody& rigid);

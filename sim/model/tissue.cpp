@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "fem/material/point_law.hpp"
-
 namespace articular::sim {
 
 double element_size(const Tissue& tissue) {
@@ -13,8 +11,8 @@ double element_size(const Tissue& tissue) {
   return std::cbrt(6 * sum / static_cast<double>(volume.size()));
 }
 
-double constrained_modulus(const TissueMaterial& material) {
-  return fem::bulk_modulus(*material.law) + 4 * fem::shear_modulus(*material.law) / 3;
+double constrained_modulus(const Tissue& tissue) {
+  return tissue.bulk_modulus + 4 * tissue.shear_modulus / 3;
 }
 
 double constrained_modulus(double E, double nu) { return E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)); }

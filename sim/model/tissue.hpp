@@ -8,7 +8,7 @@ namespace articular::sim {
 double element_size(const Tissue& tissue);
 
 /// λ + 2μ at small strain [Pa].
-double constrained_modulus(const TissueMaterial& material);
+double constrained_modulus(const Tissue& tissue);
 double constrained_modulus(double young_modulus, double poisson_ratio);
 
 }  // namespace articular::sim

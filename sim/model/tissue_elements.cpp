@@ -14,12 +14,9 @@ struct TissueElements::Elements {
 };
 
 TissueElements::TissueElements(fem::Elasticity elements)
-    : elements_(std::make_unique<Elements>(Elements{std::move(elements)})) {}
+    : elements_(std::make_shared<const Elements>(Elements{std::move(elements)})) {}
 TissueElements::TissueElements(fem::SmoothedElasticity elements)
-    : elements_(std::make_unique<Elements>(Elements{std::move(elements)})) {}
-TissueElements::TissueElements(TissueElements&&) noexcept = default;
-TissueElements& TissueElements::operator=(TissueElements&&) noexcept = default;
-TissueElements::~TissueElements() = default;
+    : elements_(std::make_shared<const Elements>(Elements{std::move(elements)})) {}
 
 const fem::SmoothedElasticity* TissueElements::smoothed() const {
   return std::get_if<fem::SmoothedElasticity>(&elements_->kind);

@@ -17,14 +17,11 @@ class SmoothedElasticity;
 namespace articular::sim {
 
 /// The elements of one tissue: plain linear tetrahedra or smoothed ones. An activation, in [0, 1],
-/// is that of fibres, where there are any.
+/// is that of fibres, where there are any. They never change: copies share them.
 class TissueElements {
  public:
   explicit TissueElements(fem::Elasticity elements);
   explicit TissueElements(fem::SmoothedElasticity elements);
-  TissueElements(TissueElements&&) noexcept;
-  TissueElements& operator=(TissueElements&&) noexcept;
-  ~TissueElements();
 
   const Tetrahedra& tets() const;
   int num_elements() const { return static_cast<int>(tets().cols()); }
@@ -61,7 +58,7 @@ class TissueElements {
   struct Elements;
   const fem::Elasticity& plain() const;
 
-  std::unique_ptr<Elements> elements_;
+  std::shared_ptr<const Elements> elements_;  // of all copies
 };
 
 }  // namespace articular::sim

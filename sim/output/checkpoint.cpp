@@ -91,8 +91,8 @@ void each_of_extrema(Extrema& extrema, const Visit& visit) {
 
 }  // namespace
 
-std::string fingerprint(const Model& model) {
-  std::string bytes = model.scenario.content;
+std::string fingerprint(const Scenario& scenario, const Model& model) {
+  std::string bytes = scenario.content;
   const auto put_numbers = [&bytes](const auto& matrix) {
     bytes.append(reinterpret_cast<const char*>(matrix.data()),
                  static_cast<std::size_t>(matrix.size()) * sizeof(*matrix.data()));

@@ -11,7 +11,7 @@ namespace articular::sim {
 
 /// What a checkpoint belongs to: the scenario's content and what was read from other files (meshes,
 /// muscle tables). A run of another scenario must not resume from it.
-std::string fingerprint(const Model& model);
+std::string fingerprint(const Scenario& scenario, const Model& model);
 
 /// Writes the state in full precision, whole or not at all. @throws SystemError
 void write_checkpoint(const std::filesystem::path& file, const State& state,

@@ -12,19 +12,19 @@ constexpr double kTimeRounding = 1e-11;
 
 }  // namespace
 
-std::string convergence_header(const Model& model) {
+std::string convergence_header(const LengthUnit& unit) {
   return fmt::format(
       "time [s],solution [-],damping [1/s^2],iteration [-],residual [-],correction [{}],"
       "fraction [-]\n",
-      model.scenario.output.length_unit_name);
+      unit.name);
 }
 
-std::string convergence_rows(const Model& model, const std::vector<ConvergenceRow>& rows) {
+std::string convergence_rows(const std::vector<ConvergenceRow>& rows, const LengthUnit& unit) {
   std::string text;
   for (const ConvergenceRow& row : rows)
     fmt::format_to(std::back_inserter(text), "{:.12g},{},{:.6g},{},{:.6g},{:.6g},{:.4g}\n", row.t,
                    row.solution, row.damping, row.iteration, row.newton.residual,
-                   row.newton.correction / model.scenario.output.length_unit, row.newton.fraction);
+                   row.newton.correction / unit.metres, row.newton.fraction);
   return text;
 }
 

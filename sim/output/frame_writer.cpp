@@ -54,12 +54,8 @@ vtkSmartPointer<vtkPointSet> make_lines(const std::vector<Positions>& paths, dou
 
 }  // namespace
 
-FrameWriter::FrameWriter(std::filesystem::path directory, std::string name, double length_unit,
-                         std::string length_unit_name)
-    : directory_(std::move(directory)),
-      name_(std::move(name)),
-      length_unit_(length_unit),
-      length_unit_name_(std::move(length_unit_name)) {
+FrameWriter::FrameWriter(std::filesystem::path directory, std::string name, LengthUnit unit)
+    : directory_(std::move(directory)), name_(std::move(name)), unit_(std::move(unit)) {
   const std::filesystem::path frames = directory_ / kFrames;
   std::error_code error;
   std::filesystem::create_directories(frames, error);
@@ -90,11 +86,11 @@ void FrameWriter::add_field(vtkPointSet& set, vtkDataSetAttributes& target,
   double scale = 1;
   std::string unit = field.unit;
   if ((field.name == "displacement" || field.name == "contact_gap") && field.unit == "m") {
-    scale = 1 / length_unit_;
-    unit = length_unit_name_;
+    scale = 1 / unit_.metres;
+    unit = unit_.name;
   } else if (field.name == "velocity" && field.unit == "m/s") {
-    scale = 1 / length_unit_;
-    unit = length_unit_name_ + "/s";
+    scale = 1 / unit_.metres;
+    unit = unit_.name + "/s";
   }
   vtkNew<vtkDoubleArray> array;
   array->SetName(field.name.c_str());
@@ -129,19 +125,19 @@ void FrameWriter::write_part(const std::string& part, const std::string& name,
   time_value->SetName("TimeValue");
   time_value->InsertNextValue(time);
   set.GetFieldData()->AddArray(time_value);
-  add_text(set, "coordinates.unit", length_unit_name_);
+  add_text(set, "coordinates.unit", unit_.name);
   write_vtk_file(directory_ / file, set);
   pending_.push_back({time, index, part, file});
 }
 
 void FrameWriter::write_tissue(const TissueFrame& frame, int index, double time) {
-  const auto set = make_grid(frame.x, length_unit_, frame.tets, Triangles(3, 0));
+  const auto set = make_grid(frame.x, unit_.metres, frame.tets, Triangles(3, 0));
   add_fields(*set, frame.point_fields, frame.cell_fields);
   write_part(frame.body, frame.body, ".vtu", *set, index, time);
 }
 
 void FrameWriter::write_rigid_body(const RigidBodyFrame& frame, int index, double time) {
-  const auto set = make_surface(frame.x, length_unit_, frame.triangles);
+  const auto set = make_surface(frame.x, unit_.metres, frame.triangles);
   add_fields(*set, frame.point_fields, frame.cell_fields);
   write_part(frame.body, frame.body, ".vtp", *set, index, time);
 }
@@ -161,13 +157,13 @@ void FrameWriter::write_contact_surface(const ContactSurfaceFrame& frame, int in
   });
   std::vector<Field> point_fields = frame.point_fields;
   for (Field& field : point_fields) field.values = field.values(Eigen::all, kept).eval();
-  const auto set = make_surface(frame.x(Eigen::all, kept), length_unit_, faces);
+  const auto set = make_surface(frame.x(Eigen::all, kept), unit_.metres, faces);
   add_fields(*set, point_fields, frame.cell_fields);
   write_part(contact_surface_part(frame.body), frame.body + "_contact", ".vtp", *set, index, time);
 }
 
 void FrameWriter::write_lines(const LinesFrame& frame, int index, double time) {
-  const auto set = make_lines(frame.paths, length_unit_);
+  const auto set = make_lines(frame.paths, unit_.metres);
   vtkNew<vtkStringArray> names;
   names->SetName("name");
   for (const std::string& name : frame.names) names->InsertNextValue(name);

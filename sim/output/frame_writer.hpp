@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem/base/types.hpp"
+#include "sim/base/length_unit.hpp"
 #include "sim/mesh/frame_series.hpp"
 
 class vtkDataSetAttributes;
@@ -58,10 +59,8 @@ struct LinesFrame {
 /// appears whole or not at all; after each frame the .pvd lists all frames so far.
 class FrameWriter {
  public:
-  /// @param length_unit  [m] per unit in the files, with its name, e.g. 1e-3, "mm"
   /// @throws SystemError when the folder can't be made or written
-  FrameWriter(std::filesystem::path directory, std::string name, double length_unit,
-              std::string length_unit_name);
+  FrameWriter(std::filesystem::path directory, std::string name, LengthUnit unit);
 
   /// Resumes: keeps the frames up to `time` (relative tolerance 1e-12) that an earlier run
   /// published, forgets those after it. @throws InputError when that .pvd can't be understood
@@ -88,8 +87,7 @@ class FrameWriter {
 
   std::filesystem::path directory_;
   std::string name_;
-  double length_unit_;
-  std::string length_unit_name_;
+  LengthUnit unit_;
   std::vector<SeriesEntry> published_, pending_;
 };
 

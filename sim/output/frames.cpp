@@ -69,8 +69,7 @@ bool can_touch(const Model& model, int body) {
 
 /// The drawn mesh of a bone is also what touches: its nodes are the collider's first ones.
 bool draws_contact_surface(const Model& model, int body) {
-  return can_touch(model, body) &&
-         model.scenario.bodies[static_cast<std::size_t>(body)].contact_meshes.empty();
+  return can_touch(model, body) && model.bodies[static_cast<std::size_t>(body)].touches_as_drawn;
 }
 
 void write_rigid_body(const Model& model, const Configuration& now, int body_index,
@@ -141,8 +140,8 @@ void write_lines(const Model& model, const Stepper& stepper, int index, double t
 
 }  // namespace
 
-void write_frame(const Model& model, const Stepper& stepper, int index, double time,
-                 FrameWriter& writer) {
+void write_frame(const Model& model, const Stepper& stepper, bool contact_surfaces, int index,
+                 double time, FrameWriter& writer) {
   const Configuration& now = stepper.dynamics().configuration();
   const ContactResponse& contact = stepper.dynamics().contact();
   const Contacts contacts{nodal_contact_forces(model, contact),
@@ -162,7 +161,7 @@ void write_frame(const Model& model, const Stepper& stepper, int index, double t
     } else if (body.X.cols() > 0) {
       write_rigid_body(model, now, body_index, contacts, index, time, writer);
     }
-    if (model.scenario.output.contact_surfaces && can_touch(model, body_index))
+    if (contact_surfaces && can_touch(model, body_index))
       write_contact_surface(model, now, body_index, contacts, index, time, writer);
   }
   if (!model.lines.empty()) write_lines(model, stepper, index, time, writer);

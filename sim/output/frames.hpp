@@ -5,9 +5,10 @@
 
 namespace articular::sim {
 
-/// Writes one frame: every tissue, bone and the lines, and where the scenario asks for them the
-/// surfaces that bodies touch with, with the arrays that the README names.
-void write_frame(const Model& model, const Stepper& stepper, int index, double time,
-                 FrameWriter& writer);
+/// Writes one frame: every tissue, bone and the lines, with the arrays that the README names.
+/// @param contact_surfaces  the surfaces that bodies touch with, too
+/// @param time              [s]
+void write_frame(const Model& model, const Stepper& stepper, bool contact_surfaces, int index,
+                 double time, FrameWriter& writer);
 
 }  // namespace articular::sim

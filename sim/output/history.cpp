@@ -15,8 +15,8 @@
 namespace articular::sim {
 namespace {
 
-std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model) {
-  const std::string& length = model.scenario.output.length_unit_name;
+std::vector<std::string> columns_of(const ProbeModel& probe, const Model& model,
+                                    const std::string& length) {
   const auto vector = [&](const std::string& what, const std::string& unit) {
     std::vector<std::string> names;
     for (const char axis : {'x', 'y', 'z'})
@@ -96,9 +96,10 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();  // an emp
 
 }  // namespace
 
-History::History(const Model& model) : model_(model), columns_{"time [s]"} {
+History::History(const Model& model, LengthUnit unit)
+    : model_(model), unit_(std::move(unit)), columns_{"time [s]"} {
   for (const ProbeModel& probe : model.probes)
-    for (auto& name : columns_of(probe, model)) columns_.push_back(name);
+    for (auto& name : columns_of(probe, model, unit_.name)) columns_.push_back(name);
 }
 
 void History::record(const State& state, const Stepper& stepper) {
@@ -133,7 +134,7 @@ double History::share_of(const ProbeModel& probe, const std::vector<std::size_t>
 }
 
 void History::append(const ProbeModel& probe, const State& state, const Stepper& stepper) {
-  const double unit = 1 / model_.scenario.output.length_unit;
+  const double unit = 1 / unit_.metres;
   const Configuration& now = stepper.dynamics().configuration();
   const auto push = [&](const Vec3& v) { values_.insert(values_.end(), {v.x(), v.y(), v.z()}); };
   switch (probe.given.kind) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/base/length_unit.hpp"
 #include "sim/step/stepper.hpp"
 
 namespace articular::sim {
@@ -12,7 +13,7 @@ namespace articular::sim {
 /// would draw a line to it.
 class History {
  public:
-  explicit History(const Model& model);
+  History(const Model& model, LengthUnit unit);
 
   void record(const State& state, const Stepper& stepper);
   /// The whole file.
@@ -29,6 +30,7 @@ class History {
   double share_of(const ProbeModel& probe, const std::vector<std::size_t>& begin) const;
 
   const Model& model_;
+  LengthUnit unit_;
   std::vector<std::string> columns_;
   std::vector<double> values_;
   std::string rows_;

@@ -21,8 +21,7 @@ const std::string& name_of(const Model& model, int body) {
 }
 
 /// What makes less of the energy that was made.
-std::string remedy(const Model& model) {
-  const Integrator::Scheme scheme = model.scenario.integrator.scheme;
+std::string remedy(const Model& model, Integrator::Scheme scheme) {
   const bool chooses_steps =
       scheme == Integrator::Scheme::Bdf || scheme == Integrator::Scheme::Explicit;
   return fmt::format("a smaller integrator.{} makes less{}",
@@ -34,9 +33,9 @@ std::string remedy(const Model& model) {
 
 void warn_of_energy(const Model& model, const State& state, const Stepper& stepper,
                     std::vector<std::string>& warnings) {
-  if (model.scenario.analysis == Scenario::Analysis::Static) return;
+  if (model.is_static) return;
   const double loss = numerical_loss(state, stepper.stored_energy()), whole = turned_over(state);
-  if (!(whole > energy_of_tolerance(model))) return;
+  if (!(whole > energy_of_tolerance(model, stepper.settings().step))) return;
   if (loss > kMuchLost * whole)
     warnings.push_back(
         fmt::format("the time integration took {:.2g} J, {:.0f} % of the energy that was turned "
@@ -48,7 +47,7 @@ void warn_of_energy(const Model& model, const State& state, const Stepper& stepp
         "{:.2g} J were made out of nothing, {:.2g} % of the energy that was turned over "
         "({:.2g} J){}: {}",
         made, 100 * made / whole, whole, deepest_contact(model, stepper.dynamics().contacts()),
-        remedy(model)));
+        remedy(model, stepper.settings().scheme)));
 }
 
 }  // namespace

@@ -31,9 +31,9 @@ Json sizes(const Model& model) {
           {"contact_pairs", model.contacts.size()}};
 }
 
-Json chosen_solver(const Model& model) {
-  if (!needs_linear_solver(model)) return nullptr;
-  const fem::SolverChoice choice = choose_linear_solver(model);
+Json chosen_solver(const Model& model, Integrator::Scheme scheme) {
+  if (!needs_linear_solver(model, scheme)) return nullptr;
+  const fem::SolverChoice& choice = model.linear_solver;
   return {{"name", sim::name_of(choice.kind)}, {"reason", choice.reason}};
 }
 
@@ -103,8 +103,8 @@ Json energy(const State& state, const StoredEnergy& now) {
 
 }  // namespace
 
-std::string summary_json(const Model& model, const State& state, const Stepper& stepper,
-                         const PhaseTimes& phases, const WallTimes& wall,
+std::string summary_json(const Scenario& scenario, const Model& model, const State& state,
+                         const Stepper& stepper, const PhaseTimes& phases, const WallTimes& wall,
                          const std::string& outcome) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -113,12 +113,12 @@ std::string summary_json(const Model& model, const State& state, const Stepper& 
     warnings.push_back(std::move(warning));
   Json json = {
       {"outcome", outcome},
-      {"scenario", model.scenario.file.filename().string()},
+      {"scenario", scenario.file.filename().string()},
       {"simulated_time_s", state.t},
-      {"settings", Json::parse(model.scenario.settings_json)},
+      {"settings", Json::parse(scenario.settings_json)},
       {"size", sizes(model)},
-      {"linear_solver", chosen_solver(model)},
-      {"threads", model.scenario.threads},
+      {"linear_solver", chosen_solver(model, scenario.integrator.scheme)},
+      {"threads", scenario.threads},
       {"counts", counts(state.counts)},
       {"settling", overlap_resolution(model, state.overlap_resolution)},
       {"frames", state.frames},

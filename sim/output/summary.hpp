@@ -13,8 +13,8 @@ struct WallTimes {
 
 /// summary.json: settings, sizes, counts, wall time by phase, energy balance, memory, versions.
 /// @param outcome  "finished", "interrupted" or the reason why it could not go on
-std::string summary_json(const Model& model, const State& state, const Stepper& stepper,
-                         const PhaseTimes& phases, const WallTimes& wall,
+std::string summary_json(const Scenario& scenario, const Model& model, const State& state,
+                         const Stepper& stepper, const PhaseTimes& phases, const WallTimes& wall,
                          const std::string& outcome);
 
 }  // namespace articular::sim

@@ -8,6 +8,7 @@
 
 #include "sim/base/atomic_file.hpp"
 #include "sim/base/stopwatch.hpp"
+#include "sim/build/build_model.hpp"
 #include "sim/output/checkpoint.hpp"
 #include "sim/output/convergence.hpp"
 #include "sim/output/frames.hpp"
@@ -23,9 +24,7 @@ namespace {
 
 /// Frames between two checkpoints where the scenario gives no interval. What lies between two
 /// frames of a static analysis may take minutes.
-int frames_per_checkpoint(const Model& model) {
-  return model.scenario.analysis == Scenario::Analysis::Static ? 1 : 10;
-}
+int frames_per_checkpoint(const Model& model) { return model.is_static ? 1 : 10; }
 
 /// Multiples of an interval are computed, not summed: a resumed run has the same ones.
 struct Schedule {
@@ -47,21 +46,21 @@ std::string read_text(const std::filesystem::path& file) {
 
 class Run {
  public:
-  Run(const Model& model, const RunOptions& options)
-      : model_(model),
+  Run(const Scenario& scenario, const Model& model, const RunOptions& options)
+      : scenario_(scenario),
+        model_(model),
         options_(options),
-        writer_(options.directory, model.scenario.name, model.scenario.output.length_unit,
-                model.scenario.output.length_unit_name),
-        stepper_(model),
-        history_(model),
-        kinks_(kink_times(model)),
-        frames_{model.scenario.output.interval},
-        checkpoints_{model.scenario.output.checkpoint_interval.value_or(
-            frames_per_checkpoint(model) * model.scenario.output.interval)} {}
+        writer_(options.directory, scenario.name, scenario.output.length_unit),
+        stepper_(model, step_settings(scenario)),
+        history_(model, scenario.output.length_unit),
+        kinks_(kink_times(model, scenario.duration)),
+        frames_{scenario.output.interval},
+        checkpoints_{scenario.output.checkpoint_interval.value_or(frames_per_checkpoint(model) *
+                                                                  scenario.output.interval)} {}
 
   RunOutcome go() {
     const auto start = std::chrono::steady_clock::now();
-    const double duration = model_.scenario.duration;
+    const double duration = scenario_.duration;
     RunOutcome outcome = RunOutcome::Finished;
     std::string how = "finished";
     const auto finish = [&] {
@@ -72,8 +71,9 @@ class Run {
       if (options_.warn)
         for (const std::string& warning : run_warnings(model_, state_, stepper_))
           options_.warn(warning);
-      write_text_file(options_.directory / "summary.json",
-                      summary_json(model_, state_, stepper_, stepper_.times(), wall, how));
+      write_text_file(
+          options_.directory / "summary.json",
+          summary_json(scenario_, model_, state_, stepper_, stepper_.times(), wall, how));
     };
     stepper_.set_watch(options_.after_iteration);
     stepper_.set_stop(options_.is_to_stop);
@@ -94,7 +94,7 @@ class Run {
       stepper_.restart(state_);  // energies are those of the last step that was done
     } catch (const SimulationError& error) {
       how = error.what();
-      convergence_ += convergence_rows(model_, stepper_.take_convergence());
+      convergence_ += convergence_rows(stepper_.take_convergence(), scenario_.output.length_unit);
       finish();
       throw;
     }
@@ -111,14 +111,14 @@ class Run {
   void check_start() const {
     const Dynamics& now = stepper_.dynamics();
     if (now.forces().allFinite() && std::isfinite(stepper_.stored_energy().total())) return;
-    throw InputError({model_.scenario.file.string()},
+    throw InputError({scenario_.file.string()},
                      "forces at the start are not finite" +
                          failure_diagnosis(model_, now.configuration(), now.configuration()));
   }
 
   void begin() {
     state_ = stepper_.initial();
-    fingerprint_ = fingerprint(model_);
+    fingerprint_ = fingerprint(scenario_, model_);
     if (options_.resume) {
       if (auto stored = read_checkpoint(checkpoint_file(), fingerprint_)) {
         state_ = std::move(*stored);
@@ -134,14 +134,15 @@ class Run {
     // Nothing of an earlier run must stand beside what this one leaves when it is interrupted.
     std::error_code ignored;
     std::filesystem::remove(checkpoint_file(), ignored);
-    std::filesystem::remove(options_.directory / (model_.scenario.name + ".pvd"), ignored);
-    if (model_.scenario.settling) resolve_initial_overlaps();
+    std::filesystem::remove(options_.directory / (scenario_.name + ".pvd"), ignored);
+    if (scenario_.settling) resolve_initial_overlaps();
     history_.record(state_, stepper_);
     output_frame();
   }
 
   void resolve_initial_overlaps() {
-    state_.overlap_resolution = resolve_overlaps(model_, state_.y, options_.after_iteration);
+    state_.overlap_resolution =
+        resolve_overlaps(scenario_, model_, state_.y, options_.after_iteration);
     if (state_.overlap_resolution.overlaps.empty()) return;
     stepper_.restart(state_);
     state_.extrema = {};  // overlaps before the start are told as their resolution
@@ -154,20 +155,20 @@ class Run {
 
   double next_event() const {
     double next =
-        std::min({model_.scenario.duration, frames_.next(state_.t), checkpoints_.next(state_.t)});
+        std::min({scenario_.duration, frames_.next(state_.t), checkpoints_.next(state_.t)});
     const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), state_.t * (1 + 1e-12));
     if (kink != kinks_.end()) next = std::min(next, *kink);
     return next;
   }
 
-  bool is_static() const { return model_.scenario.analysis == Scenario::Analysis::Static; }
+  bool is_static() const { return model_.is_static; }
   std::filesystem::path convergence_file() const { return options_.directory / "convergence.csv"; }
 
   void observe() {
-    convergence_ += convergence_rows(model_, stepper_.take_convergence());
+    convergence_ += convergence_rows(stepper_.take_convergence(), scenario_.output.length_unit);
     history_.record(state_, stepper_);
     if (!is_static()) note_balance(numerical_loss(state_, stepper_.stored_energy()), state_);
-    const bool end = state_.t >= model_.scenario.duration;
+    const bool end = state_.t >= scenario_.duration;
     if (frames_.due(state_.t) || end) output_frame();
     if (checkpoints_.due(state_.t) && !end) {
       const Stopwatch watch(output_seconds_);
@@ -181,16 +182,20 @@ class Run {
 
   void output_frame() {
     const Stopwatch watch(output_seconds_);
-    write_frame(model_, stepper_, state_.frames, state_.t, writer_);
+    write_frame(model_, stepper_, scenario_.output.contact_surfaces, state_.frames, state_.t,
+                writer_);
     write_history();
     ++state_.frames;
   }
 
   void write_history() const {
     write_text_file(options_.directory / "history.csv", history_.text());
-    if (is_static()) write_text_file(convergence_file(), convergence_header(model_) + convergence_);
+    if (is_static())
+      write_text_file(convergence_file(),
+                      convergence_header(scenario_.output.length_unit) + convergence_);
   }
 
+  const Scenario& scenario_;
   const Model& model_;
   const RunOptions& options_;
   FrameWriter writer_;
@@ -206,7 +211,7 @@ class Run {
 
 }  // namespace
 
-std::vector<double> kink_times(const Model& model) {
+std::vector<double> kink_times(const Model& model, double duration) {
   std::vector<double> times;
   const auto add = [&](const std::vector<double>& more) {
     times.insert(times.end(), more.begin(), more.end());
@@ -215,12 +220,14 @@ std::vector<double> kink_times(const Model& model) {
   for (const ForceModel& force : model.forces) add(force.profile.time);
   for (const RigidBody& rigid : model.rigid_bodies)
     if (rigid.motion) add(rigid.motion->time);
-  std::erase_if(times, [&](double t) { return t <= 0 || t >= model.scenario.duration; });
+  std::erase_if(times, [&](double t) { return t <= 0 || t >= duration; });
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
 
-RunOutcome run(const Model& model, const RunOptions& options) { return Run(model, options).go(); }
+RunOutcome run(const Scenario& scenario, const Model& model, const RunOptions& options) {
+  return Run(scenario, model, options).go();
+}
 
 }  // namespace articular::sim

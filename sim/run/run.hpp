@@ -25,14 +25,16 @@ struct RunOptions {
 
 enum class RunOutcome { Finished, Interrupted };
 
-/// Runs a model from the start (or its checkpoint) to its duration and writes frames, history,
-/// checkpoints and the summary.
+/// Runs a model from the start (or its checkpoint) to the scenario's duration and writes frames,
+/// history, checkpoints and the summary.
+/// @param scenario  that the model was built from
 /// @throws SimulationError when it can't go on; what was written stays valid, the summary says
 /// until when
 /// @throws SystemError when results can't be written
-RunOutcome run(const Model& model, const RunOptions& options);
+RunOutcome run(const Scenario& scenario, const Model& model, const RunOptions& options);
 
 /// Times at which a step must end: kinks of curves and motions, within (0, duration).
-std::vector<double> kink_times(const Model& model);
+/// @param duration  [s]
+std::vector<double> kink_times(const Model& model, double duration);
 
 }  // namespace articular::sim

@@ -12,6 +12,7 @@
 #include "collision/narrow/narrow_rule.hpp"
 #include "fem/material/prony_term.hpp"
 #include "sim/base/error.hpp"
+#include "sim/base/length_unit.hpp"
 
 namespace articular::fem {
 struct AnyMaterial;
@@ -296,9 +297,8 @@ struct Detection {
 };
 
 struct Output {
-  double interval = 10e-3;    // [s] between frames
-  double length_unit = 1e-3;  // [m] per unit in the files
-  std::string length_unit_name = "mm";
+  double interval = 10e-3;  // [s] between frames
+  LengthUnit length_unit;
   std::optional<std::filesystem::path> directory;
   bool contact_surfaces = false;  // a file of its own for the surface that each body touches with
   std::optional<double> checkpoint_interval;  // [s]; none: see run.cpp

@@ -74,8 +74,9 @@ void read_output(const Node& node, Output& output) {
       {"interval", "length_unit", "directory", "contact_surfaces", "checkpoint_interval"});
   table.may("interval", output.interval, as_quantity(kTime, kPositive));
   if (const Node* unit = table.find("length_unit")) {
-    output.length_unit = read_choice<double>(*unit, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
-    output.length_unit_name = *unit->text();
+    output.length_unit.metres =
+        read_choice<double>(*unit, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
+    output.length_unit.name = *unit->text();
   }
   table.may("directory", output.directory, read_text);
   table.may("contact_surfaces", output.contact_surfaces, read_boolean);
@@ -194,7 +195,7 @@ std::string settings_as_json(const Scenario& scenario) {
        scenario.detection.narrow_test == collision::NarrowTest::Gjk ? "gjk" : "separating-axes"}};
   if (scenario.detection.margin) json["detection"]["margin_m"] = *scenario.detection.margin;
   json["output"] = {{"interval_s", output.interval},
-                    {"length_unit", output.length_unit_name},
+                    {"length_unit", output.length_unit.name},
                     {"contact_surfaces", output.contact_surfaces}};
   if (output.directory) json["output"]["directory"] = output.directory->string();
   if (output.checkpoint_interval)

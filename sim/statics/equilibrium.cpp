@@ -57,7 +57,7 @@ Mat3 inverse_tangent_map(const Vec3& theta) {
 
 class Equilibrium::Solver {
  public:
-  Solver(const Model& model, Dynamics& dynamics);
+  Solver(const Model& model, Dynamics& dynamics, const StepSettings& settings);
   bool solve(Eigen::VectorXd& y, double t, double damping);
   bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
   void restart() { linear_ = make_linear_solver(model_); }
@@ -96,6 +96,7 @@ class Equilibrium::Solver {
 
   const Model& model_;
   Dynamics& dynamics_;
+  const int max_iterations_;
   std::unique_ptr<fem::LinearSolver> linear_;
   Eigen::VectorXd start_, y_, u_, r_, before_, r_before_, trial_, rhs_, correction_, inertia_;
   double t_ = 0, damping_ = 0;
@@ -112,9 +113,10 @@ class Equilibrium::Solver {
   sundials::Owned<void*, FreeKinsol> kinsol_;
 };
 
-Equilibrium::Solver::Solver(const Model& model, Dynamics& dynamics)
+Equilibrium::Solver::Solver(const Model& model, Dynamics& dynamics, const StepSettings& settings)
     : model_(model),
       dynamics_(dynamics),
+      max_iterations_(settings.max_iterations),
       linear_(make_linear_solver(model)),
       context_(sundials::make_context()) {
   const Eigen::Index n = 3 * model.layout.num_unknown_blocks();
@@ -362,12 +364,11 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
   residual_at(view(solution_));
   // From afar, contact that is as stiff as it should be throws iterations back and forth.
   const bool touches = dynamics_.touches();
-  const int most = model_.scenario.integrator.max_iterations;
   from_afar_ = touches;
   short_in_a_row_ = 0;
-  set_most_iterations(touches ? std::min(most, kMostFromAfar) : most);
+  set_most_iterations(touches ? std::min(max_iterations_, kMostFromAfar) : max_iterations_);
   bool balanced = balance_within_bounds();
-  set_most_iterations(most);
+  set_most_iterations(max_iterations_);
   from_afar_ = false;
   if (!balanced && touches) {
     view(solution_).setZero();
@@ -397,8 +398,8 @@ bool Equilibrium::Solver::yield(const Eigen::VectorXd& f, double damping, Eigen:
   return true;
 }
 
-Equilibrium::Equilibrium(const Model& model, Dynamics& dynamics)
-    : solver_(std::make_unique<Solver>(model, dynamics)) {}
+Equilibrium::Equilibrium(const Model& model, Dynamics& dynamics, const StepSettings& settings)
+    : solver_(std::make_unique<Solver>(model, dynamics, settings)) {}
 Equilibrium::~Equilibrium() = default;
 
 bool Equilibrium::solve(Eigen::VectorXd& y, double t, double damping) {

@@ -6,6 +6,7 @@
 
 #include "sim/assembly/dynamics.hpp"
 #include "sim/model/state.hpp"
+#include "sim/model/step_settings.hpp"
 
 namespace articular::sim {
 
@@ -32,7 +33,7 @@ using IterationWatch = std::function<bool(double t, const NewtonIteration&)>;
 /// [Crisfield 1991] Crisfield. Non-linear Finite Element Analysis of Solids and Structures, vol. 1.
 class Equilibrium {
  public:
-  Equilibrium(const Model& model, Dynamics& dynamics);
+  Equilibrium(const Model& model, Dynamics& dynamics, const StepSettings& settings);
   ~Equilibrium();
   Equilibrium(const Equilibrium&) = delete;
   Equilibrium& operator=(const Equilibrium&) = delete;

@@ -39,7 +39,9 @@ class LoadStep {
     LoadStepResult result;
     result.loose = find_rigid_body_mode(model_, dynamics_);
     result.reached = !result.loose && balance(y);
-    if (!result.reached) settle(y, result);
+    if (!result.reached)
+      result.reached = approach_in_pseudo_time(
+          reach_, kMostSolutions, [&](double motion) { return settle(motion, y, result); });
     return result;
   }
 
@@ -96,26 +98,20 @@ class LoadStep {
     return false;
   }
 
-  void settle(Eigen::VectorXd& y, LoadStepResult& result) {
-    double motion = kFirstMotion * reach_;  // of the node that the forces accelerate most [m]
-    for (int k = 0; k < kMostSolutions; ++k) {
-      look(y, motion);
-      const double damping = equilibrium_.largest_acceleration() / motion;
-      const Eigen::VectorXd before = dynamics_.forces();
-      Eigen::VectorXd trial = y;
-      if (!solve(trial, damping) || (contacts_.covered && !contacts_.covered())) {
-        motion *= kMotionFall;
-        continue;
-      }
-      if (result.loose) result.settling_loss += work(y, before, trial, dynamics_.forces());
-      y = trial;
-      look(y, 0);
-      result.loose = find_rigid_body_mode(model_, dynamics_);
-      result.reached = equilibrium_.residual() <= 2 * kBalanced * dynamics_.largest_force() ||
-                       (!result.loose && balance(y));
-      if (result.reached) return;
-      motion = std::min(kMotionRise * motion, reach_);
-    }
+  PseudoStep settle(double motion, Eigen::VectorXd& y, LoadStepResult& result) {
+    look(y, motion);
+    const double damping = equilibrium_.largest_acceleration() / motion;
+    const Eigen::VectorXd before = dynamics_.forces();
+    Eigen::VectorXd trial = y;
+    if (!solve(trial, damping) || (contacts_.covered && !contacts_.covered()))
+      return PseudoStep::Failed;
+    if (result.loose) result.settling_loss += work(y, before, trial, dynamics_.forces());
+    y = trial;
+    look(y, 0);
+    result.loose = find_rigid_body_mode(model_, dynamics_);
+    const bool reached = equilibrium_.residual() <= 2 * kBalanced * dynamics_.largest_force() ||
+                         (!result.loose && balance(y));
+    return reached ? PseudoStep::Arrived : PseudoStep::Moved;
   }
 
   /// Of the unbalanced forces f on the way from y to z, by the trapezoidal rule [J].

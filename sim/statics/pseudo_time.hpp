@@ -1,12 +1,20 @@
 #pragma once
 
-/// How long the steps in pseudo-time are by which a static solution approaches equilibrium, said by
-/// how far they move what the forces accelerate most.
+#include <functional>
+
 namespace articular::sim {
 
-/// Of the trusted motion: the first step.
-inline constexpr double kFirstMotion = 0.25;
-/// After a solution that was found, and after one that was not.
-inline constexpr double kMotionRise = 4, kMotionFall = 0.2;
+enum class PseudoStep { Arrived, Moved, Failed };
+
+/// Takes steps in pseudo-time, by which static solutions approach equilibrium, until one arrives.
+/// How long a step is is said by how far it moves what the forces accelerate most [m]: the first by
+/// a quarter of what may move in one, then farther after each that moved and less after each that
+/// failed.
+/// @param reach  [m] that no step moves farther than
+/// @param most   steps before it is given up
+/// @param take   a step by such a motion [m]
+/// @return whether one arrived
+bool approach_in_pseudo_time(double reach, int most,
+                             const std::function<PseudoStep(double motion)>& take);
 
 }  // namespace articular::sim

@@ -65,11 +65,11 @@ void refuse_lost_bodies(const Model& model, const std::vector<double>& seen) {
 
 class OverlapResolver {
  public:
-  OverlapResolver(const Model& model, const IterationWatch& watch)
+  OverlapResolver(const Model& model, const StepSettings& settings, const IterationWatch& watch)
       : model_(model),
         dynamics_(model),
-        search_(model),
-        equilibrium_(model, dynamics_),
+        search_(model, settings),
+        equilibrium_(model, dynamics_, settings),
         margin_(model.detection_margin) {
     dynamics_.set_unloaded(true);
     equilibrium_.set_watch(watch);
@@ -139,24 +139,20 @@ class OverlapResolver {
     for (const ResolvedOverlap& overlap : resolution_.overlaps)
       allowances[static_cast<std::size_t>(overlap.contact)] = allowed * overlap.before;
     dynamics_.set_allowances(std::move(allowances));
-    const double reach = dynamics_.trusted_motion();
-    double motion = kFirstMotion * reach;
-    for (int k = 0; k < kMostEquilibria; ++k) {
-      look(y, motion);
-      if (is_settled()) return true;
-      Eigen::VectorXd trial = y;
-      const bool solved =
-          equilibrium_.solve(trial, 0, equilibrium_.largest_acceleration() / motion);
-      ++resolution_.solutions;
-      if (solved) dynamics_.evaluate(trial.data(), 0);
-      if (!solved || !hooks_.covered()) {
-        motion *= kMotionFall;
-        continue;
-      }
-      y = trial;
-      motion = std::min(kMotionRise * motion, reach);
-    }
-    return false;
+    return approach_in_pseudo_time(dynamics_.trusted_motion(), kMostEquilibria,
+                                   [&](double motion) { return move_on(motion, y); });
+  }
+
+  PseudoStep move_on(double motion, Eigen::VectorXd& y) {
+    look(y, motion);
+    if (is_settled()) return PseudoStep::Arrived;
+    Eigen::VectorXd trial = y;
+    const bool solved = equilibrium_.solve(trial, 0, equilibrium_.largest_acceleration() / motion);
+    ++resolution_.solutions;
+    if (solved) dynamics_.evaluate(trial.data(), 0);
+    if (!solved || !hooks_.covered()) return PseudoStep::Failed;
+    y = trial;
+    return PseudoStep::Moved;
   }
 
   bool is_settled() const {
@@ -232,20 +228,18 @@ class OverlapResolver {
 
 }  // namespace
 
-OverlapResolution resolve_overlaps(const Model& model, Eigen::VectorXd& y,
+OverlapResolution resolve_overlaps(const Scenario& scenario, const Model& model, Eigen::VectorXd& y,
                                    const IterationWatch& watch) {
   if (model.contacts.empty() || y.size() == 0) return {};
-  OverlapResolver resolver(model, watch);
+  const StepSettings settings = step_settings(scenario);
+  OverlapResolver resolver(model, settings, watch);
   if (resolver.overlaps(y).empty()) return {};
   if (std::none_of(model.contacts.begin(), model.contacts.end(),
                    [](const ContactModel& contact) { return contact.averaged; }))
     return resolver.resolve(y);
   // Soft pointwise contact gets bodies out of each other more easily, and edges and corners too.
-  Scenario scenario = model.scenario;
-  scenario.analysis = Scenario::Analysis::Dynamic;
-  scenario.contact_response = Scenario::Response::Pointwise;
-  const Model pointwise = build_model(std::move(scenario));
-  return OverlapResolver(pointwise, watch).resolve(y);
+  const Model pointwise = with_pointwise_contact(model, scenario);
+  return OverlapResolver(pointwise, settings, watch).resolve(y);
 }
 
 }  // namespace articular::sim

@@ -11,12 +11,13 @@ namespace articular::sim {
 /// bodies in pseudo-time until they have given way; tissue between held ones keeps the stress.
 ///
 /// Overlaps within the contact's max_penetration stay as they are.
+/// @param scenario  that the model was built from
 /// @param y  at the start, in the order of Layout; on return positions have moved, nothing else
 /// @param watch  told of each iteration, see Equilibrium; may be empty
 /// @return no overlaps: nothing was to be done
 /// @throws SimulationError when that does not end, or contact can't tell the way out;
 /// Interruption when `watch` asks to stop
-OverlapResolution resolve_overlaps(const Model& model, Eigen::VectorXd& y,
+OverlapResolution resolve_overlaps(const Scenario& scenario, const Model& model, Eigen::VectorXd& y,
                                    const IterationWatch& watch = {});
 
 }  // namespace articular::sim

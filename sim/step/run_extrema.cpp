@@ -62,14 +62,13 @@ double turned_over(const State& state) {
                    state.extrema.work, work_done(state.energy)});
 }
 
-double energy_of_tolerance(const Model& model) {
+double energy_of_tolerance(const Model& model, double step) {
   double mass = 0;  // [kg]
   for (const Tissue& tissue : model.tissues) mass += tissue.lumped_mass.sum();
   for (const RigidBody& rigid : model.rigid_bodies)
     if (rigid.unknown) mass += rigid.mass.mass;
   constexpr double kNewtonFraction = 0.1;  // of the tolerance, at which the iteration ends
-  const double speed =
-      kNewtonFraction * model.position_tolerance / model.scenario.integrator.step;  // [m/s]
+  const double speed = kNewtonFraction * model.position_tolerance / step;  // [m/s]
   return 0.5 * mass * speed * speed;
 }
 

@@ -17,6 +17,7 @@ void note_balance(double numerical_loss, State& state);
 double turned_over(const State& state);
 
 /// Kinetic energy at velocities that Newton's iteration does not tell from rest [J].
-double energy_of_tolerance(const Model& model);
+/// @param step  [s]
+double energy_of_tolerance(const Model& model, double step);
 
 }  // namespace articular::sim

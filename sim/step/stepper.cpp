@@ -17,7 +17,7 @@ namespace {
 
 /// Some contact of a dynamic analysis may not penetrate farther than the scenario says.
 bool has_bounds_in_time(const Model& model) {
-  return model.scenario.analysis == Scenario::Analysis::Dynamic &&
+  return !model.is_static &&
          std::any_of(model.contacts.begin(), model.contacts.end(),
                      [](const ContactModel& contact) { return contact.is_bounded; });
 }
@@ -44,19 +44,20 @@ double numerical_loss(const State& state, const StoredEnergy& now) {
          l.contact_loss - l.settling_loss - now.total();
 }
 
-Stepper::Stepper(const Model& model) : model_(model) {
+Stepper::Stepper(const Model& model, const StepSettings& settings)
+    : model_(model), settings_(settings) {
   dynamics_ = std::make_unique<Dynamics>(model);
-  if (model.scenario.analysis == Scenario::Analysis::Static)
-    equilibrium_ = std::make_unique<Equilibrium>(model, *dynamics_);
+  if (model.is_static)
+    equilibrium_ = std::make_unique<Equilibrium>(model, *dynamics_, settings);
   else
-    integrator_ = make_time_integrator(model, *dynamics_);
-  if (!model.contacts.empty()) search_ = std::make_unique<ContactSearch>(model);
+    integrator_ = make_time_integrator(model, *dynamics_, settings);
+  if (!model.contacts.empty()) search_ = std::make_unique<ContactSearch>(model, settings);
 }
 
 State Stepper::initial() {
   State state;
   state.y = initial_state(model_);
-  state.next_step = model_.scenario.integrator.step;
+  state.next_step = settings_.step;
   state.next_margin = model_.detection_margin;
   state.stiffening = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(model_.contacts.size()));
   restart(state);
@@ -94,14 +95,14 @@ void Stepper::find_contacts(const Configuration& where, double margin) {
 
 /// What the last step's detection found will do for one that ends about here.
 bool Stepper::is_still_found(const Configuration& end) const {
-  if (!model_.scenario.detection.lagged || !search_ || !found_in_step_) return false;
+  if (!settings_.detection.lagged || !search_ || !found_in_step_) return false;
   constexpr double kPartOfMargin = 0.25;  // half of it covers a step, which may end elsewhere
   const double most = kPartOfMargin * search_->margin();
   return search_->motion_since(start_) <= most && search_->motion_since(end) <= most;
 }
 
 void Stepper::step(State& state, double t_target) {
-  const double nominal = model_.scenario.integrator.step;
+  const double nominal = settings_.step;
   const double remaining = t_target - state.t;
   const bool free_steps = integrator_ && integrator_->next_step();
   double h = std::min(free_steps ? nominal : std::min(state.next_step, nominal), remaining);
@@ -119,7 +120,7 @@ void Stepper::step(State& state, double t_target) {
   for (;;) {
     if (try_step(state, tried)) break;
     tried *= 0.5;
-    if (tried < model_.scenario.integrator.min_step) fail(state, tried);
+    if (tried < settings_.min_step) fail(state, tried);
   }
   if (last && state.t - t_start >= remaining * (1 - 1e-12)) state.t = t_target;
   if (free_steps)
@@ -184,7 +185,7 @@ bool Stepper::try_time_step(State& state, double h) {
   // Implicit Euler and BDF need contacts where the step ends: they are looked for where everything
   // will be if it moves on as now. A scheme with stages between needs them on the whole way, and
   // looks from its middle.
-  const Integrator::Scheme scheme = model_.scenario.integrator.scheme;
+  const Integrator::Scheme scheme = settings_.scheme;
   const bool only_end =
       scheme == Integrator::Scheme::ImplicitEuler || scheme == Integrator::Scheme::Bdf;
   const Configuration end = predicted(model_, start_, h);
@@ -340,8 +341,8 @@ void Stepper::stop_where_energy_is_made(const State& state) const {
   const double kinetic = dynamics_->kinetic_energy();
   const double given = ledger.start - dynamics_->gravity_energy() + std::abs(ledger.muscle_work) +
                        std::abs(ledger.load_work) + std::abs(ledger.motion_work);
-  const double floor =
-      kFarFromTolerance * energy_of_tolerance(model_) + kOfLedger * turned_over(state);
+  const double floor = kFarFromTolerance * energy_of_tolerance(model_, settings_.step) +
+                       kOfLedger * turned_over(state);
   const double source = std::max(given, 0.0);
   std::string what;
   if (kinetic > kMost * source + floor)

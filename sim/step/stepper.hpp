@@ -31,14 +31,14 @@ enum class Rejection { NoConvergence, NoEquilibrium, TooFast, NotFinite };
 /// Scratch memory, trees, integrator and factors for one model.
 class Stepper {
  public:
-  explicit Stepper(const Model& model);
+  Stepper(const Model& model, const StepSettings& settings);
 
   State initial();
 
   /// One step of Listing 1.5.1 towards t_target: find contacts, advance (or, in a static analysis,
   /// find equilibrium under the loads of its end), check, account. Halves the step as often as
   /// needed.
-  /// @throws SimulationError when the step would get smaller than the scenario's least one
+  /// @throws SimulationError when the step would get smaller than the settings' least one
   void step(State& state, double t_target);
 
   /// Of a static analysis: told of each iteration, see Equilibrium. step() then throws Interruption
@@ -50,6 +50,7 @@ class Stepper {
   /// A restart point: drops everything that a run resumed from `state` would not have.
   void restart(const State& state);
 
+  const StepSettings& settings() const { return settings_; }
   /// Forces, lines and contacts at the state of the last step() or restart().
   const Dynamics& dynamics() const { return *dynamics_; }
   StoredEnergy stored_energy() const;
@@ -77,6 +78,7 @@ class Stepper {
   [[noreturn]] void fail(const State& state, double h);
 
   const Model& model_;
+  const StepSettings settings_;
   std::unique_ptr<ContactSearch> search_;
   std::unique_ptr<Dynamics> dynamics_;
   std::unique_ptr<TimeIntegrator> integrator_;  // dynamic analysis

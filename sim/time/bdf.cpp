@@ -23,7 +23,7 @@ struct FreeCvode {
 
 class Bdf final : public TimeIntegrator {
  public:
-  Bdf(const Model& model, Dynamics& dynamics);
+  Bdf(const Model& model, Dynamics& dynamics, const StepSettings& settings);
   std::optional<double> advance(Eigen::VectorXd& y, double t, double h) override;
   void restart(double next_step) override {
     newton_.restart();
@@ -43,6 +43,7 @@ class Bdf final : public TimeIntegrator {
 
   const Model& model_;
   Dynamics& dynamics_;
+  const double longest_step_;  // [s]
   NewtonSystem newton_;
   SolverCounts counts_;
   double next_step_ = 0;          // [s]
@@ -74,7 +75,7 @@ int Bdf::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realty
 
 int Bdf::weights(N_Vector, N_Vector w, void* data) {
   const auto& self = *static_cast<const Bdf*>(data);
-  set_weights(self.model_, self.model_.scenario.integrator.step, view(w));
+  set_weights(self.model_, self.longest_step_, view(w));
   return 0;
 }
 
@@ -91,9 +92,10 @@ int Bdf::project(realtype, N_Vector y, N_Vector correction, realtype, N_Vector, 
   return 0;
 }
 
-Bdf::Bdf(const Model& model, Dynamics& dynamics)
+Bdf::Bdf(const Model& model, Dynamics& dynamics, const StepSettings& settings)
     : model_(model),
       dynamics_(dynamics),
+      longest_step_(settings.step),
       newton_(model, dynamics),
       context_(sundials::make_context()),
       y_(sundials::make_vector(model.layout.size(), context_)),
@@ -106,9 +108,8 @@ Bdf::Bdf(const Model& model, Dynamics& dynamics)
   check(CVodeSetUserData(cvode, this), "CVodeSetUserData");
   check(CVodeWFtolerances(cvode, weights), "CVodeWFtolerances");
   check(CVodeSetLinearSolver(cvode, solver_.get(), nullptr), "CVodeSetLinearSolver");
-  check(CVodeSetMaxNonlinIters(cvode, model.scenario.integrator.max_iterations),
-        "CVodeSetMaxNonlinIters");
-  check(CVodeSetMaxStep(cvode, model.scenario.integrator.step), "CVodeSetMaxStep");
+  check(CVodeSetMaxNonlinIters(cvode, settings.max_iterations), "CVodeSetMaxNonlinIters");
+  check(CVodeSetMaxStep(cvode, longest_step_), "CVodeSetMaxStep");
   // Orders 3 to 5 amplify oscillations near the imaginary axis, and tissue is hardly damped.
   check(CVodeSetMaxOrd(cvode, 2), "CVodeSetMaxOrd");
   if (model.layout.num_rigid > 0) {
@@ -160,8 +161,9 @@ std::optional<double> Bdf::advance(Eigen::VectorXd& y, double t, double h) {
 
 }  // namespace
 
-std::unique_ptr<TimeIntegrator> make_bdf(const Model& model, Dynamics& dynamics) {
-  return std::make_unique<Bdf>(model, dynamics);
+std::unique_ptr<TimeIntegrator> make_bdf(const Model& model, Dynamics& dynamics,
+                                         const StepSettings& settings) {
+  return std::make_unique<Bdf>(model, dynamics, settings);
 }
 
 }  // namespace articular::sim

@@ -18,7 +18,8 @@ constexpr ARKODE_ERKTableID kTable = ARKODE_BOGACKI_SHAMPINE_4_2_3;
 
 class ExplicitRungeKutta final : public TimeIntegrator {
  public:
-  ExplicitRungeKutta(const Model& model, Dynamics& dynamics, ExplicitSteps steps);
+  ExplicitRungeKutta(const Model& model, Dynamics& dynamics, const StepSettings& settings,
+                     ExplicitSteps steps);
   std::optional<double> advance(Eigen::VectorXd& y, double t, double h) override;
   void restart(double next_step) override { next_step_ = next_step; }
   std::optional<double> next_step() const override {
@@ -33,6 +34,7 @@ class ExplicitRungeKutta final : public TimeIntegrator {
 
   const Model& model_;
   Dynamics& dynamics_;
+  const double longest_step_;  // [s]
   const bool fixed_;
   SolverCounts counts_;
   double next_step_ = 0;  // [s]
@@ -51,13 +53,15 @@ int ExplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data)
 /// stability, whose limit has nothing to do with the accuracy that is asked for.
 int ExplicitRungeKutta::weights(N_Vector, N_Vector w, void* data) {
   const auto& self = *static_cast<const ExplicitRungeKutta*>(data);
-  set_weights(self.model_, self.model_.scenario.integrator.step, view(w));
+  set_weights(self.model_, self.longest_step_, view(w));
   return 0;
 }
 
-ExplicitRungeKutta::ExplicitRungeKutta(const Model& model, Dynamics& dynamics, ExplicitSteps steps)
+ExplicitRungeKutta::ExplicitRungeKutta(const Model& model, Dynamics& dynamics,
+                                       const StepSettings& settings, ExplicitSteps steps)
     : model_(model),
       dynamics_(dynamics),
+      longest_step_(settings.step),
       fixed_(steps == ExplicitSteps::Fixed),
       context_(sundials::make_context()),
       y_(sundials::make_vector(model.layout.size(), context_)),
@@ -70,7 +74,7 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Model& model, Dynamics& dynamics, E
   check(ARKStepWFtolerances(arkode, weights), "ARKStepWFtolerances");
   check(ARKStepSetTableNum(arkode, ARKODE_DIRK_NONE, kTable), "ARKStepSetTableNum");
   if (fixed_) return;
-  check(ARKStepSetMaxStep(arkode, model.scenario.integrator.step), "ARKStepSetMaxStep");
+  check(ARKStepSetMaxStep(arkode, longest_step_), "ARKStepSetMaxStep");
 }
 
 std::optional<double> ExplicitRungeKutta::advance(Eigen::VectorXd& y, double t, double h) {
@@ -115,8 +119,9 @@ std::optional<double> ExplicitRungeKutta::advance(Eigen::VectorXd& y, double t, 
 }  // namespace
 
 std::unique_ptr<TimeIntegrator> make_explicit_runge_kutta(const Model& model, Dynamics& dynamics,
+                                                          const StepSettings& settings,
                                                           ExplicitSteps steps) {
-  return std::make_unique<ExplicitRungeKutta>(model, dynamics, steps);
+  return std::make_unique<ExplicitRungeKutta>(model, dynamics, settings, steps);
 }
 
 std::vector<double> explicit_growth() {

@@ -35,7 +35,7 @@ constexpr double kDivergenceRatio = 1e3;
 
 class ImplicitRungeKutta final : public TimeIntegrator {
  public:
-  ImplicitRungeKutta(const Model& model, Dynamics& dynamics);
+  ImplicitRungeKutta(const Model& model, Dynamics& dynamics, const StepSettings& settings);
   std::optional<double> advance(Eigen::VectorXd& y, double t, double h) override;
   void restart(double) override {
     newton_.restart();
@@ -62,6 +62,7 @@ class ImplicitRungeKutta final : public TimeIntegrator {
 
   const Model& model_;
   Dynamics& dynamics_;
+  const Integrator::Scheme scheme_;
   NewtonSystem newton_;
   SolverCounts counts_;
   double step_ = 0;     // [s] being tried
@@ -158,9 +159,11 @@ void set_scheme(void* arkode, Integrator::Scheme scheme) {
   check(ARKStepSetTableNum(arkode, table, ARKODE_ERK_NONE), "ARKStepSetTableNum");
 }
 
-ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics)
+ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics,
+                                       const StepSettings& settings)
     : model_(model),
       dynamics_(dynamics),
+      scheme_(settings.scheme),
       newton_(model, dynamics),
       has_stiff_contact_(std::any_of(
           model.contacts.begin(), model.contacts.end(),
@@ -176,7 +179,7 @@ ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics)
   check(ARKStepSetErrHandlerFn(arkode, sundials::ignore_message, nullptr),
         "ARKStepSetErrHandlerFn");
   check(ARKStepSetUserData(arkode, this), "ARKStepSetUserData");
-  set_scheme(arkode, model.scenario.integrator.scheme);
+  set_scheme(arkode, scheme_);
   check(ARKStepWFtolerances(arkode, weights), "ARKStepWFtolerances");
   check(ARKStepSetNonlinearSolver(arkode, nonlinear_.get()), "ARKStepSetNonlinearSolver");
   check(SUNNonlinSolSetConvTestFn(nonlinear_.get(), is_converged, this),
@@ -184,8 +187,7 @@ ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics)
   check(ARKStepSetLinearSolver(arkode, solver_.get(), nullptr), "ARKStepSetLinearSolver");
   // Else ARKODE takes small residuals for solved and leaves the correction at zero.
   check(ARKStepSetEpsLin(arkode, kLeastResidual), "ARKStepSetEpsLin");
-  check(ARKStepSetMaxNonlinIters(arkode, model.scenario.integrator.max_iterations),
-        "ARKStepSetMaxNonlinIters");
+  check(ARKStepSetMaxNonlinIters(arkode, settings.max_iterations), "ARKStepSetMaxNonlinIters");
   check(ARKStepSetMaxConvFails(arkode, 1), "ARKStepSetMaxConvFails");
   check(ARKStepSetNonlinConvCoef(arkode, kNewtonFraction), "ARKStepSetNonlinConvCoef");
   // The stage's own rate, (z − y)/γ, and not f(z): a remaining error in z would come out amplified
@@ -275,16 +277,16 @@ std::optional<double> ImplicitRungeKutta::advance(Eigen::VectorXd& y, double t, 
   y = view(y_);
   for (int r = 0; r < model_.layout.num_rigid; ++r)
     y.segment<4>(model_.layout.rigid_q(r)).normalize();
-  if (model_.scenario.integrator.scheme == Integrator::Scheme::ImplicitEuler)
-    keep_angular_momentum(model_, before, h, y);
+  if (scheme_ == Integrator::Scheme::ImplicitEuler) keep_angular_momentum(model_, before, h, y);
   acceleration_ = mean_acceleration(before, y, h);
   return t + h;
 }
 
 }  // namespace
 
-std::unique_ptr<TimeIntegrator> make_implicit_runge_kutta(const Model& model, Dynamics& dynamics) {
-  return std::make_unique<ImplicitRungeKutta>(model, dynamics);
+std::unique_ptr<TimeIntegrator> make_implicit_runge_kutta(const Model& model, Dynamics& dynamics,
+                                                          const StepSettings& settings) {
+  return std::make_unique<ImplicitRungeKutta>(model, dynamics, settings);
 }
 
 }  // namespace articular::sim

@@ -5,14 +5,15 @@
 
 namespace articular::sim {
 
-std::unique_ptr<TimeIntegrator> make_time_integrator(const Model& model, Dynamics& dynamics) {
-  switch (model.scenario.integrator.scheme) {
+std::unique_ptr<TimeIntegrator> make_time_integrator(const Model& model, Dynamics& dynamics,
+                                                     const StepSettings& settings) {
+  switch (settings.scheme) {
     case Integrator::Scheme::Bdf:
-      return make_bdf(model, dynamics);
+      return make_bdf(model, dynamics, settings);
     case Integrator::Scheme::Explicit:
-      return make_explicit_runge_kutta(model, dynamics);
+      return make_explicit_runge_kutta(model, dynamics, settings);
     default:
-      return make_implicit_runge_kutta(model, dynamics);
+      return make_implicit_runge_kutta(model, dynamics, settings);
   }
 }
 

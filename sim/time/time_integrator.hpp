@@ -8,6 +8,7 @@
 #include "sim/assembly/dynamics.hpp"
 #include "sim/base/error.hpp"
 #include "sim/model/state.hpp"
+#include "sim/model/step_settings.hpp"
 
 namespace articular::sim {
 
@@ -42,8 +43,9 @@ class TimeIntegrator {
   std::function<bool()> is_to_stop_;
 };
 
-/// The scheme that the scenario asks for: implicit Runge–Kutta at fixed step and explicit ones by
+/// The scheme that the settings ask for: implicit Runge–Kutta at fixed step and explicit ones by
 /// ARKODE, BDF by CVODE.
-std::unique_ptr<TimeIntegrator> make_time_integrator(const Model& model, Dynamics& dynamics);
+std::unique_ptr<TimeIntegrator> make_time_integrator(const Model& model, Dynamics& dynamics,
+                                                     const StepSettings& settings);
 
 }  // namespace articular::sim

@@ -23,7 +23,7 @@ ScenarioResults run_changed(const std::string& file, const std::vector<std::stri
   change(scenario);
   sim::RunOptions options;
   options.directory = folder.path() / "out";
-  sim::run(sim::build_model(scenario), options);
+  sim::run(scenario, sim::build_model(scenario), options);
   return ScenarioResults(options.directory);
 }
 

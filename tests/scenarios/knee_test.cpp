@@ -27,7 +27,7 @@ ScenarioResults coarse_knee(const std::string& file, const std::vector<std::stri
   }
   sim::RunOptions options;
   options.directory = folder.path() / "out";
-  sim::run(sim::build_model(scenario), options);
+  sim::run(scenario, sim::build_model(scenario), options);
   return ScenarioResults(options.directory);
 }
 
@@ -149,7 +149,7 @@ TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
       body.mesh->path = folder.path() / "meshes" / body.mesh->path.filename();
   sim::RunOptions options;
   options.directory = folder.path() / "out";
-  sim::run(sim::build_model(scenario), options);
+  sim::run(scenario, sim::build_model(scenario), options);
   const ScenarioResults results(options.directory);
   EXPECT_EQ(results.summary().at("outcome"), "finished");
   const double load = 100;  // [N]

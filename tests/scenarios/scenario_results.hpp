@@ -61,11 +61,11 @@ class ScenarioResults {
 inline ScenarioResults run_scenario(const std::string& file,
                                     const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;
-  const sim::Model model = sim::build_model(sim::read_scenario(
-      std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios" / file, overrides));
+  const sim::Scenario scenario = sim::read_scenario(
+      std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios" / file, overrides);
   sim::RunOptions options;
   options.directory = folder.path();
-  sim::run(model, options);
+  sim::run(scenario, sim::build_model(scenario), options);
   return ScenarioResults(folder.path());
 }
 

@@ -69,9 +69,9 @@ Json explain_body(const sim::Model& model, const sim::BodyModel& body) {
   return json;
 }
 
-Json linear_solver(const sim::Model& model) {
-  if (!sim::needs_linear_solver(model)) return nullptr;
-  const fem::SolverChoice choice = sim::choose_linear_solver(model);
+Json linear_solver(const sim::Model& model, sim::Integrator::Scheme scheme) {
+  if (!sim::needs_linear_solver(model, scheme)) return nullptr;
+  const fem::SolverChoice& choice = model.linear_solver;
   return {{"name", sim::name_of(choice.kind)}, {"reason", choice.reason}};
 }
 
@@ -83,7 +83,7 @@ bool any(const Items& items, Has&& has) {
 /// What a scene does not have, and therefore does not pay for; then what we do not model at all.
 Json left_out(const sim::Model& model) {
   Json items = Json::array();
-  if (model.scenario.analysis == sim::Scenario::Analysis::Static)
+  if (model.is_static)
     items.push_back("inertia, dampers: the analysis is static (masses but for weight)");
   for (const sim::BodyModel& body : model.bodies) {
     if (body.rigid >= 0 && !model.rigid_bodies[static_cast<std::size_t>(body.rigid)].unknown)
@@ -155,14 +155,14 @@ std::string promise(const sim::Scenario& scenario) {
          " (scenarios/mandible/RESULTS.md), as far as the scenario's own keys leave it";
 }
 
-Json explain(const sim::Model& model) {
+Json explain(const sim::Scenario& scenario, const sim::Model& model) {
   Json bodies = Json::array(), pairs = Json::array();
   for (const sim::BodyModel& body : model.bodies) bodies.push_back(explain_body(model, body));
   for (const sim::ContactModel& contact : model.contacts)
     pairs.push_back({{"a", model.bodies[static_cast<std::size_t>(contact.a)].name},
                      {"b", model.bodies[static_cast<std::size_t>(contact.b)].name},
                      {"stiffness_Pa_per_m", contact.mean_stiffness}});
-  return {{"title", model.scenario.title},
+  return {{"title", scenario.title},
           {"bodies", bodies},
           {"contact_pairs", pairs},
           {"muscles", model.muscles.size()},
@@ -171,9 +171,9 @@ Json explain(const sim::Model& model) {
           {"gravity", !model.gravity.isZero(0)},
           {"unknown_velocities", 3 * model.layout.num_unknown_blocks()},
           {"muscle_activations", model.layout.num_muscles},
-          {"linear_solver", linear_solver(model)},
-          {"promise", promise(model.scenario)},
-          {"settings", Json::parse(model.scenario.settings_json)},
+          {"linear_solver", linear_solver(model, scenario.integrator.scheme)},
+          {"promise", promise(scenario)},
+          {"settings", Json::parse(scenario.settings_json)},
           {"left_out", left_out(model)},
           {"warnings", model.warnings}};
 }
@@ -266,12 +266,12 @@ void add_explain_command(CLI::App& app, int& exit_code) {
                     "times where things are at the start");
   command->callback([arguments, &exit_code] {
     const double before = heap_in_use();
-    const sim::Model model =
-        sim::build_model(sim::read_scenario(arguments->scenario, arguments->overrides));
+    const sim::Scenario scenario = sim::read_scenario(arguments->scenario, arguments->overrides);
+    const sim::Model model = sim::build_model(scenario);
     const double model_bytes = heap_in_use() - before;
-    Json json = explain(model);
+    Json json = explain(scenario, model);
     if (arguments->costs) {
-      const SceneCosts costs = measure_costs(model);
+      const SceneCosts costs = measure_costs(model, sim::step_settings(scenario));
       json["costs"] = costs_as_json(costs, 3 * model.layout.num_unknown_blocks(), model_bytes);
       json["costs"]["estimated_memory_MB"] = costs.peak_bytes / 1e6;
     }

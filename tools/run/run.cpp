@@ -74,7 +74,7 @@ int run_scenario(const RunArguments& arguments) {
   std::signal(SIGTERM, [](int) { interrupted = true; });
   sim::RunOutcome outcome = sim::RunOutcome::Finished;
   try {
-    outcome = sim::run(model, options);
+    outcome = sim::run(scenario, model, options);
   } catch (...) {
     progress.finish();
     throw;

@@ -47,7 +47,8 @@ int free_nodes(const sim::Tissue& tissue) {
 
 class Measurement {
  public:
-  explicit Measurement(const sim::Model& model) : model_(model), y_(sim::initial_state(model)) {}
+  Measurement(const sim::Model& model, const sim::StepSettings& settings)
+      : model_(model), settings_(settings), y_(sim::initial_state(model)) {}
 
   SceneCosts costs() {
     sim::read_state(model_, y_.data(), 0, now_);
@@ -76,10 +77,10 @@ class Measurement {
   }
 
  private:
-  bool in_time() const { return model_.scenario.analysis == sim::Scenario::Analysis::Dynamic; }
+  bool in_time() const { return !model_.is_static; }
 
   void measure_detection() {
-    search_.emplace(model_);
+    search_.emplace(model_, settings_);
     search_->find(now_, model_.detection_margin);
     const sim::EvaluationCounts& once = search_->counts().evaluations;
     costs_.compared_pairs = once[sim::Term::BoxTest];
@@ -227,8 +228,10 @@ class Measurement {
   }
 
   void measure_linear_solver(sim::Dynamics& dynamics) {
-    if (!sim::needs_linear_solver(model_) || model_.layout.num_unknown_blocks() == 0) return;
-    const double h = model_.scenario.integrator.step;
+    if (!sim::needs_linear_solver(model_, settings_.scheme) ||
+        model_.layout.num_unknown_blocks() == 0)
+      return;
+    const double h = settings_.step;
     // In statics what nothing holds yet would make it singular: masses stand in for contact.
     const sim::SystemScale scale{1, h, h * h, h};
     costs_.assembly_seconds = seconds_of([&] { dynamics.matrix(scale, fem::Tangent::Projected); });
@@ -255,6 +258,7 @@ class Measurement {
   }
 
   const sim::Model& model_;
+  const sim::StepSettings& settings_;
   Eigen::VectorXd y_;
   sim::Configuration now_;
   std::optional<sim::ContactSearch> search_;
@@ -268,6 +272,8 @@ double heap_in_use() {
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-SceneCosts measure_costs(const sim::Model& model) { return Measurement(model).costs(); }
+SceneCosts measure_costs(const sim::Model& model, const sim::StepSettings& settings) {
+  return Measurement(model, settings).costs();
+}
 
 }  // namespace articular::tools

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/model/model.hpp"
+#include "sim/model/step_settings.hpp"
 
 namespace articular::tools {
 
@@ -39,7 +40,7 @@ struct SceneCosts {
   }
 };
 
-SceneCosts measure_costs(const sim::Model& model);
+SceneCosts measure_costs(const sim::Model& model, const sim::StepSettings& settings);
 
 /// Bytes of heap in use by this process.
 double heap_in_use();

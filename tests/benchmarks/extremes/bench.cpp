@@ -56,8 +56,9 @@ ProgramRun Bench::run_from(
     const std::function<void(const sim::Model&, sim::State&)>& change) const {
   const fs::path file = folder_ / (name + ".toml");
   std::ofstream(file) << scenario;
-  const sim::Model model = sim::build_model(sim::read_scenario(file));
-  sim::Stepper stepper(model);
+  const sim::Scenario given = sim::read_scenario(file);
+  const sim::Model model = sim::build_model(given);
+  sim::Stepper stepper(model, sim::step_settings(given));
   sim::State state = stepper.initial();
   change(model, state);
   stepper.restart(state);
@@ -65,7 +66,7 @@ ProgramRun Bench::run_from(
   sim::note_extrema(model, stepper.dynamics(), state);
   const fs::path checkpoint = folder_ / name / "checkpoint";
   fs::create_directories(checkpoint);
-  sim::write_checkpoint(checkpoint / "state.bin", state, sim::fingerprint(model));
+  sim::write_checkpoint(checkpoint / "state.bin", state, sim::fingerprint(given, model));
   return start({"--resume"}, name, limit);
 }
 

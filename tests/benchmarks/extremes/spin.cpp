@@ -40,9 +40,10 @@ SpinDrift spin_drift(const Bench& bench, const std::string& name, double step, d
           density(1000) + "angular_velocity = \"60 50 60 rad/s\"\n");
   SpinDrift drift{.run = bench.run(name, scene, 600)};
   if (drift.run.exit_code != 0) return drift;
-  const sim::Model model = sim::build_model(sim::read_scenario(bench.folder() / (name + ".toml")));
-  const auto state =
-      sim::read_checkpoint(drift.run.results / "checkpoint" / "state.bin", sim::fingerprint(model));
+  const sim::Scenario scenario = sim::read_scenario(bench.folder() / (name + ".toml"));
+  const sim::Model model = sim::build_model(scenario);
+  const auto state = sim::read_checkpoint(drift.run.results / "checkpoint" / "state.bin",
+                                          sim::fingerprint(scenario, model));
   if (!state) throw std::runtime_error("the run left no checkpoint");
   const Spin start = spin_of(model, sim::initial_state(model)), end = spin_of(model, state->y);
   drift.energy = end.energy / start.energy - 1;

@@ -151,8 +151,6 @@ Scene::Scene(const StudyOptions& options) : scenario_(scene(1)), element_(option
   scenario_.contact = true;
   scenario_.integrator.position_tolerance.reset();
   scenario_.integrator.min_step = 1 / kMostCuts;
-  scenario_.output.length_unit = 1;
-  scenario_.output.length_unit_name = "m";
 }
 
 Body Scene::meshed(const std::string& name, const MeshData& mesh) {
@@ -212,7 +210,9 @@ void Scene::touch(const std::string& a, const std::string& b) {
 }
 
 ContactRun::ContactRun(const Scene& scene, const StudyOptions& options)
-    : model_(model_of(scene, options)), stepper_(model_), state_(stepper_.initial()) {}
+    : model_(model_of(scene, options)),
+      stepper_(model_, step_settings(scene.scenario())),
+      state_(stepper_.initial()) {}
 
 void ContactRun::step(double t) {
   const auto start = std::chrono::steady_clock::now();
@@ -239,7 +239,7 @@ Costs ContactRun::costs() const {
 }
 
 ContactValues ContactRun::contact() const {
-  History history(model_);
+  History history(model_, {1, "m"});
   history.record(state_, stepper_);
   const auto value = [&](const std::string& start) {
     for (std::size_t i = 0; i < history.columns().size(); ++i)

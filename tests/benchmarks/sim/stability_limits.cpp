@@ -69,11 +69,12 @@ double energy(Dynamics& dynamics, const Eigen::VectorXd& y, double t) {
 }
 
 /// Whether, let go a little out of shape, there ever is more than there was.
-bool makes_energy(const Model& model, double h) {
+bool makes_energy(const Scenario& scenario, double h) {
   constexpr int kSteps = 100;
   constexpr double kRoundOff = 1e-6;
+  const Model model = build_model(scenario);
   Dynamics dynamics(model);
-  const auto integrator = make_time_integrator(model, dynamics);
+  const auto integrator = make_time_integrator(model, dynamics, step_settings(scenario));
   Eigen::VectorXd y = initial_state(model);
   Random random(3);
   const int num_positions = 3 * model.layout.num_free_nodes;
@@ -94,7 +95,7 @@ double first_that_grows(const Bar& bar, Scheme scheme, double limit) {
     s.integrator.scheme = scheme;
     s.integrator.step = times * limit;
     s.integrator.position_tolerance = 1e-13;
-    if (makes_energy(build_model(s), times * limit)) return times;
+    if (makes_energy(s, times * limit)) return times;
   }
   return 0;
 }

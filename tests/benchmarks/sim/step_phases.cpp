@@ -34,14 +34,15 @@ std::uint64_t hash_of(const Eigen::VectorXd& y) {
 void print(const char* name, double value) { std::printf("%s,%.4f\n", name, value); }
 
 int measure(const std::string& file, int steps, const std::vector<std::string>& overrides) {
-  const sim::Model model = sim::build_model(sim::read_scenario(file, overrides));
-  sim::Stepper stepper(model);
+  const sim::Scenario scenario = sim::read_scenario(file, overrides);
+  const sim::Model model = sim::build_model(scenario);
+  sim::Stepper stepper(model, sim::step_settings(scenario));
   sim::State state = stepper.initial();
   const double setup_solve = stepper.times().solve;
   const auto wall_start = std::chrono::steady_clock::now();
   const std::clock_t cpu_start = std::clock();
-  while (state.counts.steps < steps && state.t < model.scenario.duration)
-    stepper.step(state, model.scenario.duration);
+  while (state.counts.steps < steps && state.t < scenario.duration)
+    stepper.step(state, scenario.duration);
   const double n = static_cast<double>(state.counts.steps);
   const std::chrono::duration<double, std::milli> wall =
       std::chrono::steady_clock::now() - wall_start;

@@ -83,10 +83,9 @@ Eigen::VectorXd random_state(const Model& model, double amplitude, double speed,
 
 /// The scene's forces with the contact candidates of its start.
 struct Forces {
-  Forces(Scenario scenario, double margin)
-      : model(build_model(std::move(scenario))), dynamics(model) {
+  Forces(const Scenario& scenario, double margin) : model(build_model(scenario)), dynamics(model) {
     if (model.contacts.empty()) return;
-    search = std::make_unique<ContactSearch>(model);
+    search = std::make_unique<ContactSearch>(model, step_settings(scenario));
     Configuration start;
     read_state(model, initial_state(model).data(), 0, start);
     search->find(start, margin);
@@ -290,7 +289,7 @@ TEST(Dynamics, TheNewtonSystemSolvesWithTheJacobianOfTheRate) {
   const Eigen::VectorXd b = x - gamma / (2 * e) * (rate(y + e * x) - rate(y - e * x));
 
   scene.at(y);
-  NewtonSystem newton(model, scene.dynamics);
+  NewtonSystem newton(model, scene.dynamics, 1);
   SolverCounts counts;
   Eigen::VectorXd solved(y.size());
   ASSERT_TRUE(newton.solve(y.data(), gamma, b.data(), solved.data(), counts));

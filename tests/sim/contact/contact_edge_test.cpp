@@ -24,7 +24,7 @@ ContactSummary passed_edges(double across, double down, int finer) {
   const Eigen::VectorXd y = initial_state(model);
   Configuration now;
   read_state(model, y.data(), 0, now);
-  ContactSearch search(model);
+  ContactSearch search(model, {});
   search.find(now, 0.01 * kSide);
   ContactResponse response(model);
   response.evaluate(now, search.candidates());

@@ -228,7 +228,7 @@ Scenario stack(double friction, double damping) {
 /// @param jitter  of velocities [m/s]
 struct Forces {
   explicit Forces(const Model& model, double jitter = 0.01)
-      : dynamics(model), search(model), y(initial_state(model)) {
+      : dynamics(model), search(model, {}), y(initial_state(model)) {
     Random random(2);
     const int first = model.layout.velocities(), n = 3 * model.layout.num_unknown_blocks();
     y.segment(first, n) += jitter * random.vector(n);

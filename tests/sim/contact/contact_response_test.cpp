@@ -24,7 +24,7 @@ struct SunkBlock {
   explicit SunkBlock(const Vec3& center = {0.1, 0.07, 0.96}, double uneven = 0.005)
       : SunkBlock(scenario(center), uneven) {}
   SunkBlock(const Scenario& scenario, double uneven)
-      : model(build_model(scenario)), search(model), response(model) {
+      : model(build_model(scenario)), search(model, {}), response(model) {
     Random random(1);
     y = initial_state(model);
     y.head(3 * model.layout.num_free_nodes) +=

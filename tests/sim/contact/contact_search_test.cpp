@@ -23,10 +23,10 @@ TEST(ContactSearch, WhatLiesDeepInsideTheNonMortarSideIsACandidateOfItsFaces) {
   for (const Detection::Tree tree : {Detection::Tree::Blocks, Detection::Tree::Buckets}) {
     Scenario scenario = swallowed();
     scenario.detection.tree = tree;
-    const Model model = build_model(std::move(scenario));
+    const Model model = build_model(scenario);
     ASSERT_EQ(model.contacts.size(), 1U);
     ASSERT_FALSE(model.contacts[0].reversed);  // the block's triangles look for the seed's faces
-    ContactSearch search(model);
+    ContactSearch search(model, step_settings(scenario));
     Configuration now;
     read_state(model, initial_state(model).data(), 0, now);
     search.find(now, model.detection_margin);

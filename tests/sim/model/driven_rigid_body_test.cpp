@@ -464,13 +464,14 @@ using DrivenBoneFile = ScenarioTest;
 
 TEST_F(DrivenBoneFile, AnInterruptedRunGivesTheSameFilesBitForBit) {
   for (const char* analysis : {"dynamic", "static"}) {
-    const Model model = build_model(read(kDriven + kTurn, {"analysis=" + std::string(analysis)}));
+    const Scenario s = read(kDriven + kTurn, {"analysis=" + std::string(analysis)});
+    const Model model = build_model(s);
     const auto run_to = [&](double until, const std::string& name, bool resume) {
       RunOptions options;
       options.directory = folder_ / (name + analysis);
       options.resume = resume;
       options.after_step = [until](const State& state, double) { return state.t >= until; };
-      run(model, options);
+      run(s, model, options);
       return options.directory;
     };
     const auto whole = run_to(2, "whole", false);

@@ -100,7 +100,7 @@ void expect_field(vtkPointSet& set, vtkFieldData& data, const Field& field, doub
 TEST(FrameWriter, EveryArrayIsReadBackByVtkWithItsUnit) {
   const TemporaryFolder folder;
   const Scene scene;
-  FrameWriter writer(folder / "run", "opening", kMillimetre, "mm");
+  FrameWriter writer(folder / "run", "opening", {kMillimetre, "mm"});
   scene.write(writer, 123, 0.25);
 
   const auto tissue = read<vtkXMLUnstructuredGridReader>(folder / "run/frames/disc_000123.vtu");
@@ -143,7 +143,7 @@ TEST(FrameWriter, AContactSurfaceHasTheNodesOfItsFacesOnly) {
   faces << 1, 4, 2, 2, 4, 5;  // columns 1 2 4 and 4 2 5
   const Field pressure = random_field("contact_pressure", "Pa", 1, 6);
   const Field gap = random_field("contact_gap", "m", 1, 2);
-  FrameWriter writer(folder.path(), "opening", kMillimetre, "mm");
+  FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
   writer.write_contact_surface({"disc", x, faces, {pressure}, {gap}}, 7, 0.1);
   writer.finish_frame(7, 0.1);
   const std::vector<int> kept = {1, 2, 4, 5};
@@ -165,7 +165,7 @@ TEST(FrameWriter, AContactSurfaceHasTheNodesOfItsFacesOnly) {
 
 TEST(FrameWriter, FilesAreCompressedBinary) {
   const TemporaryFolder folder;
-  FrameWriter writer(folder.path(), "opening", kMillimetre, "mm");
+  FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
   Scene().write(writer, 0, 0);
   const std::string text = content(folder / "frames/disc_000000.vtu");
   EXPECT_NE(text.find("compressor=\"vtkZLibDataCompressor\""), std::string::npos);
@@ -175,7 +175,7 @@ TEST(FrameWriter, FilesAreCompressedBinary) {
 TEST(FrameWriter, AFrameIsListedWhenAllItsPartsAreThere) {
   const TemporaryFolder folder;
   const Scene scene;
-  FrameWriter writer(folder.path(), "opening", kMillimetre, "mm");
+  FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
   scene.write(writer, 0, 0);
   writer.write_tissue(scene.tissue, 1, 0.1);
   EXPECT_EQ(read_series(folder / "opening.pvd").size(), 3U);
@@ -196,10 +196,10 @@ TEST(FrameWriter, AResumedRunContinuesTheSeriesWithoutGapOrDouble) {
   const TemporaryFolder folder;
   const Scene scene;
   {
-    FrameWriter writer(folder.path(), "opening", kMillimetre, "mm");
+    FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
     for (int i = 0; i < 6; ++i) scene.write(writer, i, 0.1 * i);
   }
-  FrameWriter resumed(folder.path(), "opening", kMillimetre, "mm");
+  FrameWriter resumed(folder.path(), "opening", {kMillimetre, "mm"});
   resumed.resume_at(0.3 * (1 - 1e-14));  // 0.1 * 3 is not quite 0.3 either
   EXPECT_EQ(read_series(folder / "opening.pvd").size(), 12U);
   for (int i = 3; i < 8; ++i) scene.write(resumed, i, 0.1 * i);  // frame 3 once more
@@ -213,7 +213,7 @@ TEST(FrameWriter, AResumedRunContinuesTheSeriesWithoutGapOrDouble) {
 
 TEST(FrameWriter, ResumingBeforeTheFirstFrameStartsAnEmptySeries) {
   const TemporaryFolder folder;
-  FrameWriter writer(folder.path(), "opening", kMillimetre, "mm");
+  FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
   writer.resume_at(0);
   Scene().write(writer, 0, 0);
   EXPECT_EQ(read_series(folder / "opening.pvd").size(), 3U);
@@ -221,7 +221,7 @@ TEST(FrameWriter, ResumingBeforeTheFirstFrameStartsAnEmptySeries) {
 
 TEST(FrameWriter, ResumingFromABrokenSeriesIsAnInputError) {
   const TemporaryFolder folder;
-  FrameWriter writer(folder.path(), "opening", kMillimetre, "mm");
+  FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
   for (const std::string text :
        {"", "hello", "<VTKFile></VTKFile>",
         "<VTKFile><Collection><DataSet timestep=\"soon\" file=\"disc_000001.vtu\"/>"
@@ -237,7 +237,7 @@ TEST(FrameWriter, NamesWithMarkupSurviveInTheSeries) {
   const TemporaryFolder folder;
   Scene scene;
   scene.tissue.body = "a<b>&\"c\"";
-  FrameWriter writer(folder.path(), "opening", kMillimetre, "mm");
+  FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
   scene.write(writer, 0, 0);
   EXPECT_EQ(read_series(folder / "opening.pvd")[0].part, scene.tissue.body);
 }
@@ -245,7 +245,7 @@ TEST(FrameWriter, NamesWithMarkupSurviveInTheSeries) {
 TEST(FrameWriter, NamesThatCantBeAFileAreRefused) {
   const TemporaryFolder folder;
   Scene scene;
-  FrameWriter writer(folder.path(), "opening", kMillimetre, "mm");
+  FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
   for (const std::string name : {"", "../disc", "a/b", ".disc"}) {
     scene.tissue.body = name;
     EXPECT_THROW(writer.write_tissue(scene.tissue, 0, 0), InputError) << name;
@@ -257,7 +257,7 @@ TEST(FrameWriter, AFolderThatCantBeMadeIsASystemErrorThatNamesIt) {
   folder.file("plain", "text");
   const std::string below = (folder / "plain/run").string();
   try {
-    const FrameWriter writer(below, "opening", kMillimetre, "mm");
+    const FrameWriter writer(below, "opening", {kMillimetre, "mm"});
     ADD_FAILURE();
   } catch (const SystemError& error) {
     EXPECT_NE(std::string(error.what()).find(below), std::string::npos) << error.what();
@@ -267,7 +267,7 @@ TEST(FrameWriter, AFolderThatCantBeMadeIsASystemErrorThatNamesIt) {
 TEST(FrameWriter, AFrameThatCantBeWrittenIsNotListed) {
   const TemporaryFolder folder;
   const Scene scene;
-  FrameWriter writer(folder.path(), "opening", kMillimetre, "mm");
+  FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
   scene.write(writer, 0, 0);
   std::filesystem::create_symlink("/dev/full", folder / "frames/disc_000001.vtu");
   EXPECT_THROW(scene.write(writer, 1, 0.1), SystemError);

@@ -90,13 +90,14 @@ constexpr double kBetweenCheckpoints = 0.0078125;
 
 // A step at a checkpoint must not know what was before it: a matrix, a pattern that has grown.
 TEST_F(RunTest, ARunResumedWhileContactsComeAndGoIsTheUninterruptedOne) {
-  const Model bouncing = build_model(read_scenario(folder_.file("bouncing.toml", kBouncing)));
+  const Scenario bouncing = read_scenario(folder_.file("bouncing.toml", kBouncing));
+  const Model model = build_model(bouncing);
   const auto run_to = [&](double until, const std::string& name, bool resume) {
     RunOptions options;
     options.directory = out(name);
     options.resume = resume;
     options.after_step = [until](const State& state, double) { return state.t >= until; };
-    run(bouncing, options);
+    run(bouncing, model, options);
   };
   run_to(1, "whole", false);
   const std::string whole = content(out("whole") / "history.csv");
@@ -169,7 +170,8 @@ interval = "0.1 s"
 // In the middle of a load step: what was written is that of the steps before it, energies too, and
 // a resumed run goes on to what it would have been.
 TEST_F(RunTest, ALoadStepIsInterruptedAfterAnyOfItsIterations) {
-  const Model pressed = build_model(read_scenario(folder_.file("pressed.toml", kPressed)));
+  const Scenario pressed = read_scenario(folder_.file("pressed.toml", kPressed));
+  const Model model = build_model(pressed);
   int done = 0;
   const auto run_to = [&](double t, int iteration, const std::string& name, bool resume) {
     int of_step = 0;
@@ -184,7 +186,7 @@ TEST_F(RunTest, ALoadStepIsInterruptedAfterAnyOfItsIterations) {
       ++done;
       return towards > t && ++of_step == iteration;
     };
-    return run(pressed, options);
+    return run(pressed, model, options);
   };
   const auto summary = [&](const std::string& name) {
     return nlohmann::json::parse(content(out(name) / "summary.json"));
@@ -224,7 +226,7 @@ TEST_F(RunTest, AStepIsInterruptedAtAnyOfItsEvaluations) {
       options.directory = out(name);
       int asked = 0;
       options.is_to_stop = [&] { return ++asked == evaluation; };
-      EXPECT_EQ(run(model(overrides), options), RunOutcome::Interrupted);
+      EXPECT_EQ(run_with(options, overrides), RunOutcome::Interrupted);
       EXPECT_EQ(asked, evaluation);
       const std::string history = content(out(name) / "history.csv");
       EXPECT_EQ(whole.substr(0, history.size()), history);
@@ -250,7 +252,7 @@ TEST_F(RunTest, SettlingIsInterruptedAndResumingStartsAfresh) {
     EXPECT_EQ(t, 0);
     return true;
   };
-  EXPECT_EQ(run(model(overlap), options), RunOutcome::Interrupted);
+  EXPECT_EQ(run_with(options, overlap), RunOutcome::Interrupted);
   EXPECT_EQ(split(content(out("parts") / "history.csv"), '\n').size(), 1U);
   EXPECT_FALSE(fs::exists(out("parts") / "scene.pvd"));
   run_all("parts", true, overlap);
@@ -269,7 +271,7 @@ TEST_F(RunTest, SettlingIsToldAndKeptByCheckpoints) {
     options.after_overlap_resolution = [&](const OverlapResolution&) { ++calls; };
     std::vector<std::string> overrides = overlap;
     overrides.insert(overrides.end(), more.begin(), more.end());
-    run(model(overrides), options);
+    run_with(options, overrides);
     return nlohmann::json::parse(content(out(name) / "summary.json"))["settling"];
   };
   const nlohmann::json settling = settled("whole", {});

@@ -194,16 +194,17 @@ TEST_F(RunTest, ARunThatCannotGoOnSaysUntilWhenAndLeavesValidFiles) {
   RunOptions options;
   options.directory = out("run");
   // Two Newton iterations are not enough for contact at these steps.
-  const Model m = model({"integrator.max_iterations=1", "integrator.min_step=0.9 ms",
-                         "integrator.position_tolerance=1e-9 um"});
-  EXPECT_THROW(run(m, options), SimulationError);
+  const std::vector<std::string> overrides = {"integrator.max_iterations=1",
+                                              "integrator.min_step=0.9 ms",
+                                              "integrator.position_tolerance=1e-9 um"};
+  EXPECT_THROW(run_with(options, overrides), SimulationError);
   const auto summary = nlohmann::json::parse(content(out("run") / "summary.json"));
   EXPECT_NE(summary["outcome"].get<std::string>().find("cannot go on at t ="), std::string::npos);
   EXPECT_FALSE(read_series(out("run") / "scene.pvd").empty());
 }
 
 TEST_F(RunTest, StepsEndAtEveryKink) {
-  const std::vector<double> kinks = kink_times(model());
+  const std::vector<double> kinks = kink_times(build_model(scenario()), scenario().duration);
   ASSERT_EQ(kinks.size(), 2U);
   EXPECT_EQ(kinks[0], 0.0153);
   run_all("run");

@@ -238,8 +238,8 @@ TEST_F(CompleteScenario, HasItsSettings) {
   EXPECT_EQ(scenario_.detection.margin, 0.3e-3);
   EXPECT_EQ(scenario_.detection.narrow_test, collision::NarrowTest::Gjk);
   EXPECT_EQ(scenario_.output.interval, 20e-3);
-  EXPECT_EQ(scenario_.output.length_unit, 1e-2);
-  EXPECT_EQ(scenario_.output.length_unit_name, "cm");
+  EXPECT_EQ(scenario_.output.length_unit.metres, 1e-2);
+  EXPECT_EQ(scenario_.output.length_unit.name, "cm");
   EXPECT_EQ(scenario_.output.directory, "out/opening");
   EXPECT_TRUE(scenario_.output.contact_surfaces);
   EXPECT_EQ(scenario_.output.checkpoint_interval, 0.1);

@@ -23,7 +23,7 @@ Scenario block_in_block(double overlap = 7e-3) {
 /// The state of a scene with settling done.
 struct Settled {
   explicit Settled(const Scenario& scenario) : run(scenario), start(run.state.y) {
-    settling = resolve_overlaps(run.model, run.state.y);
+    settling = resolve_overlaps(scenario, run.model, run.state.y);
     run.stepper.restart(run.state);
   }
   Simulation run;
@@ -151,7 +151,7 @@ TEST(OverlapResolution, ABodyThatCannotFindTheWayOutIsRefused) {
               box_body("small", Body::Kind::Tissue, Vec3::Constant(0.01), Vec3::Zero(), {1, 1, 1})};
   Simulation run(s);
   try {
-    resolve_overlaps(run.model, run.state.y);
+    resolve_overlaps(s, run.model, run.state.y);
     FAIL();
   } catch (const SimulationError& error) {
     const std::string message = error.what();

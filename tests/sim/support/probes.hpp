@@ -12,7 +12,7 @@ namespace articular::sim {
 /// What a run's probes say now, by the names of the columns.
 class Probes {
  public:
-  explicit Probes(const Simulation& run) : history_(run.model) {
+  explicit Probes(const Simulation& run) : history_(run.model, {}) {
     history_.record(run.state, run.stepper);
   }
   double operator()(const std::string& name) const {

@@ -89,11 +89,16 @@ checkpoint_interval = "20 ms"
 
 class RunTest : public ::testing::Test {
  protected:
-  Model model(const std::vector<std::string>& overrides = {}) const {
-    return build_model(read_scenario(folder_.file("scene.toml", kScenario), overrides));
+  Scenario scenario(const std::vector<std::string>& overrides = {}) const {
+    return read_scenario(folder_.file("scene.toml", kScenario), overrides);
   }
   fs::path out(const std::string& name) const { return folder_ / name; }
 
+  RunOutcome run_with(const RunOptions& options,
+                      const std::vector<std::string>& overrides = {}) const {
+    const Scenario given = scenario(overrides);
+    return run(given, build_model(given), options);
+  }
   /// Runs until `until`, then as if interrupted.
   RunOutcome run_until(double until, const std::string& name, bool resume,
                        const std::vector<std::string>& overrides = {}) const {
@@ -101,7 +106,7 @@ class RunTest : public ::testing::Test {
     options.directory = out(name);
     options.resume = resume;
     options.after_step = [until](const State& state, double) { return state.t >= until; };
-    return run(model(overrides), options);
+    return run_with(options, overrides);
   }
   RunOutcome run_all(const std::string& name, bool resume = false,
                      const std::vector<std::string>& overrides = {}) const {

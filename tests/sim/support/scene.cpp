@@ -1,7 +1,6 @@
 #include "tests/sim/support/scene.hpp"
 
 #include <memory>
-#include <utility>
 
 #include "fem/material/any_material.hpp"
 #include "sim/build/build_model.hpp"
@@ -87,8 +86,10 @@ Load shift(const std::string& body, double duration, const Vec3& translation) {
   return load;
 }
 
-Simulation::Simulation(Scenario scenario)
-    : model(build_model(std::move(scenario))), stepper(model), state(stepper.initial()) {}
+Simulation::Simulation(const Scenario& scenario)
+    : model(build_model(scenario)),
+      stepper(model, step_settings(scenario)),
+      state(stepper.initial()) {}
 
 namespace {
 

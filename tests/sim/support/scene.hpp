@@ -34,7 +34,7 @@ Load shift(const std::string& body, double duration, const Vec3& translation);
 
 /// A scene's model with what advances it.
 struct Simulation {
-  explicit Simulation(Scenario scenario);
+  explicit Simulation(const Scenario& scenario);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 

@@ -41,7 +41,7 @@ inline bool steps_grow(const Model& model, Dynamics& dynamics, TimeIntegrator& i
 
 inline bool explicit_steps_grow(const Model& model, double h, int steps) {
   Dynamics dynamics(model);
-  const auto integrator = make_explicit_runge_kutta(model, dynamics, ExplicitSteps::Fixed);
+  const auto integrator = make_explicit_runge_kutta(model, dynamics, {}, ExplicitSteps::Fixed);
   return steps_grow(model, dynamics, *integrator, h, steps);
 }
 

@@ -44,7 +44,7 @@ class Environment {
 
 /// A tetrahedron that sinks and is pressed, on a plate, with a muscle and a ligament: three frames.
 void write_run(const std::filesystem::path& folder) {
-  sim::FrameWriter writer(folder, "tiny", 1e-3, "mm");
+  sim::FrameWriter writer(folder, "tiny", {1e-3, "mm"});
   const Tetrahedra tets = Eigen::Vector4i(0, 1, 2, 3);
   const Triangles triangles = Eigen::Vector3i(0, 1, 2);
   Positions plate(3, 3), rest(3, 4);
@@ -380,7 +380,7 @@ TEST(ViewFit, EveryPointIsInsideTheBordersAndTheEyeIsAsNearAsCanBe) {
 
 TEST(NodalValues, ACellFieldIsTheMeanOverTheCellsAtAPointAndAVectorItsLength) {
   const TemporaryFolder run;
-  sim::FrameWriter writer(run.path(), "two", 1, "m");
+  sim::FrameWriter writer(run.path(), "two", {1, "m"});
   const Positions x = Positions::Random(3, 5);
   Tetrahedra tets(4, 2);
   tets << 0, 1, 1, 2, 2, 3, 3, 4;
