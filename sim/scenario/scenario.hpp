@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "collision/narrow/narrow_rule.hpp"
@@ -255,22 +256,60 @@ struct JointSide {
   Vec3 up = Vec3::Zero();
 };
 
+/// Position.
+struct PointProbe {
+  Anchor anchor;
+};
+
+/// Rotation of a rigid body about an axis.
+struct AngleProbe {
+  std::string body;
+  Vec3 axis = Vec3::UnitX();  // unit vector
+};
+
+/// What two bodies, or one with itself, put on each other: as it acts on the first.
+struct ContactProbe {
+  std::string first, second;
+  std::optional<Region> region = {};  // only through this part of the first body's surface
+};
+
+/// Force and length of a muscle or ligament.
+struct LineProbe {
+  std::string line;
+};
+
+/// The energies of the whole scene.
+struct EnergyProbe {};
+
+/// What holds a fixed body, or a rigid one with hold.
+struct ReactionProbe {
+  std::string body;
+};
+
+/// What a tissue puts on a bone by the nodes attached to it.
+struct AttachmentProbe {
+  std::string tissue;
+  std::string bone;
+};
+
+/// The forces of some probes divided by those of others, both along a direction.
+struct ShareProbe {
+  std::vector<std::string> part, whole;  // names of probes with forces
+  Vec3 direction = Vec3::Zero();         // unit vector
+};
+
+/// Joint coordinates of two bodies.
+struct JointProbe {
+  JointSide proximal, distal;
+  bool is_right = true;  // of the right side of the body
+};
+
 struct Probe {
-  enum class Kind { Point, Angle, Contact, Line, Energy, Reaction, Attachment, Share, Joint };
   std::string name;
-  Kind kind = Kind::Point;
-  Anchor anchor;                   // Point
-  std::string body;                // Angle, Reaction, Contact (first body), Attachment (tissue)
-  std::string other;               // Contact: second body; Attachment: the bone
-  std::optional<Region> region;    // Contact: only through this part of the first body's surface
-  Vec3 axis = Vec3::UnitX();       // Angle: rotation of a rigid body about this unit axis [rad]
-  std::string line;                // Line: a muscle or ligament: force and length
-  std::vector<std::string> part;   // Share: probes with forces, of which it divides the sums
-  std::vector<std::string> whole;  // along a direction
-  Vec3 direction = Vec3::Zero();   // unit vector
-  JointSide proximal, distal;      // Joint
-  bool is_right = true;            // Joint: of the right side of the body
-  Location where;
+  std::variant<PointProbe, AngleProbe, ContactProbe, LineProbe, EnergyProbe, ReactionProbe,
+               AttachmentProbe, ShareProbe, JointProbe>
+      what;
+  Location where = {};
 };
 
 struct Integrator {

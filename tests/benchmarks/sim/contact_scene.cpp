@@ -203,12 +203,7 @@ void Scene::drive(const std::string& rigid, const std::vector<Vec3>& places) {
 
 void Scene::touch(const std::string& a, const std::string& b) {
   scenario_.contacts = {{a, b, {}, {}}};
-  Probe probe;
-  probe.name = "contact";
-  probe.kind = Probe::Kind::Contact;
-  probe.body = a;
-  probe.other = b;
-  scenario_.probes = {probe};
+  scenario_.probes = {{"contact", ContactProbe{a, b}}};
 }
 
 ContactRun::ContactRun(const Scene& scene, const StudyOptions& options)

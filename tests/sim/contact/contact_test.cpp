@@ -29,16 +29,7 @@ Scenario press() {
   s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, -0.49 * kSide})};
   s.contacts = {{"plate", "block", kStiffness, {}}};
   s.loads = {shift("plate", 0.2, {0, 0, -kPress})};
-  Probe contact;
-  contact.name = "pressed";
-  contact.kind = Probe::Kind::Contact;
-  contact.body = "block";
-  contact.other = "plate";
-  Probe reaction;
-  reaction.name = "plate";
-  reaction.kind = Probe::Kind::Reaction;
-  reaction.body = "plate";
-  s.probes = {contact, reaction};
+  s.probes = {{"pressed", ContactProbe{"block", "plate"}}, {"plate", ReactionProbe{"plate"}}};
   return s;
 }
 

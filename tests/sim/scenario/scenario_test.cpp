@@ -418,17 +418,20 @@ TEST_F(CompleteScenario, HasItsContactsAndProbes) {
   EXPECT_FALSE(scenario_.contacts[1].slip_velocity);
   EXPECT_EQ(scenario_.contacts[1].damping, 0);
   ASSERT_EQ(scenario_.probes.size(), 7U);
-  EXPECT_EQ(scenario_.probes[0].anchor.body, "mandible");
-  EXPECT_EQ(scenario_.probes[0].anchor.point, Vec3(0, -47e-3, 42e-3));
-  EXPECT_EQ(scenario_.probes[1].body, "mandible");
-  EXPECT_TRUE(scenario_.probes[1].axis.isApprox(Vec3(0, 0.6, 0.8)));
-  EXPECT_EQ(scenario_.probes[2].body, "disc_left");
-  EXPECT_EQ(scenario_.probes[2].other, "mandible");
+  const Anchor& incisor = std::get<PointProbe>(scenario_.probes[0].what).anchor;
+  EXPECT_EQ(incisor.body, "mandible");
+  EXPECT_EQ(incisor.point, Vec3(0, -47e-3, 42e-3));
+  const auto& angle = std::get<AngleProbe>(scenario_.probes[1].what);
+  EXPECT_EQ(angle.body, "mandible");
+  EXPECT_TRUE(angle.axis.isApprox(Vec3(0, 0.6, 0.8)));
+  const auto& contact = std::get<ContactProbe>(scenario_.probes[2].what);
+  EXPECT_EQ(contact.first, "disc_left");
+  EXPECT_EQ(contact.second, "mandible");
   EXPECT_EQ(scenario_.probes[3].name, "pull_left");
-  EXPECT_EQ(scenario_.probes[3].line, "masseter_left");
-  EXPECT_EQ(scenario_.probes[4].line, "masseter_right");
-  EXPECT_EQ(scenario_.probes[5].kind, Probe::Kind::Energy);
-  EXPECT_EQ(scenario_.probes[6].kind, Probe::Kind::Reaction);
+  EXPECT_EQ(std::get<LineProbe>(scenario_.probes[3].what).line, "masseter_left");
+  EXPECT_EQ(std::get<LineProbe>(scenario_.probes[4].what).line, "masseter_right");
+  EXPECT_TRUE(std::holds_alternative<EnergyProbe>(scenario_.probes[5].what));
+  EXPECT_TRUE(std::holds_alternative<ReactionProbe>(scenario_.probes[6].what));
 }
 
 TEST_F(CompleteScenario, KnowsWhereEveryEntryStands) {
