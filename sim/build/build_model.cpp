@@ -83,17 +83,19 @@ class Builder {
         model_.bodies[b].rigid = static_cast<int>(model_.rigid_bodies.size());
         model_.rigid_bodies.push_back(rigid);
       }
-    for (const Load& load : scenario().loads) {
-      if (load.kind != Load::Kind::Motion) continue;
-      RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(
-          model_.bodies[static_cast<std::size_t>(body_index(load.body))].rigid)];
-      if (rigid.motion)
-        throw InputError(load.where, fmt::format("body `{}` is driven twice", load.body));
-      rigid.motion = load.motion;
-      if (rigid.hold) {
-        for (Vec3& shift : rigid.motion->translation) shift = rigid.hold->axes * shift;
-        for (Vec3& turn : rigid.motion->rotation) turn = rigid.hold->axes * turn;
-      }
+    for (const Load& load : scenario().loads)
+      if (const auto* motion = std::get_if<MotionLoad>(&load)) drive(*motion);
+  }
+
+  void drive(const MotionLoad& load) {
+    RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(
+        model_.bodies[static_cast<std::size_t>(body_index(load.body))].rigid)];
+    if (rigid.motion)
+      throw InputError(load.where, fmt::format("body `{}` is driven twice", load.body));
+    rigid.motion = load.motion;
+    if (rigid.hold) {
+      for (Vec3& shift : rigid.motion->translation) shift = rigid.hold->axes * shift;
+      for (Vec3& turn : rigid.motion->rotation) turn = rigid.hold->axes * turn;
     }
   }
 
@@ -284,23 +286,22 @@ class Builder {
 
   void make_loads() {
     for (const Load& load : scenario().loads) {
-      if (load.kind == Load::Kind::Gravity) model_.gravity += load.acceleration;
-      if (load.kind != Load::Kind::Force) continue;
-      ForceModel force;
-      force.force = load.force;
-      force.profile = load.profile;
-      force.point = load.region ? loaded_region(load) : resolve(load.anchor);
-      model_.forces.push_back(std::move(force));
+      if (const auto* gravity = std::get_if<GravityLoad>(&load))
+        model_.gravity += gravity->acceleration;
+      if (const auto* force = std::get_if<ForceLoad>(&load))
+        model_.forces.push_back({loaded_point(*force), force->force, force->profile});
     }
   }
 
-  WeightedPoint loaded_region(const Load& load) const {
-    const int tissue = model_.bodies[static_cast<std::size_t>(body_index(load.body))].tissue;
-    WeightedPoint point = region_point(*load.region, tissue, model_, geometry_,
-                                       surface_[static_cast<std::size_t>(tissue)]);
+  WeightedPoint loaded_point(const ForceLoad& load) const {
+    if (const auto* anchor = std::get_if<Anchor>(&load.at)) return resolve(*anchor);
+    const auto& [name, region] = std::get<TissueRegion>(load.at);
+    const int tissue = model_.bodies[static_cast<std::size_t>(body_index(name))].tissue;
+    WeightedPoint point =
+        region_point(region, tissue, model_, geometry_, surface_[static_cast<std::size_t>(tissue)]);
     if (point.nodes.empty())
       throw InputError(load.where,
-                       fmt::format("no node of tissue `{}` lies in the loaded region", load.body));
+                       fmt::format("no node of tissue `{}` lies in the loaded region", name));
     return point;
   }
 

@@ -224,18 +224,30 @@ struct Ligament {
   Location where;
 };
 
-struct Load {
-  enum class Kind { Gravity, Force, Motion };
-  Kind kind = Kind::Gravity;
-  Vec3 acceleration = Vec3::Zero();  // Gravity [m/s^2]
-  Anchor anchor;                 // Force: where it acts (a region of a tissue: `region` instead)
-  std::optional<Region> region;  // Force on a tissue: spread over these nodes, equal shares
-  Vec3 force = Vec3::Zero();     // Force [N], dead
-  Curve profile;                 // Force: factor over time
-  std::string body;  // Motion: a fixed body, or a rigid one with hold; Force with region: a tissue
-  Motion motion;     // Motion
+struct GravityLoad {
+  Vec3 acceleration = Vec3::Zero();  // [m/s^2]
   Location where;
 };
+
+struct TissueRegion {
+  std::string tissue;
+  Region region;
+};
+
+struct ForceLoad {
+  std::variant<Anchor, TissueRegion> at;  // in a region: equal shares on its nodes
+  Vec3 force = Vec3::Zero();              // [N], dead
+  Curve profile;                          // factor over time
+  Location where;
+};
+
+struct MotionLoad {
+  std::string body;  // a fixed one, or a rigid one with hold
+  Motion motion;
+  Location where;
+};
+
+using Load = std::variant<GravityLoad, ForceLoad, MotionLoad>;
 
 /// Without any of these every pair of bodies can meet, and none meets itself.
 struct ContactPair {

@@ -189,8 +189,7 @@ void Scene::tie(const std::string& tissue, const std::string& rigid, double z_lo
 }
 
 void Scene::drive(const std::string& rigid, const std::vector<Vec3>& places) {
-  Load load;
-  load.kind = Load::Kind::Motion;
+  MotionLoad load;
   load.body = rigid;
   load.motion.smooth = false;
   for (std::size_t i = 0; i < places.size(); ++i) {

@@ -69,9 +69,8 @@ TEST(Terms, WhatActsOnItIsEvaluatedWhereItIsNamedAndNowhereElse) {
   EXPECT_EQ(evaluated(s), with(kBar, {"gravity"}));
 
   s = bar();
-  Load force;
-  force.kind = Load::Kind::Force;
-  force.anchor = anchor("bar", {0, 0, 0.02});
+  ForceLoad force;
+  force.at = anchor("bar", {0, 0, 0.02});
   force.force = {0, 0, 1e-3};
   s.loads = {force};
   EXPECT_EQ(evaluated(s), with(kBar, {"load"}));

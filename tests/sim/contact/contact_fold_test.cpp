@@ -99,8 +99,8 @@ double largest_stretch(const Simulation& run) {
 }
 
 /// A plate that closes in by `way` within 0.2 s, waits as long and opens again.
-Load closing(const std::string& plate, const Vec3& way) {
-  Load load = shift(plate, 0.2, way);
+MotionLoad closing(const std::string& plate, const Vec3& way) {
+  MotionLoad load = shift(plate, 0.2, way);
   load.motion.time = {0, 0.2, 0.4, 0.6};
   load.motion.translation = {Vec3::Zero(), way, way, Vec3::Zero()};
   return load;

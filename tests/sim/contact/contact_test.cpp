@@ -112,8 +112,9 @@ TEST(Contact, TheCentreOfPressureOfATiltedPlateIsWhereTheMomentVanishes) {
   Scenario s = press();
   s.bodies[0].box->cells = {8, 8, 1};
   s.bodies[0].material = linear(1e5 * kStiffness * kSide, 0);
-  s.loads[0].motion.rotation = {Vec3::Zero(), tilt * Vec3::UnitY()};
-  s.loads[0].motion.about = {0, 0, kSide / 2};
+  Motion& motion = std::get<MotionLoad>(s.loads[0]).motion;
+  motion.rotation = {Vec3::Zero(), tilt * Vec3::UnitY()};
+  motion.about = {0, 0, kSide / 2};
   s.contact_response = Scenario::Response::Pointwise;  // linear from edge to edge
   Simulation run(s);
   press_to_rest(run);

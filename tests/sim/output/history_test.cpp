@@ -32,7 +32,7 @@ Scenario press(Scenario::Analysis analysis, double turn) {
   s.bodies[0].material = linear(20e3, 0);
   s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, -0.49 * kSide})};
   s.contacts = {{"plate", "block", kStiffness, {}}};
-  Load down = shift("plate", 0.2, {0, 0, -2e-4});
+  MotionLoad down = shift("plate", 0.2, {0, 0, -2e-4});
   down.motion.rotation = {Vec3::Zero(), Vec3(0, turn, 0)};
   down.motion.about = Vec3(0, 0, kSide / 2);
   s.loads = {down};
@@ -173,7 +173,7 @@ TEST(ReactionProbe, ADrivenBodyHasForceAndMomentAboutItsMiddle) {
   spring.stiffness = 100;
   spring.slack_length = 0.5;
   s.ligaments = {spring};
-  Load motion = shift("box", 1, {0.05, 0, 0});
+  MotionLoad motion = shift("box", 1, {0.05, 0, 0});
   motion.motion.rotation = {Vec3::Zero(), Vec3(0, 0, 1.5)};
   s.loads = {motion};
   s.probes = {{"box", ReactionProbe{"box"}}};
@@ -258,7 +258,7 @@ TEST(JointProbe, ADrivenTibiaHasTheCoordinatesOfItsMotion) {
   Scenario s = scene(0.1);
   s.bodies = {box_body("femur", Body::Kind::Fixed, {0.04, 0.04, 0.04}, {0, 0, 0.03}),
               box_body("tibia", Body::Kind::Fixed, {0.04, 0.04, 0.04}, {0, 0.01, -0.03})};
-  Load motion = shift("tibia", 1, {0, 0, -0.004});
+  MotionLoad motion = shift("tibia", 1, {0, 0, -0.004});
   motion.motion.rotation = {Vec3::Zero(), Vec3(0.6, 0, 0)};
   s.loads = {motion};
   s.probes = {{"knee", JointProbe{side_at("femur", false, Vec3::Zero()),

@@ -381,19 +381,17 @@ TEST_F(CompleteScenario, HasItsLigamentsOnBothSides) {
 
 TEST_F(CompleteScenario, HasItsLoads) {
   ASSERT_EQ(scenario_.loads.size(), 4U);
-  EXPECT_EQ(scenario_.loads[0].kind, Load::Kind::Gravity);
-  EXPECT_EQ(scenario_.loads[0].acceleration, Vec3(0, 0, -9.81));
-  EXPECT_EQ(scenario_.loads[1].kind, Load::Kind::Force);
-  EXPECT_EQ(scenario_.loads[1].body, "block");
-  EXPECT_EQ(scenario_.loads[1].region->box->first, Vec3(-6e-3, -6e-3, 9.9e-3));
-  EXPECT_EQ(scenario_.loads[1].force, Vec3(0, 0, -1));
-  EXPECT_EQ(scenario_.loads[1].profile.value, (std::vector<double>{0, 1}));
-  EXPECT_FALSE(scenario_.loads[2].region);
-  EXPECT_EQ(scenario_.loads[2].anchor.body, "disc_left");
-  EXPECT_EQ(scenario_.loads[2].anchor.point, Vec3(1e-3, 2e-3, 3e-3));
-  EXPECT_EQ(scenario_.loads[2].anchor.radius, 1e-3);
-  const Load& motion = scenario_.loads[3];
-  EXPECT_EQ(motion.kind, Load::Kind::Motion);
+  EXPECT_EQ(std::get<GravityLoad>(scenario_.loads[0]).acceleration, Vec3(0, 0, -9.81));
+  const auto& on_region = std::get<ForceLoad>(scenario_.loads[1]);
+  EXPECT_EQ(std::get<TissueRegion>(on_region.at).tissue, "block");
+  EXPECT_EQ(std::get<TissueRegion>(on_region.at).region.box->first, Vec3(-6e-3, -6e-3, 9.9e-3));
+  EXPECT_EQ(on_region.force, Vec3(0, 0, -1));
+  EXPECT_EQ(on_region.profile.value, (std::vector<double>{0, 1}));
+  const Anchor& point = std::get<Anchor>(std::get<ForceLoad>(scenario_.loads[2]).at);
+  EXPECT_EQ(point.body, "disc_left");
+  EXPECT_EQ(point.point, Vec3(1e-3, 2e-3, 3e-3));
+  EXPECT_EQ(point.radius, 1e-3);
+  const auto& motion = std::get<MotionLoad>(scenario_.loads[3]);
   EXPECT_EQ(motion.body, "stand");
   EXPECT_EQ(motion.motion.time, (std::vector<double>{0, 1}));
   EXPECT_EQ(motion.motion.translation[1], Vec3(0, 0, -5e-3));
@@ -451,7 +449,8 @@ TEST_F(CompleteScenario, KnowsWhereEveryEntryStands) {
     for (const Anchor& anchor : muscle.path) places.push_back(anchor.where);
   }
   for (const Ligament& ligament : scenario_.ligaments) places.push_back(ligament.where);
-  for (const Load& load : scenario_.loads) places.push_back(load.where);
+  for (const Load& load : scenario_.loads)
+    places.push_back(std::visit([](const auto& kind) { return kind.where; }, load));
   for (const ContactPair& pair : scenario_.contacts) places.push_back(pair.where);
   for (const Probe& probe : scenario_.probes) places.push_back(probe.where);
   for (const Location& place : places) {

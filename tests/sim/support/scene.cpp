@@ -71,15 +71,10 @@ Anchor anchor(const std::string& body, const Vec3& point, double radius) {
   return {body, point, radius, {}};
 }
 
-Load gravity(const Vec3& acceleration) {
-  Load load;
-  load.acceleration = acceleration;
-  return load;
-}
+GravityLoad gravity(const Vec3& acceleration) { return {acceleration, {}}; }
 
-Load shift(const std::string& body, double duration, const Vec3& translation) {
-  Load load;
-  load.kind = Load::Kind::Motion;
+MotionLoad shift(const std::string& body, double duration, const Vec3& translation) {
+  MotionLoad load;
   load.body = body;
   load.motion.time = {0, duration};
   load.motion.translation = {Vec3::Zero(), translation};
