@@ -36,7 +36,8 @@ FibreDirections fibres_of_array(const Body& body, const MeshData& mesh) {
   const std::string& name = *body.material->fibres->array;
   for (const auto& [array, directions] : mesh.cell_vectors)
     if (array == name)
-      return fem::normalized_fibres(rotation_matrix(body.mesh->placement.rotation) * directions);
+      return fem::normalized_fibres(
+          rotation_matrix(std::get<MeshFile>(body.geometry).placement.rotation) * directions);
   std::string names;
   for (const auto& [array, directions] : mesh.cell_vectors)
     names += (names.empty() ? "" : ", ") + array;
@@ -112,7 +113,7 @@ Tissue make_tissue(const Model& model, const std::vector<BodyGeometry>& geometry
                                 tissue.elements.make_matrix());
     return tissue;
   } catch (const std::invalid_argument& error) {
-    throw InputError(body.mesh ? body.mesh->where : body.where,
+    throw InputError(mesh_place(body),
                      fmt::format("tissue `{}`{}: {}", body.name, mesh_name(body), error.what()));
   }
 }

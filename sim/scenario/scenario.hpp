@@ -149,12 +149,10 @@ struct Body {
   enum class Kind { Fixed, Rigid, Tissue };
   std::string name;
   Kind kind = Kind::Tissue;
-  // Exactly one of these, or none for a fixed body that only carries points:
-  std::optional<MeshFile> mesh;
-  std::optional<BoxGeometry> box;
-  std::optional<HexahedronGeometry> hexahedron;
-  std::optional<SphereGeometry> sphere;
-  std::optional<VShapeGeometry> v_shape;
+  /// None: a fixed body that only carries points.
+  std::variant<std::monostate, MeshFile, BoxGeometry, HexahedronGeometry, SphereGeometry,
+               VShapeGeometry>
+      geometry;
   Placement placement;  // of a built-in geometry
 
   std::vector<MeshFile> contact_meshes;  // bones: surfaces that touch, in place of the mesh

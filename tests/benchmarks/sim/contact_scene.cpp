@@ -162,7 +162,7 @@ Body Scene::meshed(const std::string& name, const MeshData& mesh) {
   file.path = folder_ / (name + (mesh.tets.cols() > 0 ? ".vtu" : ".vtp"));
   file.unit = 1;
   write_mesh(file.path, mesh, 1);
-  body.mesh = file;
+  body.geometry = file;
   return body;
 }
 

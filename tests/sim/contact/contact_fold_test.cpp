@@ -145,8 +145,7 @@ TEST(SelfContact, AUPressedFlatOntoItselfRecoversItsShape) {
 TEST(SelfContact, AVClosedOnItselfRecoversItsShape) {
   Scenario s = contact_scene(5e-3);
   Body v = box_body("v", Body::Kind::Tissue, Vec3::Ones());
-  v.box.reset();
-  v.v_shape = VShapeGeometry{0.02, 0.004, 0.5, {10, 2}};
+  v.geometry = VShapeGeometry{0.02, 0.004, 0.5, {10, 2}};
   v.material = neo_hookean(50e3, 0.3);
   s.bodies = {v, stand("left"), stand("right")};
   s.contacts = {{"v", "v", {}, {}}};

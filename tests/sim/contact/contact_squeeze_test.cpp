@@ -65,7 +65,7 @@ Scenario squeezed(const TemporaryFolder& folder, int cells) {
   Body& ball = s.bodies[2];
   ball.name = "ball";
   ball.kind = Body::Kind::Fixed;
-  ball.sphere = SphereGeometry{kBall, 1e-3, {0, 0, kBall + kSheet}};
+  ball.geometry = SphereGeometry{kBall, 1e-3, {0, 0, kBall + kSheet}};
   s.loads = {shift("ball", 0.1, {0, 0, -kSheet / 2})};
   return s;
 }
@@ -127,7 +127,7 @@ TEST(Squeeze, ADiscBetweenCondyleAndFossaCarries500N) {
   condyle.kind = Body::Kind::Rigid;
   condyle.density = 1000;
   const Vec3 center(0, 0, kCondyle + kThickness);
-  condyle.sphere = SphereGeometry{kCondyle, 1e-3, center};
+  condyle.geometry = SphereGeometry{kCondyle, 1e-3, center};
   ForceLoad press;
   press.at = anchor("condyle", center);
   press.force = {0, 0, -kForce};

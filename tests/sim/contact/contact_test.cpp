@@ -110,7 +110,7 @@ TEST(Contact, UniformPressureIsUniformOnTheSurfacesOfBothBodies) {
 TEST(Contact, TheCentreOfPressureOfATiltedPlateIsWhereTheMomentVanishes) {
   constexpr double tilt = 0.01;
   Scenario s = press();
-  s.bodies[0].box->cells = {8, 8, 1};
+  std::get<BoxGeometry>(s.bodies[0].geometry).cells = {8, 8, 1};
   s.bodies[0].material = linear(1e5 * kStiffness * kSide, 0);
   Motion& motion = std::get<MotionLoad>(s.loads[0]).motion;
   motion.rotation = {Vec3::Zero(), tilt * Vec3::UnitY()};
@@ -220,7 +220,7 @@ TEST(Contact, TheLegsOfAClosingVMeetAndDoNotPassThroughEachOther) {
   s.contact = true;
   Body v;
   v.name = "v";
-  v.v_shape = VShapeGeometry{0.02, 0.004, 0.5, {7, 2}};
+  v.geometry = VShapeGeometry{0.02, 0.004, 0.5, {7, 2}};
   v.density = 1000;
   v.material = neo_hookean(50e3, 0.3);
   s.bodies = {v, stand("left"), stand("right")};

@@ -249,8 +249,9 @@ TEST_F(CompleteScenario, HasItsBones) {
   ASSERT_EQ(scenario_.bodies.size(), 7U);
   const Body& skull = scenario_.bodies[0];
   EXPECT_EQ(skull.kind, Body::Kind::Fixed);
-  EXPECT_EQ(skull.mesh->path, folder_ / "anatomy/skull.vtp");
-  EXPECT_EQ(skull.mesh->unit, 1e-2);
+  const auto& skull_mesh = std::get<MeshFile>(skull.geometry);
+  EXPECT_EQ(skull_mesh.path, folder_ / "anatomy/skull.vtp");
+  EXPECT_EQ(skull_mesh.unit, 1e-2);
   ASSERT_EQ(skull.contact_meshes.size(), 2U);
   EXPECT_EQ(skull.contact_meshes[0].facing, Vec3(0, 0, -1));
   EXPECT_EQ(skull.contact_meshes[0].faces, 500);
@@ -270,11 +271,12 @@ TEST_F(CompleteScenario, HasItsBones) {
 
   const Body& mandible = scenario_.bodies[1];
   EXPECT_EQ(mandible.kind, Body::Kind::Rigid);
-  EXPECT_EQ(mandible.mesh->path, "/data/mandible.vtp");
-  EXPECT_TRUE(mandible.mesh->placement.rotation.isApprox(Vec3(0, 0, 10 * kDegree)));
-  EXPECT_EQ(mandible.mesh->placement.about, Vec3(1e-3, 0, 0));
-  EXPECT_EQ(mandible.mesh->placement.translation, Vec3(1e-3, 2e-3, 3e-3));
-  EXPECT_EQ(mandible.mesh->placement.scale, 1.5);
+  const auto& mandible_mesh = std::get<MeshFile>(mandible.geometry);
+  EXPECT_EQ(mandible_mesh.path, "/data/mandible.vtp");
+  EXPECT_TRUE(mandible_mesh.placement.rotation.isApprox(Vec3(0, 0, 10 * kDegree)));
+  EXPECT_EQ(mandible_mesh.placement.about, Vec3(1e-3, 0, 0));
+  EXPECT_EQ(mandible_mesh.placement.translation, Vec3(1e-3, 2e-3, 3e-3));
+  EXPECT_EQ(mandible_mesh.placement.scale, 1.5);
   EXPECT_EQ(mandible.mass, 0.2);
   EXPECT_EQ(mandible.center_of_mass, Vec3(0, -9.5e-3, 36.1e-3));
   Eigen::Matrix3d inertia;
@@ -285,7 +287,7 @@ TEST_F(CompleteScenario, HasItsBones) {
   EXPECT_TRUE(mandible.collides);
 
   const Body& stand = scenario_.bodies[6];
-  EXPECT_FALSE(stand.mesh || stand.box || stand.sphere || stand.v_shape);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(stand.geometry));
 }
 
 TEST_F(CompleteScenario, HasItsTissueAndGeometries) {
@@ -297,21 +299,24 @@ TEST_F(CompleteScenario, HasItsTissueAndGeometries) {
   EXPECT_NEAR(fem::bulk_modulus(*disc.material->law), 5.4e6 / (3 * (1 - 2 * 0.4)), 1e-6);
   EXPECT_EQ(disc.velocity, Vec3(0, 0, 1));
   const Body& ball = scenario_.bodies[3];
-  EXPECT_EQ(ball.sphere->radius, 5e-3);
-  EXPECT_EQ(ball.sphere->element_size, 1e-3);
-  EXPECT_EQ(ball.sphere->center, Vec3(0, 1e-3, 0));
+  const auto& sphere = std::get<SphereGeometry>(ball.geometry);
+  EXPECT_EQ(sphere.radius, 5e-3);
+  EXPECT_EQ(sphere.element_size, 1e-3);
+  EXPECT_EQ(sphere.center, Vec3(0, 1e-3, 0));
   EXPECT_TRUE(std::holds_alternative<fem::Corotated>(*ball.material->law));
   const Body& block = scenario_.bodies[4];
-  EXPECT_EQ(block.box->size, Vec3(10e-3, 11e-3, 12e-3));
-  EXPECT_EQ(block.box->cells, Eigen::Vector3i(4, 5, 6));
-  EXPECT_EQ(block.box->center, Vec3(0, 0, 5e-3));
+  const auto& box = std::get<BoxGeometry>(block.geometry);
+  EXPECT_EQ(box.size, Vec3(10e-3, 11e-3, 12e-3));
+  EXPECT_EQ(box.cells, Eigen::Vector3i(4, 5, 6));
+  EXPECT_EQ(box.center, Vec3(0, 0, 5e-3));
   EXPECT_TRUE(block.placement.rotation.isApprox(Vec3(0, 0, 45 * kDegree)));
   EXPECT_TRUE(std::holds_alternative<fem::Linear>(*block.material->law));
   const Body& tool = scenario_.bodies[5];
-  EXPECT_EQ(tool.v_shape->leg_length, 40e-3);
-  EXPECT_EQ(tool.v_shape->width, 8e-3);
-  EXPECT_DOUBLE_EQ(tool.v_shape->angle, 40 * kDegree);
-  EXPECT_EQ(tool.v_shape->cells, Eigen::Vector2i(20, 4));
+  const auto& shape = std::get<VShapeGeometry>(tool.geometry);
+  EXPECT_EQ(shape.leg_length, 40e-3);
+  EXPECT_EQ(shape.width, 8e-3);
+  EXPECT_DOUBLE_EQ(shape.angle, 40 * kDegree);
+  EXPECT_EQ(shape.cells, Eigen::Vector2i(20, 4));
   EXPECT_EQ(tool.density, 2000);
 }
 
@@ -436,7 +441,7 @@ TEST_F(CompleteScenario, KnowsWhereEveryEntryStands) {
   std::vector<Location> places;
   for (const Body& body : scenario_.bodies) {
     places.push_back(body.where);
-    if (body.mesh) places.push_back(body.mesh->where);
+    if (const auto* mesh = std::get_if<MeshFile>(&body.geometry)) places.push_back(mesh->where);
     if (body.material) places.push_back(body.material->where);
     for (const MeshFile& mesh : body.contact_meshes) places.push_back(mesh.where);
   }
@@ -459,8 +464,9 @@ TEST_F(CompleteScenario, KnowsWhereEveryEntryStands) {
     EXPECT_GT(place.column, 0);
   }
   EXPECT_EQ(scenario_.bodies[0].where.line, 18);
-  EXPECT_EQ(scenario_.bodies[0].mesh->where.line, 21);
-  EXPECT_EQ(scenario_.bodies[0].mesh->where.column, 17);
+  const Location& file = std::get<MeshFile>(scenario_.bodies[0].geometry).where;
+  EXPECT_EQ(file.line, 21);
+  EXPECT_EQ(file.column, 17);
 }
 
 TEST_F(CompleteScenario, RecordsItsSettingsAsJson) {
@@ -588,7 +594,8 @@ using MeshPaths = ScenarioTest;
 
 TEST_F(MeshPaths, StartAtTheFolderOfTheScenarioOrAtAVariable) {
   const auto path = [&](const std::string& file) {
-    return read(kStart, {"body.skull.mesh.file=" + file}).bodies[0].mesh->path;
+    const Scenario scenario = read(kStart, {"body.skull.mesh.file=" + file});
+    return std::get<MeshFile>(scenario.bodies[0].geometry).path;
   };
   ::setenv("ARTICULAR_TEST_DATA", "/data", 1);
   EXPECT_EQ(path("a/../b.vtp"), folder_ / "b.vtp");

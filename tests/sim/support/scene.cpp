@@ -35,7 +35,7 @@ Body box_body(const std::string& name, Body::Kind kind, const Vec3& size, const 
   Body body;
   body.name = name;
   body.kind = kind;
-  body.box = BoxGeometry{size, cells, center};
+  body.geometry = BoxGeometry{size, cells, center};
   if (kind != Body::Kind::Fixed) body.density = 1000;
   if (kind == Body::Kind::Tissue) body.material = neo_hookean(20e3, 0.3);
   return body;
