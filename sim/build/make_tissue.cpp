@@ -32,8 +32,7 @@ std::vector<int> nodes_in(const Region& region, const Model& model,
   return nodes;
 }
 
-FibreDirections fibres_of_array(const Body& body, const MeshData& mesh) {
-  const std::string& name = *body.material->fibres->array;
+FibreDirections fibres_of_array(const std::string& name, const Body& body, const MeshData& mesh) {
   for (const auto& [array, directions] : mesh.cell_vectors)
     if (array == name)
       return fem::normalized_fibres(
@@ -52,10 +51,13 @@ FibreDirections make_fibres(const Model& model, const std::vector<BodyGeometry>&
   const Body& body = model.scenario.bodies[b];
   const MeshData& mesh = geometry[b].mesh;
   const Fibres& fibres = *body.material->fibres;
-  if (fibres.direction) return fem::constant_fibres(*fibres.direction, mesh.tets.cols());
-  if (fibres.array) return fibres_of_array(body, mesh);
-  const auto from = nodes_in(fibres.between->first, model, geometry, surface, mesh.X);
-  const auto to = nodes_in(fibres.between->second, model, geometry, surface, mesh.X);
+  if (const auto* direction = std::get_if<Vec3>(&fibres.along))
+    return fem::constant_fibres(*direction, mesh.tets.cols());
+  if (const auto* array = std::get_if<FibreArray>(&fibres.along))
+    return fibres_of_array(array->name, body, mesh);
+  const auto& between = std::get<FibresBetween>(fibres.along);
+  const auto from = nodes_in(between.from, model, geometry, surface, mesh.X);
+  const auto to = nodes_in(between.to, model, geometry, surface, mesh.X);
   if (from.empty() || to.empty())
     throw std::invalid_argument(
         fmt::format("the region {} holds no node", from.empty() ? "`from`" : "`to`"));

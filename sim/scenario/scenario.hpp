@@ -80,12 +80,20 @@ struct VShapeGeometry {
   Eigen::Vector2i cells = Eigen::Vector2i::Ones();  // along a leg, across it
 };
 
-/// The directions of a tissue's fibres at the start: exactly one of these.
+/// Fibres as a cell array of the mesh with three components has them.
+struct FibreArray {
+  std::string name;
+};
+
+/// Fibres along the gradient of the harmonic field between two regions.
+struct FibresBetween {
+  Region from, to;
+};
+
+/// The directions of a tissue's fibres at the start. A vector: the same everywhere, of length 1.
 struct Fibres {
-  std::optional<Vec3> direction;                     // the same everywhere, unit vector
-  std::optional<std::string> array;                  // a cell array of the mesh, three components
-  std::optional<std::pair<Region, Region>> between;  // along the gradient of the harmonic field
-  Location where;
+  std::variant<Vec3, FibreArray, FibresBetween> along;
+  Location where = {};
 };
 
 struct TissueMaterial {

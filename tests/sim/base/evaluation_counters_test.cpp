@@ -107,8 +107,7 @@ TEST(Terms, WhatATissueIsMadeOfIsEvaluatedWhereItIsNamedAndNowhereElse) {
   ground.kappa = 1e6;
   s.bodies[0].material =
       material_of(fem::BlemkerMuscle<>(fem::MuscleFibre(fem::MuscleFibre::Constants()), ground));
-  s.bodies[0].material->fibres =
-      Fibres{.direction = Vec3::UnitZ(), .array = {}, .between = {}, .where = {}};
+  s.bodies[0].material->fibres = Fibres{Vec3::UnitZ()};
   Muscle muscle;
   muscle.name = "fibres";
   muscle.tissue = "bar";
