@@ -122,8 +122,7 @@ void make_colliders(const Scenario& scenario, const std::vector<BodyGeometry>& g
       else if (geometry[b].mesh.X.cols() > 0 || geometry[b].contact.X.cols() > 0)
         model.bodies[b].collider = bone_collider(body, geometry[b], b, model);
     } catch (const std::exception& error) {
-      throw InputError(body.mesh ? body.mesh->where : body.where,
-                       fmt::format("body `{}`: {}", body.name, error.what()));
+      throw InputError(mesh_place(body), fmt::format("body `{}`: {}", body.name, error.what()));
     }
   }
 }

@@ -33,6 +33,25 @@ MeshData load(const MeshFile& file) {
   return mesh;
 }
 
+/// Makes the mesh of a body's geometry, placed.
+struct MakeMesh {
+  const Placement& placement;  // of a built-in one
+
+  MeshData operator()(std::monostate) const { return {}; }
+  MeshData operator()(const MeshFile& file) const { return load(file); }
+  MeshData operator()(const BoxGeometry& box) const { return placed(box_mesh(box)); }
+  MeshData operator()(const HexahedronGeometry& block) const {
+    return placed(hexahedron_mesh(block));
+  }
+  MeshData operator()(const SphereGeometry& sphere) const { return placed(sphere_mesh(sphere)); }
+  MeshData operator()(const VShapeGeometry& shape) const { return placed(v_shape_mesh(shape)); }
+
+  MeshData placed(MeshData mesh) const {
+    place(placement, mesh.X);
+    return mesh;
+  }
+};
+
 void append(const MeshData& part, MeshData& whole) {
   const auto nodes = static_cast<int>(whole.X.cols());
   const auto triangles = whole.triangles.cols();
@@ -85,24 +104,24 @@ void take_surface(MeshData& mesh) {
 }  // namespace
 
 std::string mesh_name(const Body& body) {
-  return body.mesh ? " (" + body.mesh->path.string() + ")" : "";
+  const auto* file = std::get_if<MeshFile>(&body.geometry);
+  return file != nullptr ? " (" + file->path.string() + ")" : "";
+}
+
+const Location& mesh_place(const Body& body) {
+  const auto* file = std::get_if<MeshFile>(&body.geometry);
+  return file != nullptr ? file->where : body.where;
 }
 
 BodyGeometry read_geometry(const Body& body) {
   BodyGeometry geometry;
-  if (body.mesh) geometry.mesh = load(*body.mesh);
-  if (body.box) geometry.mesh = box_mesh(*body.box);
-  if (body.hexahedron) geometry.mesh = hexahedron_mesh(*body.hexahedron);
-  if (body.sphere) geometry.mesh = sphere_mesh(*body.sphere);
-  if (body.v_shape) geometry.mesh = v_shape_mesh(*body.v_shape);
-  if (!body.mesh) place(body.placement, geometry.mesh.X);
-
-  const Location& where = body.mesh ? body.mesh->where : body.where;
+  geometry.mesh = std::visit(MakeMesh{body.placement}, body.geometry);
   const bool tissue = body.kind == Body::Kind::Tissue;
   if (tissue && geometry.mesh.tets.cols() == 0)
-    throw InputError(where, fmt::format("the mesh of tissue `{}`{} has no tetrahedra; expected "
-                                        "a tetrahedral mesh (.vtu, .vtk or .inp)",
-                                        body.name, mesh_name(body)));
+    throw InputError(mesh_place(body),
+                     fmt::format("the mesh of tissue `{}`{} has no tetrahedra; expected "
+                                 "a tetrahedral mesh (.vtu, .vtk or .inp)",
+                                 body.name, mesh_name(body)));
   if (!tissue && geometry.mesh.X.cols() > 0) take_surface(geometry.mesh);
   for (const MeshFile& file : body.contact_meshes) {
     MeshData part = load(file);

@@ -24,4 +24,7 @@ MassProperties rigid_mass(const Body& body, const MeshData& mesh);
 /// " (FILE)" of a body that comes from a file, for messages.
 std::string mesh_name(const Body& body);
 
+/// Where the scenario names that file, or else the body, for messages.
+const Location& mesh_place(const Body& body);
+
 }  // namespace articular::sim

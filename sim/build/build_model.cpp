@@ -3,16 +3,15 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "sim/build/body_collider.hpp"
 #include "sim/build/body_geometry.hpp"
 #include "sim/build/contact_model.hpp"
 #include "sim/build/linear_solver.hpp"
+#include "sim/build/make_probes.hpp"
 #include "sim/build/make_tissue.hpp"
 #include "sim/build/region.hpp"
+#include "sim/build/weighted_points.hpp"
 #include "sim/lines/muscle_law.hpp"
 #include "sim/mesh/flat_elements.hpp"
 #include "sim/model/newton_weights.hpp"
@@ -41,7 +40,7 @@ class Builder {
     make_lines();
     make_loads();
     make_contacts(scenario_, model_);
-    make_probes();
+    model_.probes = make_probes(scenario_, model_, geometry_, surface_);
     model_.position_tolerance = position_tolerance(scenario_.integrator, model_);
     model_.detection_margin = detection_margin(scenario_.detection, model_);
     model_.linear_solver = choose_linear_solver(scenario_, model_);
@@ -88,17 +87,19 @@ class Builder {
         model_.bodies[b].rigid = static_cast<int>(model_.rigid_bodies.size());
         model_.rigid_bodies.push_back(rigid);
       }
-    for (const Load& load : scenario_.loads) {
-      if (load.kind != Load::Kind::Motion) continue;
-      RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(
-          model_.bodies[static_cast<std::size_t>(body_index(load.body))].rigid)];
-      if (rigid.motion)
-        throw InputError(load.where, fmt::format("body `{}` is driven twice", load.body));
-      rigid.motion = load.motion;
-      if (rigid.hold) {
-        for (Vec3& shift : rigid.motion->translation) shift = rigid.hold->axes * shift;
-        for (Vec3& turn : rigid.motion->rotation) turn = rigid.hold->axes * turn;
-      }
+    for (const Load& load : scenario_.loads)
+      if (const auto* motion = std::get_if<MotionLoad>(&load)) drive(*motion);
+  }
+
+  void drive(const MotionLoad& load) {
+    RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(
+        model_.bodies[static_cast<std::size_t>(body_index(load.body))].rigid)];
+    if (rigid.motion)
+      throw InputError(load.where, fmt::format("body `{}` is driven twice", load.body));
+    rigid.motion = load.motion;
+    if (rigid.hold) {
+      for (Vec3& shift : rigid.motion->translation) shift = rigid.hold->axes * shift;
+      for (Vec3& turn : rigid.motion->rotation) turn = rigid.hold->axes * turn;
     }
   }
 
@@ -132,7 +133,8 @@ class Builder {
       Tissue& tissue = model_.tissues[static_cast<std::size_t>(model_.bodies[b].tissue)];
       const int rigid = model_.bodies[static_cast<std::size_t>(body_index(attachment.to))].rigid;
       const RegionTest test(attachment.region, model_, geometry_);
-      const std::vector<char> on_surface = surface_nodes(model_.bodies[b].tissue);
+      const std::vector<char> on_surface =
+          surface_nodes(tissue, surface_[static_cast<std::size_t>(model_.bodies[b].tissue)]);
       int count = 0;
       for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
         const Vec3 x = tissue.X.col(static_cast<Eigen::Index>(i));
@@ -168,13 +170,6 @@ class Builder {
     }
   }
 
-  std::vector<char> surface_nodes(int tissue) const {
-    std::vector<char> on_surface(model_.tissues[static_cast<std::size_t>(tissue)].nodes.size(), 0);
-    for (const int node : surface_[static_cast<std::size_t>(tissue)].faces.reshaped())
-      on_surface[static_cast<std::size_t>(node)] = 1;
-    return on_surface;
-  }
-
   /// Tissue nodes attached to a rigid bone add their mass to it; its centre of mass moves.
   void carry_tissue_mass() {
     for (std::size_t r = 0; r < model_.rigid_bodies.size(); ++r) {
@@ -201,31 +196,7 @@ class Builder {
   }
 
   WeightedPoint resolve(const Anchor& anchor) const {
-    const auto b = static_cast<std::size_t>(body_index(anchor.body));
-    const BodyModel& body = model_.bodies[b];
-    WeightedPoint point;
-    if (body.rigid >= 0) {
-      const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(body.rigid)];
-      point.nodes.push_back({rigid.block, body.rigid, anchor.point - rigid.rest.p});
-      point.weights.push_back(1);
-      return point;
-    }
-    const Tissue& tissue = model_.tissues[static_cast<std::size_t>(body.tissue)];
-    const std::vector<char> on_surface = surface_nodes(body.tissue);
-    std::size_t nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
-      if (on_surface[i] == 0) continue;
-      const double distance = (tissue.X.col(static_cast<Eigen::Index>(i)) - anchor.point).norm();
-      if (distance < least) {
-        least = distance;
-        nearest = i;
-      }
-      if (distance <= anchor.radius) point.nodes.push_back(tissue.nodes[i]);
-    }
-    if (point.nodes.empty()) point.nodes.push_back(tissue.nodes[nearest]);
-    point.weights.assign(point.nodes.size(), 1.0 / static_cast<double>(point.nodes.size()));
-    return point;
+    return anchored_point(anchor, body_index(anchor.body), model_, surface_);
   }
 
   Vec3 start_position(const WeightedPoint& point) const {
@@ -319,97 +290,23 @@ class Builder {
 
   void make_loads() {
     for (const Load& load : scenario_.loads) {
-      if (load.kind == Load::Kind::Gravity) model_.gravity += load.acceleration;
-      if (load.kind != Load::Kind::Force) continue;
-      ForceModel force;
-      force.force = load.force;
-      force.profile = load.profile;
-      force.point = load.region ? region_point(load) : resolve(load.anchor);
-      model_.forces.push_back(std::move(force));
+      if (const auto* gravity = std::get_if<GravityLoad>(&load))
+        model_.gravity += gravity->acceleration;
+      if (const auto* force = std::get_if<ForceLoad>(&load))
+        model_.forces.push_back({loaded_point(*force), force->force, force->profile});
     }
   }
 
-  WeightedPoint region_point(const Load& load) const {
-    const auto b = static_cast<std::size_t>(body_index(load.body));
-    const int t = model_.bodies[b].tissue;
-    const Tissue& tissue = model_.tissues[static_cast<std::size_t>(t)];
-    const RegionTest test(*load.region, model_, geometry_);
-    const std::vector<char> on_surface = surface_nodes(t);
-    WeightedPoint point;
-    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
-      if (test.contains(tissue.X.col(static_cast<Eigen::Index>(i)), on_surface[i] != 0))
-        point.nodes.push_back(tissue.nodes[i]);
+  WeightedPoint loaded_point(const ForceLoad& load) const {
+    if (const auto* anchor = std::get_if<Anchor>(&load.at)) return resolve(*anchor);
+    const auto& [name, region] = std::get<TissueRegion>(load.at);
+    const int tissue = model_.bodies[static_cast<std::size_t>(body_index(name))].tissue;
+    WeightedPoint point =
+        region_point(region, tissue, model_, geometry_, surface_[static_cast<std::size_t>(tissue)]);
     if (point.nodes.empty())
       throw InputError(load.where,
-                       fmt::format("no node of tissue `{}` lies in the loaded region", load.body));
-    point.weights.assign(point.nodes.size(), 1.0 / static_cast<double>(point.nodes.size()));
+                       fmt::format("no node of tissue `{}` lies in the loaded region", name));
     return point;
-  }
-
-  void check_tied(const ProbeModel& probe) const {
-    const int rigid = model_.bodies[static_cast<std::size_t>(probe.other)].rigid;
-    const int tissue = model_.bodies[static_cast<std::size_t>(probe.body)].tissue;
-    const auto& nodes = model_.tissues[static_cast<std::size_t>(tissue)].nodes;
-    const auto is_tied = [&](const NodeRef& node) { return node.rigid == rigid; };
-    if (std::none_of(nodes.begin(), nodes.end(), is_tied))
-      throw InputError(probe.given.where,
-                       fmt::format("[[probe]] `{}`: no node of `{}` is attached to `{}`",
-                                   probe.given.name, probe.given.body, probe.given.other));
-  }
-
-  /// By face of the collider: its middle, at the start, lies in the region.
-  std::vector<char> faces_in(const Probe& probe, int body) const {
-    const Collider& collider = *model_.bodies[static_cast<std::size_t>(body)].collider;
-    const RegionTest test(*probe.region, model_, geometry_);
-    std::vector<char> inside;
-    for (const auto& face : collider.surface.faces.colwise())
-      inside.push_back(test.contains(collider.X(Eigen::all, face).rowwise().mean(), true) ? 1 : 0);
-    if (std::find(inside.begin(), inside.end(), 1) == inside.end())
-      throw InputError(probe.region->where,
-                       fmt::format("[[probe]] `{}`: no face of `{}` has its middle in the region",
-                                   probe.name, probe.body));
-    return inside;
-  }
-
-  std::vector<int> probes_called(const std::vector<std::string>& names) const {
-    std::vector<int> found;
-    for (const std::string& name : names)
-      for (std::size_t p = 0; p < scenario_.probes.size(); ++p)
-        if (scenario_.probes[p].name == name) found.push_back(static_cast<int>(p));
-    return found;
-  }
-
-  void make_joint(ProbeModel& probe) const {
-    const auto bone_of = [&](const JointSide& side) {
-      return model_.bodies[static_cast<std::size_t>(body_index(side.body))].rigid;
-    };
-    const auto rest_of = [&](int rigid) {
-      return model_.rigid_bodies[static_cast<std::size_t>(rigid)].rest;
-    };
-    const Probe& given = probe.given;
-    const int proximal = bone_of(given.proximal), distal = bone_of(given.distal);
-    probe.proximal =
-        proximal_frame(given.proximal, given.is_right, proximal, rest_of(proximal), given.where);
-    probe.distal = distal_frame(given.distal, given.is_right, distal, rest_of(distal), given.where);
-  }
-
-  void make_probes() {
-    for (const Probe& probe : scenario_.probes) {
-      ProbeModel p;
-      p.given = probe;
-      if (probe.kind == Probe::Kind::Point) p.point = resolve(probe.anchor);
-      if (!probe.body.empty()) p.body = body_index(probe.body);
-      if (!probe.other.empty()) p.other = body_index(probe.other);
-      if (probe.kind == Probe::Kind::Attachment) check_tied(p);
-      if (probe.region) p.faces = faces_in(probe, p.body);
-      if (probe.kind == Probe::Kind::Joint) make_joint(p);
-      p.part = probes_called(probe.part);
-      p.whole = probes_called(probe.whole);
-      if (probe.kind == Probe::Kind::Line)
-        for (std::size_t l = 0; l < model_.lines.size(); ++l)
-          if (model_.lines[l].name == probe.line) p.line = static_cast<int>(l);
-      model_.probes.push_back(std::move(p));
-    }
   }
 
   const Scenario& scenario_;

@@ -33,11 +33,11 @@ std::vector<int> nodes_in(const Region& region, const Model& model,
   return nodes;
 }
 
-FibreDirections fibres_of_array(const Body& body, const MeshData& mesh) {
-  const std::string& name = *body.material->fibres->array;
+FibreDirections fibres_of_array(const std::string& name, const Body& body, const MeshData& mesh) {
   for (const auto& [array, directions] : mesh.cell_vectors)
     if (array == name)
-      return fem::normalized_fibres(rotation_matrix(body.mesh->placement.rotation) * directions);
+      return fem::normalized_fibres(
+          rotation_matrix(std::get<MeshFile>(body.geometry).placement.rotation) * directions);
   std::string names;
   for (const auto& [array, directions] : mesh.cell_vectors)
     names += (names.empty() ? "" : ", ") + array;
@@ -50,10 +50,13 @@ FibreDirections fibres_of_array(const Body& body, const MeshData& mesh) {
 FibreDirections make_fibres(const Body& body, const MeshData& mesh, const Surface& surface,
                             const Model& model, const std::vector<BodyGeometry>& geometry) {
   const Fibres& fibres = *body.material->fibres;
-  if (fibres.direction) return fem::constant_fibres(*fibres.direction, mesh.tets.cols());
-  if (fibres.array) return fibres_of_array(body, mesh);
-  const auto from = nodes_in(fibres.between->first, model, geometry, surface, mesh.X);
-  const auto to = nodes_in(fibres.between->second, model, geometry, surface, mesh.X);
+  if (const auto* direction = std::get_if<Vec3>(&fibres.along))
+    return fem::constant_fibres(*direction, mesh.tets.cols());
+  if (const auto* array = std::get_if<FibreArray>(&fibres.along))
+    return fibres_of_array(array->name, body, mesh);
+  const auto& between = std::get<FibresBetween>(fibres.along);
+  const auto from = nodes_in(between.from, model, geometry, surface, mesh.X);
+  const auto to = nodes_in(between.to, model, geometry, surface, mesh.X);
   if (from.empty() || to.empty())
     throw std::invalid_argument(
         fmt::format("the region {} holds no node", from.empty() ? "`from`" : "`to`"));
@@ -109,7 +112,7 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
                                 tissue.elements.make_matrix());
     return tissue;
   } catch (const std::invalid_argument& error) {
-    throw InputError(body.mesh ? body.mesh->where : body.where,
+    throw InputError(mesh_place(body),
                      fmt::format("tissue `{}`{}: {}", body.name, mesh_name(body), error.what()));
   }
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "collision/mesh/surface.hpp"
@@ -144,13 +145,59 @@ struct ContactModel {
   SurfaceLaw law;              // its damping times `share`
 };
 
+struct ObservedPoint {
+  WeightedPoint point;
+};
+
+struct ObservedAngle {
+  int rigid = 0;              // index into Model::rigid_bodies
+  Vec3 axis = Vec3::UnitX();  // unit vector
+};
+
+struct ObservedContact {
+  int contact = -1;         // index into Model::contacts; -1: the two cannot meet
+  int body = 0;             // index into Model::bodies: the one that it acts on
+  std::vector<char> faces;  // of that body's collider: those that count; empty: all
+};
+
+struct ObservedMuscle {
+  int line = 0;    // index into Model::lines
+  int muscle = 0;  // index into Model::muscles
+};
+
+struct ObservedLigament {
+  int line = 0;      // index into Model::lines
+  int ligament = 0;  // index into Model::ligaments
+};
+
+struct ObservedEnergy {};
+
+struct ObservedReaction {
+  int rigid = 0;  // index into Model::rigid_bodies
+};
+
+struct ObservedAttachment {
+  int tissue = 0;  // index into Model::tissues
+  int rigid = 0;   // index into Model::rigid_bodies
+};
+
+struct ObservedShare {
+  std::vector<int> part, whole;   // indices into Model::probes
+  Vec3 direction = Vec3::Zero();  // unit vector
+};
+
+struct ObservedJoint {
+  JointFrame proximal, distal;
+  bool is_right = true;
+};
+
+using Observed = std::variant<ObservedPoint, ObservedAngle, ObservedContact, ObservedMuscle,
+                              ObservedLigament, ObservedEnergy, ObservedReaction,
+                              ObservedAttachment, ObservedShare, ObservedJoint>;
+
 struct ProbeModel {
-  Probe given;
-  WeightedPoint point;  // Point
-  int body = -1, other = -1, line = -1;
-  std::vector<char> faces;       // Contact with a region: by face of the body's collider
-  std::vector<int> part, whole;  // Share: probes
-  JointFrame proximal, distal;   // Joint
+  std::string name;
+  Observed what;
 };
 
 /// Where everything stands in the state vector y:

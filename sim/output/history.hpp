@@ -26,8 +26,7 @@ class History {
   const std::vector<double>& last() const { return values_; }
 
  private:
-  void append(const ProbeModel& probe, const State& state, const Stepper& stepper);
-  double share_of(const ProbeModel& probe, const std::vector<std::size_t>& begin) const;
+  double share_of(const ObservedShare& share, const std::vector<std::size_t>& begin) const;
 
   const Model& model_;
   LengthUnit unit_;

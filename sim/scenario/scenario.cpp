@@ -23,16 +23,17 @@ void check_names_of_contact_surfaces(const std::vector<Body>& bodies) {
 /// Inertia would have to give it an impulse at each of its times.
 void check_motions_of_masses(const Scenario& scenario) {
   for (const Load& load : scenario.loads) {
-    if (load.kind != Load::Kind::Motion || load.motion.smooth) continue;
+    const auto* driven = std::get_if<MotionLoad>(&load);
+    if (driven == nullptr || driven->motion.smooth) continue;
     const auto is_driven = [&](const Body& body) {
-      return body.name == load.body && body.kind == Body::Kind::Rigid;
+      return body.name == driven->body && body.kind == Body::Kind::Rigid;
     };
     if (std::any_of(scenario.bodies.begin(), scenario.bodies.end(), is_driven))
-      throw InputError(load.where,
+      throw InputError(driven->where,
                        fmt::format("body `{}` has a mass, whose velocity can't jump as with "
                                    "`interpolation` \"linear\"; expected \"smooth\", or a static "
                                    "analysis",
-                                   load.body));
+                                   driven->body));
   }
 }
 

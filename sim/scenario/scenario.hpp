@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "collision/narrow/narrow_rule.hpp"
@@ -80,12 +81,20 @@ struct VShapeGeometry {
   Eigen::Vector2i cells = Eigen::Vector2i::Ones();  // along a leg, across it
 };
 
-/// The directions of a tissue's fibres at the start: exactly one of these.
+/// Fibres as a cell array of the mesh with three components has them.
+struct FibreArray {
+  std::string name;
+};
+
+/// Fibres along the gradient of the harmonic field between two regions.
+struct FibresBetween {
+  Region from, to;
+};
+
+/// The directions of a tissue's fibres at the start. A vector: the same everywhere, of length 1.
 struct Fibres {
-  std::optional<Vec3> direction;                     // the same everywhere, unit vector
-  std::optional<std::string> array;                  // a cell array of the mesh, three components
-  std::optional<std::pair<Region, Region>> between;  // along the gradient of the harmonic field
-  Location where;
+  std::variant<Vec3, FibreArray, FibresBetween> along;
+  Location where = {};
 };
 
 struct TissueMaterial {
@@ -149,12 +158,10 @@ struct Body {
   enum class Kind { Fixed, Rigid, Tissue };
   std::string name;
   Kind kind = Kind::Tissue;
-  // Exactly one of these, or none for a fixed body that only carries points:
-  std::optional<MeshFile> mesh;
-  std::optional<BoxGeometry> box;
-  std::optional<HexahedronGeometry> hexahedron;
-  std::optional<SphereGeometry> sphere;
-  std::optional<VShapeGeometry> v_shape;
+  /// None: a fixed body that only carries points.
+  std::variant<std::monostate, MeshFile, BoxGeometry, HexahedronGeometry, SphereGeometry,
+               VShapeGeometry>
+      geometry;
   Placement placement;  // of a built-in geometry
 
   std::vector<MeshFile> contact_meshes;  // bones: surfaces that touch, in place of the mesh
@@ -224,18 +231,30 @@ struct Ligament {
   Location where;
 };
 
-struct Load {
-  enum class Kind { Gravity, Force, Motion };
-  Kind kind = Kind::Gravity;
-  Vec3 acceleration = Vec3::Zero();  // Gravity [m/s^2]
-  Anchor anchor;                 // Force: where it acts (a region of a tissue: `region` instead)
-  std::optional<Region> region;  // Force on a tissue: spread over these nodes, equal shares
-  Vec3 force = Vec3::Zero();     // Force [N], dead
-  Curve profile;                 // Force: factor over time
-  std::string body;  // Motion: a fixed body, or a rigid one with hold; Force with region: a tissue
-  Motion motion;     // Motion
+struct GravityLoad {
+  Vec3 acceleration = Vec3::Zero();  // [m/s^2]
   Location where;
 };
+
+struct TissueRegion {
+  std::string tissue;
+  Region region;
+};
+
+struct ForceLoad {
+  std::variant<Anchor, TissueRegion> at;  // in a region: equal shares on its nodes
+  Vec3 force = Vec3::Zero();              // [N], dead
+  Curve profile;                          // factor over time
+  Location where;
+};
+
+struct MotionLoad {
+  std::string body;  // a fixed one, or a rigid one with hold
+  Motion motion;
+  Location where;
+};
+
+using Load = std::variant<GravityLoad, ForceLoad, MotionLoad>;
 
 /// Without any of these every pair of bodies can meet, and none meets itself.
 struct ContactPair {
@@ -256,22 +275,60 @@ struct JointSide {
   Vec3 up = Vec3::Zero();
 };
 
+/// Position.
+struct PointProbe {
+  Anchor anchor;
+};
+
+/// Rotation of a rigid body about an axis.
+struct AngleProbe {
+  std::string body;
+  Vec3 axis = Vec3::UnitX();  // unit vector
+};
+
+/// What two bodies, or one with itself, put on each other: as it acts on the first.
+struct ContactProbe {
+  std::string first, second;
+  std::optional<Region> region = {};  // only through this part of the first body's surface
+};
+
+/// Force and length of a muscle or ligament.
+struct LineProbe {
+  std::string line;
+};
+
+/// The energies of the whole scene.
+struct EnergyProbe {};
+
+/// What holds a fixed body, or a rigid one with hold.
+struct ReactionProbe {
+  std::string body;
+};
+
+/// What a tissue puts on a bone by the nodes attached to it.
+struct AttachmentProbe {
+  std::string tissue;
+  std::string bone;
+};
+
+/// The forces of some probes divided by those of others, both along a direction.
+struct ShareProbe {
+  std::vector<std::string> part, whole;  // names of probes with forces
+  Vec3 direction = Vec3::Zero();         // unit vector
+};
+
+/// Joint coordinates of two bodies.
+struct JointProbe {
+  JointSide proximal, distal;
+  bool is_right = true;  // of the right side of the body
+};
+
 struct Probe {
-  enum class Kind { Point, Angle, Contact, Line, Energy, Reaction, Attachment, Share, Joint };
   std::string name;
-  Kind kind = Kind::Point;
-  Anchor anchor;                   // Point
-  std::string body;                // Angle, Reaction, Contact (first body), Attachment (tissue)
-  std::string other;               // Contact: second body; Attachment: the bone
-  std::optional<Region> region;    // Contact: only through this part of the first body's surface
-  Vec3 axis = Vec3::UnitX();       // Angle: rotation of a rigid body about this unit axis [rad]
-  std::string line;                // Line: a muscle or ligament: force and length
-  std::vector<std::string> part;   // Share: probes with forces, of which it divides the sums
-  std::vector<std::string> whole;  // along a direction
-  Vec3 direction = Vec3::Zero();   // unit vector
-  JointSide proximal, distal;      // Joint
-  bool is_right = true;            // Joint: of the right side of the body
-  Location where;
+  std::variant<PointProbe, AngleProbe, ContactProbe, LineProbe, EnergyProbe, ReactionProbe,
+               AttachmentProbe, ShareProbe, JointProbe>
+      what;
+  Location where = {};
 };
 
 struct Integrator {

@@ -130,10 +130,10 @@ VShapeGeometry read_v_shape(const Node& node) {
 void read_geometry(const Node& node, Body& body) {
   const TableReader table(node, "geometry", {"box", "hexahedron", "sphere", "v_shape", "place"});
   table.exactly_one({"box", "hexahedron", "sphere", "v_shape"});
-  table.may("box", body.box, read_box);
-  table.may("hexahedron", body.hexahedron, read_hexahedron);
-  table.may("sphere", body.sphere, read_sphere);
-  table.may("v_shape", body.v_shape, read_v_shape);
+  table.may("box", body.geometry, read_box);
+  table.may("hexahedron", body.geometry, read_hexahedron);
+  table.may("sphere", body.geometry, read_sphere);
+  table.may("v_shape", body.geometry, read_v_shape);
   table.may("place", body.placement, read_placement);
 }
 
@@ -260,7 +260,7 @@ Body read_body(const Node& node, const std::filesystem::path& folder) {
       table.at("kind"),
       {{"fixed", Body::Kind::Fixed}, {"rigid", Body::Kind::Rigid}, {"tissue", Body::Kind::Tissue}});
   table.at_most_one({"mesh", "geometry"});
-  table.may("mesh", body.mesh, mesh);
+  table.may("mesh", body.geometry, mesh);
   if (const Node* geometry = table.find("geometry")) read_geometry(*geometry, body);
   table.may("contact_meshes", body.contact_meshes, contact_meshes);
   table.may("layer", body.layer, read_layer);

@@ -6,24 +6,20 @@
 namespace articular::sim {
 namespace {
 
-Load read_gravity(const Node& node) {
+Load read_gravity(const Node& node, const Context&) {
   const TableReader table(node, "[[load]] of kind \"gravity\"", {"kind", "acceleration"});
-  Load load;
-  load.kind = Load::Kind::Gravity;
-  load.acceleration = read_vector(table.at("acceleration"), kAcceleration);
-  return load;
+  return GravityLoad{read_vector(table.at("acceleration"), kAcceleration), node.where};
 }
 
 Load read_force(const Node& node, const Context& context) {
   const TableReader table(node, "[[load]] of kind \"force\"",
                           {"kind", "body", "region", "point", "radius", "force", "profile"});
-  Load load;
-  load.kind = Load::Kind::Force;
+  ForceLoad load;
+  load.where = node.where;
   const Body& body = read_body_reference(table.at("body"), context);
   if (body.kind == Body::Kind::Fixed)
     fail(table.at("body"),
          fmt::format("a force moves a rigid body or tissue, body `{}` is fixed", body.name));
-  load.body = body.name;
   table.exactly_one({"region", "point"});
   if (const Node* region = table.find("region")) {
     if (body.kind != Body::Kind::Tissue)
@@ -31,9 +27,9 @@ Load read_force(const Node& node, const Context& context) {
            fmt::format("a force on a region acts on tissue; body `{}` is rigid and takes a `point`",
                        body.name));
     table.refuse({"radius"}, "it goes with `point`");
-    load.region = read_region(*region, context);
+    load.at = TissueRegion{body.name, read_region(*region, context)};
   } else {
-    load.anchor = read_anchor(table, context);
+    load.at = read_anchor(table, context);
   }
   load.force = read_vector(table.at("force"), kForce);
   table.may("profile", load.profile, [](const Node& n) { return read_curve(n, kAny); });
@@ -91,8 +87,8 @@ Load read_motion(const Node& node, const Context& context) {
   const TableReader table(
       node, "[[load]] of kind \"motion\"",
       {"kind", "body", "time", "translation", "rotation", "about", "interpolation"});
-  Load load;
-  load.kind = Load::Kind::Motion;
+  MotionLoad load;
+  load.where = node.where;
   const Body& body = read_body_reference(table.at("body"), context);
   check_can_be_driven(table.at("body"), body);
   load.body = body.name;
@@ -118,17 +114,16 @@ Load read_load(const Node& node, const Context& context) {
   if (node.table() == nullptr) fail(node, "expected a table, found " + found(node));
   const Node* kind = node.find("kind");
   if (kind == nullptr) throw InputError(node.where, "[[load]]: `kind` is missing");
-  switch (read_choice<Load::Kind>(*kind, {{"gravity", Load::Kind::Gravity},
-                                          {"force", Load::Kind::Force},
-                                          {"motion", Load::Kind::Motion}})) {
-    case Load::Kind::Force:
-      return read_force(node, context);
-    case Load::Kind::Motion:
-      return read_motion(node, context);
-    case Load::Kind::Gravity:
-      break;
-  }
-  return read_gravity(node);
+  const auto read = read_choice<Load (*)(const Node&, const Context&)>(
+      *kind, {{"gravity", read_gravity}, {"force", read_force}, {"motion", read_motion}});
+  return read(node, context);
+}
+
+/// Throws at `node` if one of the loads so far drives the body.
+void check_not_driven(const Node& node, const std::string& body, const std::vector<Load>& so_far) {
+  for (const Load& load : so_far)
+    if (const auto* other = std::get_if<MotionLoad>(&load); other != nullptr && other->body == body)
+      fail(node, fmt::format("body `{}` already has a motion, at {}", body, place(other->where)));
 }
 
 }  // namespace
@@ -137,12 +132,8 @@ std::vector<Load> read_loads(const TableReader& document, const Context& context
   std::vector<Load> loads;
   for (const Node& node : entries(document, "load")) {
     Load load = read_load(node, context);
-    load.where = node.where;
-    for (const Load& other : loads)
-      if (load.kind == Load::Kind::Motion && other.kind == Load::Kind::Motion &&
-          load.body == other.body)
-        fail(*node.find("body"),
-             fmt::format("body `{}` already has a motion, at {}", load.body, place(other.where)));
+    if (const auto* motion = std::get_if<MotionLoad>(&load))
+      check_not_driven(*node.find("body"), motion->body, loads);
     loads.push_back(std::move(load));
   }
   return loads;

@@ -156,12 +156,12 @@ Fibres read_fibres(const Node& node) {
   fibres.where = node.where;
   if (table.find("from") != nullptr || table.find("to") != nullptr) {
     table.refuse({"direction", "array"}, "the fibres run between two regions");
-    fibres.between = {region(table.at("from")), region(table.at("to"))};
+    fibres.along = FibresBetween{region(table.at("from")), region(table.at("to"))};
     return fibres;
   }
   table.exactly_one({"direction", "array"});
-  table.may("direction", fibres.direction, read_direction);
-  table.may("array", fibres.array, read_text);
+  table.may("direction", fibres.along, read_direction);
+  table.may("array", fibres.along, [](const Node& n) { return FibreArray{read_text(n)}; });
   return fibres;
 }
 

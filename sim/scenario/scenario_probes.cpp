@@ -64,89 +64,104 @@ JointSide read_joint_side(const Node& node, const Context& context) {
   return side;
 }
 
-/// What a probe of its kind observes.
-void read_target(const TableReader& table, const Context& context, const Names& lines,
-                 Probe& probe) {
-  switch (probe.kind) {
-    case Probe::Kind::Point:
-      keep_only(table, {"body", "point"});
-      probe.anchor = read_anchor(table, context);
-      break;
-    case Probe::Kind::Angle:
-      keep_only(table, {"body", "axis"});
-      probe.body = read_body_of_kind(table.at("body"), context, Body::Kind::Rigid, "rigid");
-      table.may("axis", probe.axis, read_direction);
-      break;
-    case Probe::Kind::Contact: {
-      keep_only(table, {"bodies", "region"});
-      const Node::List& bodies = read_list(table.at("bodies"), "the names of two bodies", 2);
-      probe.body = read_touching_body(bodies[0], context).name;
-      probe.other = read_touching_body(bodies[1], context).name;
-      table.may("region", probe.region, [&](const Node& n) { return read_region(n, context); });
-      if (probe.region && probe.body == probe.other)
-        fail(table.at("region"), "needs two bodies: of one with itself it names no side");
-      break;
-    }
-    case Probe::Kind::Attachment: {
-      keep_only(table, {"bodies"});
-      const Node::List& bodies = read_list(table.at("bodies"), "a tissue and a bone", 2);
-      probe.body = read_body_of_kind(bodies[0], context, Body::Kind::Tissue, "tissue");
-      const Body& rigid = read_body_reference(bodies[1], context);
-      if (rigid.kind == Body::Kind::Tissue)
-        fail(bodies[1],
-             fmt::format("expected a fixed or rigid body, body `{}` is tissue", rigid.name));
-      probe.other = rigid.name;
-      break;
-    }
-    case Probe::Kind::Line:
-      keep_only(table, {"line"});
-      probe.line = read_line_reference(table.at("line"), context, lines);
-      break;
-    case Probe::Kind::Energy:
-      keep_only(table, {});
-      break;
-    case Probe::Kind::Reaction:
-      keep_only(table, {"body"});
-      probe.body = read_held_body(table.at("body"), context);
-      break;
-    case Probe::Kind::Share:
-      keep_only(table, {"part", "whole", "direction"});
-      probe.part = read_probe_names(table.at("part"), context);
-      probe.whole = read_probe_names(table.at("whole"), context);
-      probe.direction = read_direction(table.at("direction"));
-      break;
-    case Probe::Kind::Joint:
-      keep_only(table, {"proximal", "distal", "side"});
-      table.refuse({"mirror"}, "axes of a joint are directions, which are not mirrored");
-      probe.proximal = read_joint_side(table.at("proximal"), context);
-      probe.distal = read_joint_side(table.at("distal"), context);
-      if (probe.proximal.body == probe.distal.body)
-        fail(table.at("distal"), "a joint needs two bodies");
-      probe.is_right = read_choice<bool>(table.at("side"), {{"right", true}, {"left", false}});
-      break;
-  }
+/// What a probe of one kind observes.
+using Target = decltype(Probe::what);
+
+Target read_point(const TableReader& table, const Context& context, const Names&) {
+  keep_only(table, {"body", "point"});
+  return PointProbe{read_anchor(table, context)};
+}
+
+Target read_angle(const TableReader& table, const Context& context, const Names&) {
+  keep_only(table, {"body", "axis"});
+  AngleProbe angle;
+  angle.body = read_body_of_kind(table.at("body"), context, Body::Kind::Rigid, "rigid");
+  table.may("axis", angle.axis, read_direction);
+  return angle;
+}
+
+Target read_contact(const TableReader& table, const Context& context, const Names&) {
+  keep_only(table, {"bodies", "region"});
+  const Node::List& bodies = read_list(table.at("bodies"), "the names of two bodies", 2);
+  ContactProbe contact;
+  contact.first = read_touching_body(bodies[0], context).name;
+  contact.second = read_touching_body(bodies[1], context).name;
+  table.may("region", contact.region, [&](const Node& n) { return read_region(n, context); });
+  if (contact.region && contact.first == contact.second)
+    fail(table.at("region"), "needs two bodies: of one with itself it names no side");
+  return contact;
+}
+
+Target read_line(const TableReader& table, const Context& context, const Names& lines) {
+  keep_only(table, {"line"});
+  return LineProbe{read_line_reference(table.at("line"), context, lines)};
+}
+
+Target read_energy(const TableReader& table, const Context&, const Names&) {
+  keep_only(table, {});
+  return EnergyProbe{};
+}
+
+Target read_reaction(const TableReader& table, const Context& context, const Names&) {
+  keep_only(table, {"body"});
+  return ReactionProbe{read_held_body(table.at("body"), context)};
+}
+
+Target read_attachment(const TableReader& table, const Context& context, const Names&) {
+  keep_only(table, {"bodies"});
+  const Node::List& bodies = read_list(table.at("bodies"), "a tissue and a bone", 2);
+  AttachmentProbe attachment;
+  attachment.tissue = read_body_of_kind(bodies[0], context, Body::Kind::Tissue, "tissue");
+  const Body& bone = read_body_reference(bodies[1], context);
+  if (bone.kind == Body::Kind::Tissue)
+    fail(bodies[1], fmt::format("expected a fixed or rigid body, body `{}` is tissue", bone.name));
+  attachment.bone = bone.name;
+  return attachment;
+}
+
+Target read_share(const TableReader& table, const Context& context, const Names&) {
+  keep_only(table, {"part", "whole", "direction"});
+  ShareProbe share;
+  share.part = read_probe_names(table.at("part"), context);
+  share.whole = read_probe_names(table.at("whole"), context);
+  share.direction = read_direction(table.at("direction"));
+  return share;
+}
+
+Target read_joint(const TableReader& table, const Context& context, const Names&) {
+  keep_only(table, {"proximal", "distal", "side"});
+  table.refuse({"mirror"}, "axes of a joint are directions, which are not mirrored");
+  JointProbe joint;
+  joint.proximal = read_joint_side(table.at("proximal"), context);
+  joint.distal = read_joint_side(table.at("distal"), context);
+  if (joint.proximal.body == joint.distal.body)
+    fail(table.at("distal"), "a joint needs two bodies");
+  joint.is_right = read_choice<bool>(table.at("side"), {{"right", true}, {"left", false}});
+  return joint;
 }
 
 Probe read_probe(const TableReader& table, const Context& context, const Names& lines) {
   Probe probe;
   probe.where = table.node().where;
   probe.name = read_name(table.at("name")) + side_suffix(table, context.side);
-  probe.kind = read_choice<Probe::Kind>(table.at("kind"), {{"point", Probe::Kind::Point},
-                                                           {"angle", Probe::Kind::Angle},
-                                                           {"contact", Probe::Kind::Contact},
-                                                           {"line", Probe::Kind::Line},
-                                                           {"energy", Probe::Kind::Energy},
-                                                           {"reaction", Probe::Kind::Reaction},
-                                                           {"attachment", Probe::Kind::Attachment},
-                                                           {"share", Probe::Kind::Share},
-                                                           {"joint", Probe::Kind::Joint}});
-  read_target(table, context, lines, probe);
+  const auto read = read_choice<Target (*)(const TableReader&, const Context&, const Names&)>(
+      table.at("kind"), {{"point", read_point},
+                         {"angle", read_angle},
+                         {"contact", read_contact},
+                         {"line", read_line},
+                         {"energy", read_energy},
+                         {"reaction", read_reaction},
+                         {"attachment", read_attachment},
+                         {"share", read_share},
+                         {"joint", read_joint}});
+  probe.what = read(table, context, lines);
   return probe;
 }
 
 bool has_force(const Probe& probe) {
-  return probe.kind == Probe::Kind::Contact || probe.kind == Probe::Kind::Attachment ||
-         probe.kind == Probe::Kind::Reaction;
+  return std::holds_alternative<ContactProbe>(probe.what) ||
+         std::holds_alternative<AttachmentProbe>(probe.what) ||
+         std::holds_alternative<ReactionProbe>(probe.what);
 }
 
 /// Shares are of probes that have a force.
@@ -154,14 +169,17 @@ void check_forces(const std::vector<Probe>& probes) {
   Names with_force;
   for (const Probe& probe : probes)
     if (has_force(probe)) with_force.push_back(probe.name);
-  for (const Probe& probe : probes)
-    for (const Names* names : {&probe.part, &probe.whole})
+  for (const Probe& probe : probes) {
+    const auto* share = std::get_if<ShareProbe>(&probe.what);
+    if (share == nullptr) continue;
+    for (const Names* names : {&share->part, &share->whole})
       for (const std::string& name : *names)
         if (std::find(with_force.begin(), with_force.end(), name) == with_force.end())
           throw InputError(probe.where,
                            fmt::format("[[probe]] `{}`: expected names of contact, attachment or "
                                        "reaction probes, found `{}`{}",
                                        probe.name, one_line(name), suggestion(name, with_force)));
+  }
 }
 
 }  // namespace

@@ -74,8 +74,7 @@ const Body& read_body_reference(const Node& node, const Context& context) {
 }
 
 bool has_surface(const Body& body) {
-  return body.mesh || body.box || body.hexahedron || body.sphere || body.v_shape ||
-         !body.contact_meshes.empty();
+  return !std::holds_alternative<std::monostate>(body.geometry) || !body.contact_meshes.empty();
 }
 
 Placement read_placement(const Node& node) {

@@ -88,7 +88,7 @@ TEST(JawOpening, WithoutContactACondyleLeavesItsFossa) {
                     scenario.contact = false;
                     scenario.contacts.clear();
                     std::erase_if(scenario.probes, [](const sim::Probe& probe) {
-                      return probe.kind == sim::Probe::Kind::Contact;
+                      return std::holds_alternative<sim::ContactProbe>(probe.what);
                     });
                   });
   // The fossa's roof is 3 mm above the condyle's disc.
@@ -110,7 +110,9 @@ TEST(JawOpening, WithoutDiscsTheCondyleTakesAnotherPath) {
                          [&](const sim::Anchor& anchor) { return is_disc(anchor.body); });
     });
     std::erase_if(scenario.probes, [&](const sim::Probe& probe) {
-      return is_disc(probe.body) || is_disc(probe.other) || !probe.line.empty();
+      const auto* contact = std::get_if<sim::ContactProbe>(&probe.what);
+      return (contact != nullptr && (is_disc(contact->first) || is_disc(contact->second))) ||
+             std::holds_alternative<sim::LineProbe>(probe.what);
     });
   };
   const std::vector<std::string> overrides = {"integrator.step=4 ms", "duration=0.3 s"};

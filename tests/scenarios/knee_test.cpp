@@ -21,7 +21,8 @@ ScenarioResults coarse_knee(const std::string& file, const std::vector<std::stri
   sim::Scenario scenario = sim::read_scenario(
       std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee" / file, overrides);
   for (sim::Body& body : scenario.bodies) {
-    body.mesh->path = folder.path() / "anatomy" / body.mesh->path.filename();
+    auto& mesh = std::get<sim::MeshFile>(body.geometry);
+    mesh.path = folder.path() / "anatomy" / mesh.path.filename();
     for (sim::MeshFile& file : body.contact_meshes)
       file.path = folder.path() / "anatomy" / file.path.filename();
   }
@@ -144,9 +145,10 @@ TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
   sim::Scenario scenario = sim::read_scenario(
       std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee/subject-axial-load.toml",
       {"duration=0.1 s"});
-  for (sim::Body& body : scenario.bodies)
-    if (!body.mesh->made_by.empty())
-      body.mesh->path = folder.path() / "meshes" / body.mesh->path.filename();
+  for (sim::Body& body : scenario.bodies) {
+    auto& mesh = std::get<sim::MeshFile>(body.geometry);
+    if (!mesh.made_by.empty()) mesh.path = folder.path() / "meshes" / mesh.path.filename();
+  }
   sim::RunOptions options;
   options.directory = folder.path() / "out";
   sim::run(scenario, sim::build_model(scenario), options);

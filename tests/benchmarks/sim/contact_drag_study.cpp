@@ -100,7 +100,7 @@ Body sphere() {
   Body body;
   body.name = "sphere";
   body.kind = Body::Kind::Fixed;
-  body.sphere = SphereGeometry{kRadius, kRadius / 10, {0, 0, kRadius}};  // 4,800 facets
+  body.geometry = SphereGeometry{kRadius, kRadius / 10, {0, 0, kRadius}};  // 4,800 facets
   return body;
 }
 
@@ -119,7 +119,7 @@ void add_rigid_punch(Scene& scene) {
   Body body;
   body.name = "punch";
   body.kind = Body::Kind::Fixed;
-  body.box = BoxGeometry{{kPunch, kPunch, kPunch / 2}, {2, 2, 1}, {0, 0, kPunch / 4}};
+  body.geometry = BoxGeometry{{kPunch, kPunch, kPunch / 2}, {2, 2, 1}, {0, 0, kPunch / 4}};
   body.placement.rotation = {0, 0, kPunchTurn};
   scene.add(body);
   scene.touch("punch", "block");

@@ -160,7 +160,7 @@ Body Scene::meshed(const std::string& name, const MeshData& mesh) {
   file.path = folder_ / (name + (mesh.tets.cols() > 0 ? ".vtu" : ".vtp"));
   file.unit = 1;
   write_mesh(file.path, mesh, 1);
-  body.mesh = file;
+  body.geometry = file;
   return body;
 }
 
@@ -187,8 +187,7 @@ void Scene::tie(const std::string& tissue, const std::string& rigid, double z_lo
 }
 
 void Scene::drive(const std::string& rigid, const std::vector<Vec3>& places) {
-  Load load;
-  load.kind = Load::Kind::Motion;
+  MotionLoad load;
   load.body = rigid;
   load.motion.smooth = false;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -201,12 +200,7 @@ void Scene::drive(const std::string& rigid, const std::vector<Vec3>& places) {
 
 void Scene::touch(const std::string& a, const std::string& b) {
   scenario_.contacts = {{a, b, {}, {}}};
-  Probe probe;
-  probe.name = "contact";
-  probe.kind = Probe::Kind::Contact;
-  probe.body = a;
-  probe.other = b;
-  scenario_.probes = {probe};
+  scenario_.probes = {{"contact", ContactProbe{a, b}}};
 }
 
 ContactRun::ContactRun(const Scene& scene, const StudyOptions& options)

@@ -245,7 +245,7 @@ TEST(Dynamics, WithoutForcesOnTheBoneTheNewtonMatrixIsTheWholeDerivative) {
 TEST(Dynamics, InContactTheNewtonMatrixIsTheWholeDerivative) {
   for (const double depth : {1e-3 * kSide, 1e-2 * kSide}) {
     Scenario scenario = everything(depth);
-    scenario.bodies[2].box->center += Vec3(0.03, 0.02, 0) * kSide;
+    std::get<BoxGeometry>(scenario.bodies[2].geometry).center += Vec3(0.03, 0.02, 0) * kSide;
     scenario.muscles.clear();
     scenario.ligaments.clear();
     Forces scene(scenario, 0.1 * kSide);

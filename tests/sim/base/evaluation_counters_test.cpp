@@ -69,9 +69,8 @@ TEST(Terms, WhatActsOnItIsEvaluatedWhereItIsNamedAndNowhereElse) {
   EXPECT_EQ(evaluated(s), with(kBar, {"gravity"}));
 
   s = bar();
-  Load force;
-  force.kind = Load::Kind::Force;
-  force.anchor = anchor("bar", {0, 0, 0.02});
+  ForceLoad force;
+  force.at = anchor("bar", {0, 0, 0.02});
   force.force = {0, 0, 1e-3};
   s.loads = {force};
   EXPECT_EQ(evaluated(s), with(kBar, {"load"}));
@@ -108,8 +107,7 @@ TEST(Terms, WhatATissueIsMadeOfIsEvaluatedWhereItIsNamedAndNowhereElse) {
   ground.kappa = 1e6;
   s.bodies[0].material =
       material_of(fem::BlemkerMuscle<>(fem::MuscleFibre(fem::MuscleFibre::Constants()), ground));
-  s.bodies[0].material->fibres =
-      Fibres{.direction = Vec3::UnitZ(), .array = {}, .between = {}, .where = {}};
+  s.bodies[0].material->fibres = Fibres{Vec3::UnitZ()};
   Muscle muscle;
   muscle.name = "fibres";
   muscle.tissue = "bar";

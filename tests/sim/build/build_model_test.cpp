@@ -77,11 +77,10 @@ TEST(Model, ARigidBoneTakesOverTheMassAndInertiaOfAttachedTissue) {
 TEST(Model, AForceOnARegionIsSharedEquallyByItsNodes) {
   Scenario s = scene(1e-3);
   s.bodies = {block()};
-  Load load;
-  load.kind = Load::Kind::Force;
-  load.body = "block";
-  load.region = Region{};
-  load.region->box = {Vec3(-1, -1, 0.49 * kSide), Vec3(1, 1, 1)};
+  ForceLoad load;
+  Region top;
+  top.box = {Vec3(-1, -1, 0.49 * kSide), Vec3(1, 1, 1)};
+  load.at = TissueRegion{"block", top};
   load.force = {0, 0, 9};
   load.profile = {{0, 1}, {0.5, 1}};
   s.loads = {load};

@@ -121,8 +121,7 @@ double force_of_a_ball(Scenario::Analysis analysis, std::optional<double> stiffn
   s.contact_stiffness_factor = stiffness_factor;
   if (analysis == Scenario::Analysis::Dynamic) s.integrator.step = 10e-3;
   s.bodies[1].material->mass_damping = 20;
-  s.bodies[2].box.reset();
-  s.bodies[2].sphere = SphereGeometry{0.1, 0.02, {0, 0, kSide + 0.1}};
+  s.bodies[2].geometry = SphereGeometry{0.1, 0.02, {0, 0, kSide + 0.1}};
   Simulation run(s);
   run.advance(0.1);
   if (analysis == Scenario::Analysis::Dynamic) run.advance(1.5);

@@ -99,8 +99,8 @@ double largest_stretch(const Simulation& run) {
 }
 
 /// A plate that closes in by `way` within 0.2 s, waits as long and opens again.
-Load closing(const std::string& plate, const Vec3& way) {
-  Load load = shift(plate, 0.2, way);
+MotionLoad closing(const std::string& plate, const Vec3& way) {
+  MotionLoad load = shift(plate, 0.2, way);
   load.motion.time = {0, 0.2, 0.4, 0.6};
   load.motion.translation = {Vec3::Zero(), way, way, Vec3::Zero()};
   return load;
@@ -145,8 +145,7 @@ TEST(SelfContact, AUPressedFlatOntoItselfRecoversItsShape) {
 TEST(SelfContact, AVClosedOnItselfRecoversItsShape) {
   Scenario s = contact_scene(5e-3);
   Body v = box_body("v", Body::Kind::Tissue, Vec3::Ones());
-  v.box.reset();
-  v.v_shape = VShapeGeometry{0.02, 0.004, 0.5, {10, 2}};
+  v.geometry = VShapeGeometry{0.02, 0.004, 0.5, {10, 2}};
   v.material = neo_hookean(50e3, 0.3);
   s.bodies = {v, stand("left"), stand("right")};
   s.contacts = {{"v", "v", {}, {}}};

@@ -461,7 +461,7 @@ TEST(Friction, WithTheDefaultSlipVelocityABlockCreepsByAFewHundredthsOfAnElement
 TEST(Friction, ADrivenTableTakesABlockAlongAsFarAsFrictionCan) {
   for (const double acceleration : {0.5 * kFriction * kGravity, 2 * kFriction * kGravity}) {
     Scenario s = incline(Body::Kind::Rigid, 0, 1e-3);
-    Load load = shift("table", 0.1, Vec3::Zero());
+    MotionLoad load = shift("table", 0.1, Vec3::Zero());
     load.motion.time.clear();
     load.motion.translation.clear();
     for (int k = 0; k <= 110; ++k) {  // straight pieces of a parabola

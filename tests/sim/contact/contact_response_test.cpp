@@ -96,8 +96,7 @@ SunkBlock ridged_block(Body::Kind lower) {
   };
   s.bodies[0].kind = lower;
   const Body upper = mesh_body("upper", Body::Kind::Tissue, bent(box, fold), folder);
-  s.bodies[1].box.reset();
-  s.bodies[1].mesh = upper.mesh;
+  s.bodies[1].geometry = upper.geometry;
   return SunkBlock(s, 0.001);
 }
 

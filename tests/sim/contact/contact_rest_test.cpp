@@ -106,9 +106,8 @@ TEST(ContactAtRest, ABlockThatIsLiftedWithMoreThanItsWeightRises) {
     s.bodies = {
         box_body("block", Body::Kind::Rigid, Vec3::Constant(kSide)),
         box_body("floor", Body::Kind::Fixed, {3 * kSide, 3 * kSide, kSide}, {0, 0, -kSide})};
-    Load lift;
-    lift.kind = Load::Kind::Force;
-    lift.anchor = anchor("block", Vec3::Zero());
+    ForceLoad lift;
+    lift.at = anchor("block", Vec3::Zero());
     lift.force = {0, 0, 2 * weight};
     lift.profile = {{0, kTime}, {0, 1}};
     s.loads = {gravity({0, 0, -kGravity}), lift};

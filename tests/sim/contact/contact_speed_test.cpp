@@ -33,7 +33,7 @@ Body ball() {
   Body body;
   body.name = "ball";
   body.kind = Body::Kind::Fixed;
-  body.sphere = SphereGeometry{0.008, 0.002, {0.001, 0.0005, 0.5 * kBlock + 0.010}};
+  body.geometry = SphereGeometry{0.008, 0.002, {0.001, 0.0005, 0.5 * kBlock + 0.010}};
   return body;
 }
 
@@ -52,7 +52,9 @@ Passage drive(const Body& driven, double half_height, double speed, double way,
   Passage passage;
   const int rigid = bone_of(run, driven.name);
   const double start = run.now().poses[static_cast<std::size_t>(rigid)].p.z();
-  const double center = driven.sphere ? driven.sphere->center.z() : driven.box->center.z();
+  const auto* sphere = std::get_if<SphereGeometry>(&driven.geometry);
+  const double center =
+      sphere != nullptr ? sphere->center.z() : std::get<BoxGeometry>(driven.geometry).center.z();
   try {
     run.advance(way / speed + 5 * kStep, [&] {
       const Positions x = nodes_of(run, 0);

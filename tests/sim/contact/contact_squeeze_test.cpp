@@ -65,7 +65,7 @@ Scenario squeezed(const TemporaryFolder& folder, int cells) {
   Body& ball = s.bodies[2];
   ball.name = "ball";
   ball.kind = Body::Kind::Fixed;
-  ball.sphere = SphereGeometry{kBall, 1e-3, {0, 0, kBall + kSheet}};
+  ball.geometry = SphereGeometry{kBall, 1e-3, {0, 0, kBall + kSheet}};
   s.loads = {shift("ball", 0.1, {0, 0, -kSheet / 2})};
   return s;
 }
@@ -75,7 +75,7 @@ TEST(Squeeze, TissueBetweenTwoBonesIsSqueezedToHalfItsThicknessAndDragged) {
   constexpr double kWay = 2e-3;  // [m]
   const TemporaryFolder folder;
   Scenario s = squeezed(folder, 14);
-  Motion& motion = s.loads[0].motion;
+  Motion& motion = std::get<MotionLoad>(s.loads[0]).motion;
   motion.time = {0, 0.1, 0.15, 0.25, 0.3, 0.35};
   const Vec3 down(0, 0, -kSheet / 2), along(kWay, 0.3 * kWay, 0);
   motion.translation = {Vec3::Zero(), down, down + along, down - along, down, down};
@@ -127,10 +127,9 @@ TEST(Squeeze, ADiscBetweenCondyleAndFossaCarries500N) {
   condyle.kind = Body::Kind::Rigid;
   condyle.density = 1000;
   const Vec3 center(0, 0, kCondyle + kThickness);
-  condyle.sphere = SphereGeometry{kCondyle, 1e-3, center};
-  Load press;
-  press.kind = Load::Kind::Force;
-  press.anchor = anchor("condyle", center);
+  condyle.geometry = SphereGeometry{kCondyle, 1e-3, center};
+  ForceLoad press;
+  press.at = anchor("condyle", center);
   press.force = {0, 0, -kForce};
   press.profile = {{0, 0.05}, {0, 1}};
   s.loads = {press};

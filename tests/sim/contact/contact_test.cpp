@@ -29,16 +29,7 @@ Scenario press() {
   s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, -0.49 * kSide})};
   s.contacts = {{"plate", "block", kStiffness, {}}};
   s.loads = {shift("plate", 0.2, {0, 0, -kPress})};
-  Probe contact;
-  contact.name = "pressed";
-  contact.kind = Probe::Kind::Contact;
-  contact.body = "block";
-  contact.other = "plate";
-  Probe reaction;
-  reaction.name = "plate";
-  reaction.kind = Probe::Kind::Reaction;
-  reaction.body = "plate";
-  s.probes = {contact, reaction};
+  s.probes = {{"pressed", ContactProbe{"block", "plate"}}, {"plate", ReactionProbe{"plate"}}};
   return s;
 }
 
@@ -119,10 +110,11 @@ TEST(Contact, UniformPressureIsUniformOnTheSurfacesOfBothBodies) {
 TEST(Contact, TheCentreOfPressureOfATiltedPlateIsWhereTheMomentVanishes) {
   constexpr double tilt = 0.01;
   Scenario s = press();
-  s.bodies[0].box->cells = {8, 8, 1};
+  std::get<BoxGeometry>(s.bodies[0].geometry).cells = {8, 8, 1};
   s.bodies[0].material = linear(1e5 * kStiffness * kSide, 0);
-  s.loads[0].motion.rotation = {Vec3::Zero(), tilt * Vec3::UnitY()};
-  s.loads[0].motion.about = {0, 0, kSide / 2};
+  Motion& motion = std::get<MotionLoad>(s.loads[0]).motion;
+  motion.rotation = {Vec3::Zero(), tilt * Vec3::UnitY()};
+  motion.about = {0, 0, kSide / 2};
   s.contact_response = Scenario::Response::Pointwise;  // linear from edge to edge
   Simulation run(s);
   press_to_rest(run);
@@ -228,7 +220,7 @@ TEST(Contact, TheLegsOfAClosingVMeetAndDoNotPassThroughEachOther) {
   s.contact = true;
   Body v;
   v.name = "v";
-  v.v_shape = VShapeGeometry{0.02, 0.004, 0.5, {7, 2}};
+  v.geometry = VShapeGeometry{0.02, 0.004, 0.5, {7, 2}};
   v.density = 1000;
   v.material = neo_hookean(50e3, 0.3);
   s.bodies = {v, stand("left"), stand("right")};

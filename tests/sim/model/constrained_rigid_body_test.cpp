@@ -94,10 +94,8 @@ Scenario slider(Scenario s, const Mat3& R) {
   spring.stiffness = 500;
   spring.damping = 30;
   s.ligaments = {spring};
-  Load push;
-  push.kind = Load::Kind::Force;
-  push.body = "block";
-  push.anchor = anchor("block", R * Vec3(0.01, 0.03, 0));
+  ForceLoad push;
+  push.at = anchor("block", R * Vec3(0.01, 0.03, 0));
   push.force = R * Vec3(3, -2, 5);
   s.loads = {push};
   return s;
@@ -141,10 +139,8 @@ Scenario bar_on_slider(TissueMaterial::Element element, double force) {
   s.bodies[2].hold = Hold{{true, true, false, true, true, true}, Mat3::Identity(), {}};
   s.attachments = {attach("bar", "wall", {-1, -1, -1e-6}, {1, 1, 1e-6}),
                    attach("bar", "plate", {-1, -1, 0.0799}, {1, 1, 0.0801})};
-  Load pull;
-  pull.kind = Load::Kind::Force;
-  pull.body = "plate";
-  pull.anchor = anchor("plate", {0.03, 0, 0.09});
+  ForceLoad pull;
+  pull.at = anchor("plate", {0.03, 0, 0.09});
   pull.force = {0.2, 0, force};
   s.loads = {pull};
   return s;

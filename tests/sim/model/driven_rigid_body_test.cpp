@@ -27,9 +27,8 @@ Scenario statics() {
 }
 
 /// Along and about the axes of a hold, from 0 to the values given, in 1 s.
-Load drive(const std::string& body, const Vec3& shift, const Vec3& turn) {
-  Load load;
-  load.kind = Load::Kind::Motion;
+MotionLoad drive(const std::string& body, const Vec3& shift, const Vec3& turn) {
+  MotionLoad load;
   load.body = body;
   load.motion.time = {0, 1};
   load.motion.translation = {Vec3::Zero(), shift};
@@ -235,7 +234,7 @@ TEST(DrivenBone, TurnsDrivenTogetherAreARotationVectorAndTheirMomentThatOfAngula
   s.bodies = {mass_body("body", 1)};
   s.bodies[0].inertia = uneven_inertia();
   s.bodies[0].hold = Hold{kAll, Mat3::Identity(), {}};
-  Load load = drive("body", Vec3::Zero(), turn);
+  MotionLoad load = drive("body", Vec3::Zero(), turn);
   load.motion.time = {0, 1, 1.5};
   load.motion.translation.clear();
   load.motion.rotation.push_back({-0.3, 0.4, 1.2});
@@ -358,8 +357,8 @@ TEST(DrivenBone, TissueOnATurningBoneTurnsWithItUnstrained) {
 
 // All freedoms held and driven: the fixed body with the same motion, whose tissue moves alike.
 TEST(DrivenBone, HeldAsAWholeItIsABodyWhoseMotionIsPrescribed) {
-  const Load held_drive = drive("plate", {0.004, 0, -0.01}, {0, 0.5, 0.3});
-  Load motion = held_drive;
+  const MotionLoad held_drive = drive("plate", {0.004, 0, -0.01}, {0, 0.5, 0.3});
+  MotionLoad motion = held_drive;
   motion.motion.about = {0, 0, -0.01};
   Scenario in_time = scene(0.02);
   Scenario still = statics();

@@ -270,7 +270,7 @@ TEST(Tissue, RelaxationHasTheOrderOfTheScheme) {
     s.integrator.scheme = scheme;
     s.integrator.step = step;
     s.loads = {shift("grip", 32e-3, {0, 0, 0.006})};
-    s.loads[0].motion.smooth = true;
+    std::get<MotionLoad>(s.loads[0]).motion.smooth = true;
     Simulation run(s);
     run.advance(24e-3);
     return -run.force_on(1).z();
@@ -293,7 +293,7 @@ Scenario muscle_block(TissueMaterial::Element element) {
   ground.kappa = 1e6;
   TissueMaterial material = material_of(fem::BlemkerMuscle<>(fem::MuscleFibre(fibre), ground));
   material.element = element;
-  material.fibres = Fibres{.direction = Vec3::UnitZ(), .array = {}, .between = {}, .where = {}};
+  material.fibres = Fibres{Vec3::UnitZ()};
   Scenario s = scene(1e-3);
   s.bodies = {box_body("muscle", Body::Kind::Tissue, {0.01, 0.01, 0.02}, Vec3::Zero(), {2, 2, 4}),
               stand("low"), stand("high")};

@@ -13,22 +13,11 @@ namespace articular::sim::history_test {
 constexpr double kSide = 0.02;      // of the block [m]
 constexpr double kStiffness = 1e7;  // of the contact [Pa/m]
 
-Probe contact_probe(const std::string& name, const std::string& first, const std::string& second) {
-  Probe probe;
-  probe.name = name;
-  probe.kind = Probe::Kind::Contact;
-  probe.body = first;
-  probe.other = second;
-  return probe;
-}
-
-Probe half(const std::string& name, const std::string& first, const std::string& second,
-           double sign) {
-  Probe probe = contact_probe(name, first, second);
+ContactProbe half(const std::string& first, const std::string& second, double sign) {
   const Vec3 low(sign > 0 ? 0 : -1, -1, -1), high(sign > 0 ? 1 : 0, 1, 1);
-  probe.region = Region{};
-  probe.region->box = {low, high};
-  return probe;
+  Region region;
+  region.box = {low, high};
+  return {first, second, region};
 }
 
 /// A tissue block on a wall under a plate, wider than it, that comes down by 0.2 mm and turns.
@@ -43,23 +32,18 @@ Scenario press(Scenario::Analysis analysis, double turn) {
   s.bodies[0].material = linear(20e3, 0);
   s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, -0.49 * kSide})};
   s.contacts = {{"plate", "block", kStiffness, {}}};
-  Load down = shift("plate", 0.2, {0, 0, -2e-4});
+  MotionLoad down = shift("plate", 0.2, {0, 0, -2e-4});
   down.motion.rotation = {Vec3::Zero(), Vec3(0, turn, 0)};
   down.motion.about = Vec3(0, 0, kSide / 2);
   s.loads = {down};
   for (const auto& [first, second] : {std::pair("block", "plate"), std::pair("plate", "block")}) {
     const std::string name = first;
-    s.probes.push_back(contact_probe(name, first, second));
-    s.probes.push_back(half(name + "_low", first, second, -1));
-    s.probes.push_back(half(name + "_high", first, second, 1));
+    s.probes.push_back({name, ContactProbe{first, second}});
+    s.probes.push_back({name + "_low", half(first, second, -1)});
+    s.probes.push_back({name + "_high", half(first, second, 1)});
   }
-  Probe share;
-  share.name = "share";
-  share.kind = Probe::Kind::Share;
-  share.part = {"block_high"};
-  share.whole = {"block_low", "block_high"};
-  share.direction = Vec3::UnitZ();
-  s.probes.push_back(share);
+  s.probes.push_back(
+      {"share", ShareProbe{{"block_high"}, {"block_low", "block_high"}, Vec3::UnitZ()}});
   return s;
 }
 
@@ -138,21 +122,9 @@ TEST(AttachmentProbe, CountsContactOnTheTiedNodesToo) {
   Scenario s = press(Scenario::Analysis::Static, 0.004);
   s.bodies[0].material = neo_hookean(20e3, 0);  // turns without moment
   s.attachments.push_back(attach("block", "wall", {-1, -1, 0.49 * kSide}, {1e-6, 1, 1}));
-  const auto add = [&](const std::string& name, Probe::Kind kind, const std::string& body,
-                       const std::string& other) {
-    Probe probe;
-    probe.name = name;
-    probe.kind = kind;
-    probe.body = body;
-    probe.other = other;
-    s.probes.push_back(probe);
-  };
-  add("tied", Probe::Kind::Attachment, "block", "wall");
-  add("wall", Probe::Kind::Reaction, "wall", "");
-  Probe& share = *std::find_if(s.probes.begin(), s.probes.end(),
-                               [](const Probe& probe) { return probe.kind == Probe::Kind::Share; });
-  share.part = {"tied"};
-  share.whole = {"block"};
+  s.probes.back().what = ShareProbe{{"tied"}, {"block"}, Vec3::UnitZ()};
+  s.probes.push_back({"tied", AttachmentProbe{"block", "wall"}});
+  s.probes.push_back({"wall", ReactionProbe{"wall"}});
   Simulation run(s);
   run.advance(1);
   const Probes probes(run);
@@ -180,11 +152,7 @@ TEST(LineProbe, ALigamentHasItsForceAndItsStrainFromSlack) {
   ligament.reference_strain = 0.02;
   s.ligaments = {ligament};
   s.loads = {shift("b", 1, {0, 0, 0.003})};
-  Probe probe;
-  probe.name = "acl";
-  probe.kind = Probe::Kind::Line;
-  probe.line = "acl";
-  s.probes = {probe};
+  s.probes = {{"acl", LineProbe{"acl"}}};
   Simulation run(s);
   EXPECT_NEAR(Probes(run)("acl.strain [-]"), 0.02, 1e-15);
   EXPECT_NEAR(Probes(run)("acl.force [N]"), 5000 * 0.02 * 0.02 / (4 * 0.03), 1e-9);
@@ -205,14 +173,10 @@ TEST(ReactionProbe, ADrivenBodyHasForceAndMomentAboutItsMiddle) {
   spring.stiffness = 100;
   spring.slack_length = 0.5;
   s.ligaments = {spring};
-  Load motion = shift("box", 1, {0.05, 0, 0});
+  MotionLoad motion = shift("box", 1, {0.05, 0, 0});
   motion.motion.rotation = {Vec3::Zero(), Vec3(0, 0, 1.5)};
   s.loads = {motion};
-  Probe probe;
-  probe.name = "box";
-  probe.kind = Probe::Kind::Reaction;
-  probe.body = "box";
-  s.probes = {probe};
+  s.probes = {{"box", ReactionProbe{"box"}}};
   Simulation run(s);
   run.advance(1);
   const Mat3 R = rotation_matrix({0, 0, 1.5});
@@ -294,16 +258,11 @@ TEST(JointProbe, ADrivenTibiaHasTheCoordinatesOfItsMotion) {
   Scenario s = scene(0.1);
   s.bodies = {box_body("femur", Body::Kind::Fixed, {0.04, 0.04, 0.04}, {0, 0, 0.03}),
               box_body("tibia", Body::Kind::Fixed, {0.04, 0.04, 0.04}, {0, 0.01, -0.03})};
-  Load motion = shift("tibia", 1, {0, 0, -0.004});
+  MotionLoad motion = shift("tibia", 1, {0, 0, -0.004});
   motion.motion.rotation = {Vec3::Zero(), Vec3(0.6, 0, 0)};
   s.loads = {motion};
-  Probe probe;
-  probe.name = "knee";
-  probe.kind = Probe::Kind::Joint;
-  probe.proximal = side_at("femur", false, Vec3::Zero());
-  probe.distal = side_at("tibia", false, Vec3::Zero());
-  probe.is_right = false;
-  s.probes = {probe};
+  s.probes = {{"knee", JointProbe{side_at("femur", false, Vec3::Zero()),
+                                  side_at("tibia", false, Vec3::Zero()), false}}};
   Simulation run(s);
   run.advance(1);
   const Probes probes(run);
@@ -335,10 +294,12 @@ proximal = { body = "skull", point = "1 2 3 mm", lateral = [1, 0, 0], up = [0, 0
 distal = { body = "mandible", point = "0 0 0 mm", lateral = [1, 0, 0], up = [0, 0, 1] }
 )");
   ASSERT_EQ(s.probes.size(), 3U);
-  EXPECT_EQ(s.probes[1].part, std::vector<std::string>{"skull"});
-  EXPECT_EQ(s.probes[1].direction, Vec3::UnitZ());
-  EXPECT_FALSE(s.probes[2].is_right);
-  EXPECT_LT((s.probes[2].proximal.origin - Vec3(1e-3, 2e-3, 3e-3)).norm(), 1e-15);
+  const auto& share = std::get<ShareProbe>(s.probes[1].what);
+  EXPECT_EQ(share.part, std::vector<std::string>{"skull"});
+  EXPECT_EQ(share.direction, Vec3::UnitZ());
+  const auto& joint = std::get<JointProbe>(s.probes[2].what);
+  EXPECT_FALSE(joint.is_right);
+  EXPECT_LT((joint.proximal.origin - Vec3(1e-3, 2e-3, 3e-3)).norm(), 1e-15);
 }
 
 TEST_F(ProbeFile, WhatSharesAndJointsCannotBeIsRefused) {

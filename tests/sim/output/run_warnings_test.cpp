@@ -78,8 +78,9 @@ Scenario press(double stretch, bool lifted) {
   const Vec3 way(0, 0, -(1 - stretch) * kSide);
   s.loads = {shift("press", 0.5, way)};
   if (lifted) {
-    s.loads[0].motion.time.push_back(1);
-    s.loads[0].motion.translation.emplace_back(Vec3::Zero());
+    Motion& motion = std::get<MotionLoad>(s.loads[0]).motion;
+    motion.time.push_back(1);
+    motion.translation.emplace_back(Vec3::Zero());
   }
   return s;
 }

@@ -249,8 +249,9 @@ TEST_F(CompleteScenario, HasItsBones) {
   ASSERT_EQ(scenario_.bodies.size(), 7U);
   const Body& skull = scenario_.bodies[0];
   EXPECT_EQ(skull.kind, Body::Kind::Fixed);
-  EXPECT_EQ(skull.mesh->path, folder_ / "anatomy/skull.vtp");
-  EXPECT_EQ(skull.mesh->unit, 1e-2);
+  const auto& skull_mesh = std::get<MeshFile>(skull.geometry);
+  EXPECT_EQ(skull_mesh.path, folder_ / "anatomy/skull.vtp");
+  EXPECT_EQ(skull_mesh.unit, 1e-2);
   ASSERT_EQ(skull.contact_meshes.size(), 2U);
   EXPECT_EQ(skull.contact_meshes[0].facing, Vec3(0, 0, -1));
   EXPECT_EQ(skull.contact_meshes[0].faces, 500);
@@ -270,11 +271,12 @@ TEST_F(CompleteScenario, HasItsBones) {
 
   const Body& mandible = scenario_.bodies[1];
   EXPECT_EQ(mandible.kind, Body::Kind::Rigid);
-  EXPECT_EQ(mandible.mesh->path, "/data/mandible.vtp");
-  EXPECT_TRUE(mandible.mesh->placement.rotation.isApprox(Vec3(0, 0, 10 * kDegree)));
-  EXPECT_EQ(mandible.mesh->placement.about, Vec3(1e-3, 0, 0));
-  EXPECT_EQ(mandible.mesh->placement.translation, Vec3(1e-3, 2e-3, 3e-3));
-  EXPECT_EQ(mandible.mesh->placement.scale, 1.5);
+  const auto& mandible_mesh = std::get<MeshFile>(mandible.geometry);
+  EXPECT_EQ(mandible_mesh.path, "/data/mandible.vtp");
+  EXPECT_TRUE(mandible_mesh.placement.rotation.isApprox(Vec3(0, 0, 10 * kDegree)));
+  EXPECT_EQ(mandible_mesh.placement.about, Vec3(1e-3, 0, 0));
+  EXPECT_EQ(mandible_mesh.placement.translation, Vec3(1e-3, 2e-3, 3e-3));
+  EXPECT_EQ(mandible_mesh.placement.scale, 1.5);
   EXPECT_EQ(mandible.mass, 0.2);
   EXPECT_EQ(mandible.center_of_mass, Vec3(0, -9.5e-3, 36.1e-3));
   Eigen::Matrix3d inertia;
@@ -285,7 +287,7 @@ TEST_F(CompleteScenario, HasItsBones) {
   EXPECT_TRUE(mandible.collides);
 
   const Body& stand = scenario_.bodies[6];
-  EXPECT_FALSE(stand.mesh || stand.box || stand.sphere || stand.v_shape);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(stand.geometry));
 }
 
 TEST_F(CompleteScenario, HasItsTissueAndGeometries) {
@@ -297,21 +299,24 @@ TEST_F(CompleteScenario, HasItsTissueAndGeometries) {
   EXPECT_NEAR(fem::bulk_modulus(*disc.material->law), 5.4e6 / (3 * (1 - 2 * 0.4)), 1e-6);
   EXPECT_EQ(disc.velocity, Vec3(0, 0, 1));
   const Body& ball = scenario_.bodies[3];
-  EXPECT_EQ(ball.sphere->radius, 5e-3);
-  EXPECT_EQ(ball.sphere->element_size, 1e-3);
-  EXPECT_EQ(ball.sphere->center, Vec3(0, 1e-3, 0));
+  const auto& sphere = std::get<SphereGeometry>(ball.geometry);
+  EXPECT_EQ(sphere.radius, 5e-3);
+  EXPECT_EQ(sphere.element_size, 1e-3);
+  EXPECT_EQ(sphere.center, Vec3(0, 1e-3, 0));
   EXPECT_TRUE(std::holds_alternative<fem::Corotated>(*ball.material->law));
   const Body& block = scenario_.bodies[4];
-  EXPECT_EQ(block.box->size, Vec3(10e-3, 11e-3, 12e-3));
-  EXPECT_EQ(block.box->cells, Eigen::Vector3i(4, 5, 6));
-  EXPECT_EQ(block.box->center, Vec3(0, 0, 5e-3));
+  const auto& box = std::get<BoxGeometry>(block.geometry);
+  EXPECT_EQ(box.size, Vec3(10e-3, 11e-3, 12e-3));
+  EXPECT_EQ(box.cells, Eigen::Vector3i(4, 5, 6));
+  EXPECT_EQ(box.center, Vec3(0, 0, 5e-3));
   EXPECT_TRUE(block.placement.rotation.isApprox(Vec3(0, 0, 45 * kDegree)));
   EXPECT_TRUE(std::holds_alternative<fem::Linear>(*block.material->law));
   const Body& tool = scenario_.bodies[5];
-  EXPECT_EQ(tool.v_shape->leg_length, 40e-3);
-  EXPECT_EQ(tool.v_shape->width, 8e-3);
-  EXPECT_DOUBLE_EQ(tool.v_shape->angle, 40 * kDegree);
-  EXPECT_EQ(tool.v_shape->cells, Eigen::Vector2i(20, 4));
+  const auto& shape = std::get<VShapeGeometry>(tool.geometry);
+  EXPECT_EQ(shape.leg_length, 40e-3);
+  EXPECT_EQ(shape.width, 8e-3);
+  EXPECT_DOUBLE_EQ(shape.angle, 40 * kDegree);
+  EXPECT_EQ(shape.cells, Eigen::Vector2i(20, 4));
   EXPECT_EQ(tool.density, 2000);
 }
 
@@ -381,19 +386,17 @@ TEST_F(CompleteScenario, HasItsLigamentsOnBothSides) {
 
 TEST_F(CompleteScenario, HasItsLoads) {
   ASSERT_EQ(scenario_.loads.size(), 4U);
-  EXPECT_EQ(scenario_.loads[0].kind, Load::Kind::Gravity);
-  EXPECT_EQ(scenario_.loads[0].acceleration, Vec3(0, 0, -9.81));
-  EXPECT_EQ(scenario_.loads[1].kind, Load::Kind::Force);
-  EXPECT_EQ(scenario_.loads[1].body, "block");
-  EXPECT_EQ(scenario_.loads[1].region->box->first, Vec3(-6e-3, -6e-3, 9.9e-3));
-  EXPECT_EQ(scenario_.loads[1].force, Vec3(0, 0, -1));
-  EXPECT_EQ(scenario_.loads[1].profile.value, (std::vector<double>{0, 1}));
-  EXPECT_FALSE(scenario_.loads[2].region);
-  EXPECT_EQ(scenario_.loads[2].anchor.body, "disc_left");
-  EXPECT_EQ(scenario_.loads[2].anchor.point, Vec3(1e-3, 2e-3, 3e-3));
-  EXPECT_EQ(scenario_.loads[2].anchor.radius, 1e-3);
-  const Load& motion = scenario_.loads[3];
-  EXPECT_EQ(motion.kind, Load::Kind::Motion);
+  EXPECT_EQ(std::get<GravityLoad>(scenario_.loads[0]).acceleration, Vec3(0, 0, -9.81));
+  const auto& on_region = std::get<ForceLoad>(scenario_.loads[1]);
+  EXPECT_EQ(std::get<TissueRegion>(on_region.at).tissue, "block");
+  EXPECT_EQ(std::get<TissueRegion>(on_region.at).region.box->first, Vec3(-6e-3, -6e-3, 9.9e-3));
+  EXPECT_EQ(on_region.force, Vec3(0, 0, -1));
+  EXPECT_EQ(on_region.profile.value, (std::vector<double>{0, 1}));
+  const Anchor& point = std::get<Anchor>(std::get<ForceLoad>(scenario_.loads[2]).at);
+  EXPECT_EQ(point.body, "disc_left");
+  EXPECT_EQ(point.point, Vec3(1e-3, 2e-3, 3e-3));
+  EXPECT_EQ(point.radius, 1e-3);
+  const auto& motion = std::get<MotionLoad>(scenario_.loads[3]);
   EXPECT_EQ(motion.body, "stand");
   EXPECT_EQ(motion.motion.time, (std::vector<double>{0, 1}));
   EXPECT_EQ(motion.motion.translation[1], Vec3(0, 0, -5e-3));
@@ -418,24 +421,27 @@ TEST_F(CompleteScenario, HasItsContactsAndProbes) {
   EXPECT_FALSE(scenario_.contacts[1].slip_velocity);
   EXPECT_EQ(scenario_.contacts[1].damping, 0);
   ASSERT_EQ(scenario_.probes.size(), 7U);
-  EXPECT_EQ(scenario_.probes[0].anchor.body, "mandible");
-  EXPECT_EQ(scenario_.probes[0].anchor.point, Vec3(0, -47e-3, 42e-3));
-  EXPECT_EQ(scenario_.probes[1].body, "mandible");
-  EXPECT_TRUE(scenario_.probes[1].axis.isApprox(Vec3(0, 0.6, 0.8)));
-  EXPECT_EQ(scenario_.probes[2].body, "disc_left");
-  EXPECT_EQ(scenario_.probes[2].other, "mandible");
+  const Anchor& incisor = std::get<PointProbe>(scenario_.probes[0].what).anchor;
+  EXPECT_EQ(incisor.body, "mandible");
+  EXPECT_EQ(incisor.point, Vec3(0, -47e-3, 42e-3));
+  const auto& angle = std::get<AngleProbe>(scenario_.probes[1].what);
+  EXPECT_EQ(angle.body, "mandible");
+  EXPECT_TRUE(angle.axis.isApprox(Vec3(0, 0.6, 0.8)));
+  const auto& contact = std::get<ContactProbe>(scenario_.probes[2].what);
+  EXPECT_EQ(contact.first, "disc_left");
+  EXPECT_EQ(contact.second, "mandible");
   EXPECT_EQ(scenario_.probes[3].name, "pull_left");
-  EXPECT_EQ(scenario_.probes[3].line, "masseter_left");
-  EXPECT_EQ(scenario_.probes[4].line, "masseter_right");
-  EXPECT_EQ(scenario_.probes[5].kind, Probe::Kind::Energy);
-  EXPECT_EQ(scenario_.probes[6].kind, Probe::Kind::Reaction);
+  EXPECT_EQ(std::get<LineProbe>(scenario_.probes[3].what).line, "masseter_left");
+  EXPECT_EQ(std::get<LineProbe>(scenario_.probes[4].what).line, "masseter_right");
+  EXPECT_TRUE(std::holds_alternative<EnergyProbe>(scenario_.probes[5].what));
+  EXPECT_TRUE(std::holds_alternative<ReactionProbe>(scenario_.probes[6].what));
 }
 
 TEST_F(CompleteScenario, KnowsWhereEveryEntryStands) {
   std::vector<Location> places;
   for (const Body& body : scenario_.bodies) {
     places.push_back(body.where);
-    if (body.mesh) places.push_back(body.mesh->where);
+    if (const auto* mesh = std::get_if<MeshFile>(&body.geometry)) places.push_back(mesh->where);
     if (body.material) places.push_back(body.material->where);
     for (const MeshFile& mesh : body.contact_meshes) places.push_back(mesh.where);
   }
@@ -448,7 +454,8 @@ TEST_F(CompleteScenario, KnowsWhereEveryEntryStands) {
     for (const Anchor& anchor : muscle.path) places.push_back(anchor.where);
   }
   for (const Ligament& ligament : scenario_.ligaments) places.push_back(ligament.where);
-  for (const Load& load : scenario_.loads) places.push_back(load.where);
+  for (const Load& load : scenario_.loads)
+    places.push_back(std::visit([](const auto& kind) { return kind.where; }, load));
   for (const ContactPair& pair : scenario_.contacts) places.push_back(pair.where);
   for (const Probe& probe : scenario_.probes) places.push_back(probe.where);
   for (const Location& place : places) {
@@ -457,8 +464,9 @@ TEST_F(CompleteScenario, KnowsWhereEveryEntryStands) {
     EXPECT_GT(place.column, 0);
   }
   EXPECT_EQ(scenario_.bodies[0].where.line, 18);
-  EXPECT_EQ(scenario_.bodies[0].mesh->where.line, 21);
-  EXPECT_EQ(scenario_.bodies[0].mesh->where.column, 17);
+  const Location& file = std::get<MeshFile>(scenario_.bodies[0].geometry).where;
+  EXPECT_EQ(file.line, 21);
+  EXPECT_EQ(file.column, 17);
 }
 
 TEST_F(CompleteScenario, RecordsItsSettingsAsJson) {
@@ -586,7 +594,8 @@ using MeshPaths = ScenarioTest;
 
 TEST_F(MeshPaths, StartAtTheFolderOfTheScenarioOrAtAVariable) {
   const auto path = [&](const std::string& file) {
-    return read(kStart, {"body.skull.mesh.file=" + file}).bodies[0].mesh->path;
+    const Scenario scenario = read(kStart, {"body.skull.mesh.file=" + file});
+    return std::get<MeshFile>(scenario.bodies[0].geometry).path;
   };
   ::setenv("ARTICULAR_TEST_DATA", "/data", 1);
   EXPECT_EQ(path("a/../b.vtp"), folder_ / "b.vtp");

@@ -29,7 +29,7 @@ TEST_F(Overrides, ReplaceValuesByNameAndNumber) {
   const fem::AnyMaterial& law = *scenario.bodies[2].material->law;
   EXPECT_NEAR(fem::bulk_modulus(law) / fem::shear_modulus(law), 2 * 1.3 / (3 * 0.4), 1e-12);
   EXPECT_EQ(scenario.bodies[2].density, 2000);
-  EXPECT_EQ(scenario.loads[0].acceleration, Vec3(0, 0, -1));
+  EXPECT_EQ(std::get<GravityLoad>(scenario.loads[0]).acceleration, Vec3(0, 0, -1));
   EXPECT_EQ(scenario.muscles[0].excitation.value[0], 0.75);
   EXPECT_EQ(scenario.muscles[0].path[1].point, Vec3(0, 0, 2));
   EXPECT_EQ(scenario.title, "A b");

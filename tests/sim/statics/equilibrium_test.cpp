@@ -108,7 +108,7 @@ TEST(Equilibrium, TheAnswerDoesNotDependOnTheUnit) {
 TEST(Equilibrium, TissueOnATurningWallIsNotStrained) {
   Scenario s = hanging_bar(1, Vec3::Zero(), neo_hookean(15e3, 0.3));
   s.loads = {shift("wall", 1, {0.1, 0.2, -0.3})};
-  s.loads[0].motion.rotation = {Vec3::Zero(), Vec3(0.5, -1.5, 1)};
+  std::get<MotionLoad>(s.loads[0]).motion.rotation = {Vec3::Zero(), Vec3(0.5, -1.5, 1)};
   Simulation run(s);
   run.advance(1);
   EXPECT_LT(run.stepper.stored_energy().elastic, 1e-16);  // of E V = 0.5 J: round-off

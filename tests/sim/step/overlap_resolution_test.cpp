@@ -113,7 +113,7 @@ TEST(OverlapResolution, TissueAroundABoneThatCannotGiveWayKeepsTheStress) {
   Body& ball = s.bodies[2];
   ball.name = "ball";
   ball.kind = Body::Kind::Fixed;
-  ball.sphere = SphereGeometry{0.01, 3e-3, {0, 0, 0.004}};
+  ball.geometry = SphereGeometry{0.01, 3e-3, {0, 0, 0.004}};
   // Balanced: a step in time hardly moves it; with averages, which let facets sink in where points
   // of them were out, by a part of an element.
   for (const auto& [response, way] : {std::pair(Scenario::Response::Pointwise, 5e-3 * kElement),
@@ -135,7 +135,7 @@ TEST(OverlapResolution, TissueAroundABoneThatCannotGiveWayKeepsTheStress) {
 // Nearer to the upper side than to the lower one.
 TEST(OverlapResolution, AWholeBodyInAnotherFindsTheNearestWayOut) {
   Scenario s = block_in_block();
-  s.bodies[2].box = BoxGeometry{{6e-3, 6e-3, 6e-3}, {3, 3, 3}, {0, 0, -6e-3}};
+  s.bodies[2].geometry = BoxGeometry{{6e-3, 6e-3, 6e-3}, {3, 3, 3}, {0, 0, -6e-3}};
   const Settled settled(s);
   ASSERT_EQ(settled.settling.overlaps.size(), 1U);
   EXPECT_NEAR(settled.settling.overlaps[0].before, 9e-3, 1e-4);

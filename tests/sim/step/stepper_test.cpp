@@ -167,9 +167,8 @@ TEST(Stepper, AMuscleUnderHalfItsForceShortensAtASixthOfItsGreatestSpeed) {
   Scenario s = mass_on_muscle(1e-3, Scheme::ImplicitEuler);
   s.bodies[0].mass = 1e-4;
   s.muscles[0].max_velocity = 0.01;  // 1 m/s
-  Load load;
-  load.kind = Load::Kind::Force;
-  load.anchor = anchor("mass", Vec3::Zero());
+  ForceLoad load;
+  load.at = anchor("mass", Vec3::Zero());
   load.force = {0, 0, -1.5};
   s.loads = {load};
   Simulation run(s);
@@ -264,8 +263,7 @@ TEST(Stepper, AttachedTissueFollowsItsDrivenBoneExactly) {
   const Vec3 size(0.02, 0.02, 0.02);
   s.bodies = {box_body("block", Body::Kind::Tissue, size, Vec3::Zero(), {2, 2, 2}), stand("hand")};
   s.attachments = {attach("block", "hand", {-1, -1, 0.0099}, {1, 1, 1})};
-  Load load;
-  load.kind = Load::Kind::Motion;
+  MotionLoad load;
   load.body = "hand";
   load.motion.time = {0, 0.1};
   load.motion.translation = {Vec3::Zero(), {0.01, 0, 0.02}};

@@ -24,11 +24,11 @@ inline Body mesh_body(const std::string& name, Body::Kind kind, const MeshData& 
                       const TemporaryFolder& folder) {
   const bool solid = mesh.tets.cols() > 0;
   Body body = box_body(name, kind, Vec3::Ones());
-  body.box.reset();
-  body.mesh = MeshFile{};
-  body.mesh->path = folder / (name + (solid ? ".vtu" : ".vtp"));
-  body.mesh->unit = 1;
-  write_mesh(body.mesh->path, mesh, 1);
+  MeshFile file;
+  file.path = folder / (name + (solid ? ".vtu" : ".vtp"));
+  file.unit = 1;
+  write_mesh(file.path, mesh, 1);
+  body.geometry = file;
   return body;
 }
 
@@ -38,7 +38,7 @@ inline Body ball_body(double density, const SphereGeometry& sphere) {
   ball.name = "ball";
   ball.kind = Body::Kind::Rigid;
   ball.density = density;
-  ball.sphere = sphere;
+  ball.geometry = sphere;
   return ball;
 }
 

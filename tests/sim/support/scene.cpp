@@ -34,7 +34,7 @@ Body box_body(const std::string& name, Body::Kind kind, const Vec3& size, const 
   Body body;
   body.name = name;
   body.kind = kind;
-  body.box = BoxGeometry{size, cells, center};
+  body.geometry = BoxGeometry{size, cells, center};
   if (kind != Body::Kind::Fixed) body.density = 1000;
   if (kind == Body::Kind::Tissue) body.material = neo_hookean(20e3, 0.3);
   return body;
@@ -70,15 +70,10 @@ Anchor anchor(const std::string& body, const Vec3& point, double radius) {
   return {body, point, radius, {}};
 }
 
-Load gravity(const Vec3& acceleration) {
-  Load load;
-  load.acceleration = acceleration;
-  return load;
-}
+GravityLoad gravity(const Vec3& acceleration) { return {acceleration, {}}; }
 
-Load shift(const std::string& body, double duration, const Vec3& translation) {
-  Load load;
-  load.kind = Load::Kind::Motion;
+MotionLoad shift(const std::string& body, double duration, const Vec3& translation) {
+  MotionLoad load;
   load.body = body;
   load.motion.time = {0, duration};
   load.motion.translation = {Vec3::Zero(), translation};

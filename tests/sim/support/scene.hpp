@@ -28,9 +28,9 @@ Body stand(const std::string& name);
 Attachment attach(const std::string& tissue, const std::string& rigid, const Vec3& low,
                   const Vec3& high);
 Anchor anchor(const std::string& body, const Vec3& point, double radius = 0);
-Load gravity(const Vec3& acceleration);
+GravityLoad gravity(const Vec3& acceleration);
 /// A fixed body shifted along a straight line, at constant speed.
-Load shift(const std::string& body, double duration, const Vec3& translation);
+MotionLoad shift(const std::string& body, double duration, const Vec3& translation);
 
 /// A scene's model with what advances it.
 struct Simulation {

@@ -1,0 +1,125 @@
+#include "sim/build/make_probes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "sim/build/region.hpp"
+#include "sim/build/weighted_points.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Looks up what one probe observes.
+struct Resolver {
+  const Scenario& scenario;
+  const Model& model;
+  const std::vector<BodyGeometry>& geometry;
+  const std::vector<collision::Surface>& surfaces;
+  const Probe& probe;  // for messages
+
+  const BodyModel& body(const std::string& name) const {
+    return model.bodies[static_cast<std::size_t>(body_index(scenario, name))];
+  }
+
+  Observed operator()(const PointProbe& point) const {
+    return ObservedPoint{
+        anchored_point(point.anchor, body_index(scenario, point.anchor.body), model, surfaces)};
+  }
+
+  Observed operator()(const AngleProbe& angle) const {
+    return ObservedAngle{body(angle.body).rigid, angle.axis};
+  }
+
+  Observed operator()(const ContactProbe& contact) const {
+    const int first = body_index(scenario, contact.first),
+              second = body_index(scenario, contact.second);
+    ObservedContact observed;
+    observed.body = first;
+    const auto pair = std::find_if(
+        model.contacts.begin(), model.contacts.end(), [&](const ContactModel& candidate) {
+          return std::minmax(candidate.a, candidate.b) == std::minmax(first, second);
+        });
+    if (pair != model.contacts.end())
+      observed.contact = static_cast<int>(pair - model.contacts.begin());
+    if (contact.region) observed.faces = faces_in(*contact.region, contact.first);
+    return observed;
+  }
+
+  Observed operator()(const LineProbe& named) const {
+    const auto line = std::find_if(model.lines.begin(), model.lines.end(),
+                                   [&](const Line& l) { return l.name == named.line; });
+    const auto index = static_cast<int>(line - model.lines.begin());
+    if (line->muscle >= 0) return ObservedMuscle{index, line->muscle};
+    return ObservedLigament{index, line->ligament};
+  }
+
+  Observed operator()(const EnergyProbe&) const { return ObservedEnergy{}; }
+
+  Observed operator()(const ReactionProbe& reaction) const {
+    return ObservedReaction{body(reaction.body).rigid};
+  }
+
+  Observed operator()(const AttachmentProbe& attachment) const {
+    const int tissue = body(attachment.tissue).tissue, rigid = body(attachment.bone).rigid;
+    const auto& nodes = model.tissues[static_cast<std::size_t>(tissue)].nodes;
+    const auto is_tied = [&](const NodeRef& node) { return node.rigid == rigid; };
+    if (std::none_of(nodes.begin(), nodes.end(), is_tied))
+      throw InputError(probe.where,
+                       fmt::format("[[probe]] `{}`: no node of `{}` is attached to `{}`",
+                                   probe.name, attachment.tissue, attachment.bone));
+    return ObservedAttachment{tissue, rigid};
+  }
+
+  Observed operator()(const ShareProbe& share) const {
+    return ObservedShare{probes_called(share.part), probes_called(share.whole), share.direction};
+  }
+
+  Observed operator()(const JointProbe& joint) const {
+    const int proximal = body(joint.proximal.body).rigid, distal = body(joint.distal.body).rigid;
+    const auto rest_of = [&](int rigid) {
+      return model.rigid_bodies[static_cast<std::size_t>(rigid)].rest;
+    };
+    return ObservedJoint{
+        proximal_frame(joint.proximal, joint.is_right, proximal, rest_of(proximal), probe.where),
+        distal_frame(joint.distal, joint.is_right, distal, rest_of(distal), probe.where),
+        joint.is_right};
+  }
+
+  /// By face of the collider: its middle, at the start, lies in the region.
+  std::vector<char> faces_in(const Region& region, const std::string& name) const {
+    const Collider& collider = *body(name).collider;
+    const RegionTest test(region, model, geometry);
+    std::vector<char> inside;
+    for (const auto& face : collider.surface.faces.colwise())
+      inside.push_back(test.contains(collider.X(Eigen::all, face).rowwise().mean(), true) ? 1 : 0);
+    if (std::find(inside.begin(), inside.end(), 1) == inside.end())
+      throw InputError(region.where,
+                       fmt::format("[[probe]] `{}`: no face of `{}` has its middle in the region",
+                                   probe.name, name));
+    return inside;
+  }
+
+  std::vector<int> probes_called(const std::vector<std::string>& names) const {
+    std::vector<int> found;
+    for (const std::string& name : names)
+      for (std::size_t p = 0; p < scenario.probes.size(); ++p)
+        if (scenario.probes[p].name == name) found.push_back(static_cast<int>(p));
+    return found;
+  }
+};
+
+}  // namespace
+
+std::vector<ProbeModel> make_probes(const Scenario& scenario, const Model& model,
+                                    const std::vector<BodyGeometry>& geometry,
+                                    const std::vector<collision::Surface>& surfaces) {
+  std::vector<ProbeModel> probes;
+  for (const Probe& probe : scenario.probes)
+    probes.push_back(
+        {probe.name, std::visit(Resolver{scenario, model, geometry, surfaces, probe}, probe.what)});
+  return probes;
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,266 @@
+// Each kind of probe has two functions: measure() says what it observes now, and list() goes
+// through the columns of that, each with its name, unit and value. So the header lists what a
+// reading that nobody took would show.
+#include "sim/output/probe_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+namespace articular::sim {
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();  // an empty cell
+constexpr double kDegree = std::numbers::pi / 180;                     // [rad]
+
+/// Takes a probe's columns one after another. A vector makes three.
+class Columns {
+ public:
+  explicit Columns(const LengthUnit& unit)
+      : length_(unit.name), area_(unit.name + "^2"), per_metre_(1 / unit.metres) {}
+  virtual ~Columns() = default;
+
+  virtual void number(std::string_view what, std::string_view unit, double value) = 0;
+  virtual void vector(std::string_view what, std::string_view unit, const Vec3& value) = 0;
+
+  // Of values in m and m², in the user's unit of length.
+  void length(std::string_view what, double x) { number(what, length_, x * per_metre_); }
+  void area(std::string_view what, double A) { number(what, area_, A * per_metre_ * per_metre_); }
+  void place(std::string_view what, const Vec3& x) { vector(what, length_, per_metre_ * x); }
+
+ private:
+  std::string length_, area_;  // names
+  double per_metre_;
+};
+
+/// Takes what they are called.
+class Header : public Columns {
+ public:
+  Header(const std::string& probe, const LengthUnit& unit) : Columns(unit), probe_(probe) {}
+
+  void number(std::string_view what, std::string_view unit, double) override {
+    names_.push_back(fmt::format("{}.{} [{}]", probe_, what, unit));
+  }
+  void vector(std::string_view what, std::string_view unit, const Vec3&) override {
+    for (const char axis : {'x', 'y', 'z'})
+      names_.push_back(fmt::format("{}.{}.{} [{}]", probe_, what, axis, unit));
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  const std::string& probe_;
+  std::vector<std::string> names_;
+};
+
+/// Takes what they show.
+class Row : public Columns {
+ public:
+  Row(const LengthUnit& unit, std::vector<double>& values) : Columns(unit), values_(values) {}
+
+  void number(std::string_view, std::string_view, double value) override {
+    values_.push_back(value);
+  }
+  void vector(std::string_view, std::string_view, const Vec3& value) override {
+    values_.insert(values_.end(), {value.x(), value.y(), value.z()});
+  }
+
+ private:
+  std::vector<double>& values_;
+};
+
+/// What is observed.
+struct Now {
+  const Model& model;
+  const State& state;
+  const Stepper& stepper;
+
+  const Dynamics& dynamics() const { return stepper.dynamics(); }
+  const Configuration& configuration() const { return dynamics().configuration(); }
+  const Pose& pose(int rigid) const {
+    return configuration().poses[static_cast<std::size_t>(rigid)];
+  }
+  const LineState& line(int index) const {
+    return dynamics().lines()[static_cast<std::size_t>(index)];
+  }
+};
+
+struct Position {
+  Vec3 x = Vec3::Zero();  // [m]
+};
+
+Position measure(const ObservedPoint& point, const Now& now) {
+  return {now.configuration().position(point.point)};
+}
+
+void list(const Position& position, Columns& columns) { columns.place("position", position.x); }
+
+struct Turn {
+  double degrees = 0;
+};
+
+Turn measure(const ObservedAngle& angle, const Now& now) {
+  const Eigen::AngleAxisd turn(now.pose(angle.rigid).R);
+  return {turn.angle() * turn.axis().dot(angle.axis) * 180 / std::numbers::pi};
+}
+
+void list(const Turn& turn, Columns& columns) { columns.number("angle", "deg", turn.degrees); }
+
+ContactSummary measure(const ObservedContact& observed, const Now& now) {
+  if (observed.contact < 0) return {};
+  ContactSummary sum =
+      now.dynamics().contact_through(observed.contact, observed.body, observed.faces);
+  if (now.model.contacts[static_cast<std::size_t>(observed.contact)].a != observed.body) {
+    sum.force *= -1;
+    sum.moment *= -1;
+  }
+  return sum;
+}
+
+// Shares read a force from the first three columns.
+void list(const ContactSummary& sum, Columns& columns) {
+  const bool carries = sum.area > 0;
+  const Vec3 nowhere = Vec3::Constant(kNothing);
+  columns.vector("force", "N", sum.force);
+  columns.vector("moment", "N m", sum.moment);
+  columns.place("center", carries ? sum.center : nowhere);
+  columns.area("area", sum.area);
+  columns.number("mean_pressure", "Pa", carries ? sum.normal_force / sum.area : 0);
+  columns.number("max_pressure", "Pa", sum.max_pressure);
+  columns.number("max_face_pressure", "Pa", sum.max_face_pressure);
+  columns.length("max_penetration", sum.max_depth);
+  columns.place("max_penetration_at", carries ? sum.deepest : nowhere);
+  columns.length("max_point_penetration", sum.max_point_depth);
+}
+
+struct MuscleReading {
+  double force = 0;   // [N]
+  double length = 0;  // [m]
+  double activation = 0;
+};
+
+MuscleReading measure(const ObservedMuscle& muscle, const Now& now) {
+  const LineState& line = now.line(muscle.line);
+  return {line.tension, line.length, now.configuration().activation[muscle.muscle]};
+}
+
+void list(const MuscleReading& muscle, Columns& columns) {
+  columns.number("force", "N", muscle.force);
+  columns.length("length", muscle.length);
+  columns.number("activation", "-", muscle.activation);
+}
+
+struct LigamentReading {
+  double force = 0;   // [N]
+  double length = 0;  // [m]
+  double strain = 0;
+};
+
+LigamentReading measure(const ObservedLigament& ligament, const Now& now) {
+  const LineState& line = now.line(ligament.line);
+  const double slack =
+      now.model.ligaments[static_cast<std::size_t>(ligament.ligament)].slack_length;
+  return {line.tension, line.length, line.length / slack - 1};
+}
+
+void list(const LigamentReading& ligament, Columns& columns) {
+  columns.number("force", "N", ligament.force);
+  columns.length("length", ligament.length);
+  columns.number("strain", "-", ligament.strain);
+}
+
+struct Energies {
+  StoredEnergy stored;
+  EnergyLedger ledger;
+  double numerical_loss = 0;  // [J]
+};
+
+Energies measure(const ObservedEnergy&, const Now& now) {
+  const StoredEnergy stored = now.stepper.stored_energy();
+  return {stored, now.state.energy, numerical_loss(now.state, stored)};
+}
+
+void list(const Energies& energies, Columns& columns) {
+  const auto& [stored, ledger, numerical_loss] = energies;
+  columns.number("kinetic", "J", stored.kinetic);
+  columns.number("elastic", "J", stored.elastic);
+  columns.number("gravity", "J", stored.gravity);
+  columns.number("contact", "J", stored.contact);
+  columns.number("lines", "J", stored.lines);
+  columns.number("muscle_work", "J", ledger.muscle_work);
+  columns.number("load_work", "J", ledger.load_work);
+  columns.number("motion_work", "J", ledger.motion_work);
+  columns.number("ligament_loss", "J", ledger.ligament_loss);
+  columns.number("tissue_loss", "J", ledger.tissue_loss);
+  columns.number("contact_loss", "J", ledger.contact_loss);
+  columns.number("settling_loss", "J", ledger.settling_loss);
+  columns.number("numerical_loss", "J", numerical_loss);
+}
+
+struct ForceAndMoment {
+  Vec3 force = Vec3::Zero();   // [N]
+  Vec3 moment = Vec3::Zero();  // [N m]
+};
+
+ForceAndMoment measure(const ObservedReaction& reaction, const Now& now) {
+  const Vec6 both = now.dynamics().reaction(reaction.rigid);
+  return {both.head<3>(), both.tail<3>()};
+}
+
+ForceAndMoment measure(const ObservedAttachment& attachment, const Now& now) {
+  const auto [force, moment] = now.dynamics().attachment_force(attachment.tissue, attachment.rigid);
+  return {force, moment};
+}
+
+// Shares read a force from the first three columns.
+void list(const ForceAndMoment& reading, Columns& columns) {
+  columns.vector("force", "N", reading.force);
+  columns.vector("moment", "N m", reading.moment);
+}
+
+struct Share {
+  double value = kNothing;
+};
+
+Share measure(const ObservedShare&, const Now&) { return {}; }
+
+void list(const Share& share, Columns& columns) { columns.number("share", "-", share.value); }
+
+JointCoordinates measure(const ObservedJoint& joint, const Now& now) {
+  return joint_coordinates(joint.proximal, now.pose(joint.proximal.rigid), joint.distal,
+                           now.pose(joint.distal.rigid), joint.is_right);
+}
+
+void list(const JointCoordinates& q, Columns& columns) {
+  columns.number("flexion", "deg", q.flexion / kDegree);
+  columns.number("abduction", "deg", q.abduction / kDegree);
+  columns.number("internal_rotation", "deg", q.internal_rotation / kDegree);
+  columns.length("lateral", q.lateral);
+  columns.length("anterior", q.anterior);
+  columns.length("distraction", q.distraction);
+}
+
+/// What measure() of a kind of probe gives.
+template <class Kind>
+using Reading = decltype(measure(std::declval<const Kind&>(), std::declval<const Now&>()));
+
+}  // namespace
+
+std::vector<std::string> column_names(const ProbeModel& probe, const LengthUnit& unit) {
+  Header header(probe.name, unit);
+  std::visit([&]<class Kind>(const Kind&) { list(Reading<Kind>{}, header); }, probe.what);
+  return header.names();
+}
+
+void append_values(const ProbeModel& probe, const Model& model, const LengthUnit& unit,
+                   const State& state, const Stepper& stepper, std::vector<double>& values) {
+  const Now now{model, state, stepper};
+  Row row(unit, values);
+  std::visit([&](const auto& kind) { list(measure(kind, now), row); }, probe.what);
+}
+
+}  // namespace articular::sim
