@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 
-#include "sim/gap/sample_points.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
@@ -71,7 +70,6 @@ void add_contact(int a, int b, const ContactPair& pair, Model& model) {
   const bool has_tissue = model.bodies[static_cast<std::size_t>(a)].tissue >= 0 ||
                           model.bodies[static_cast<std::size_t>(b)].tissue >= 0;
   contact.averaged = is_static || (has_tissue && response == Scenario::Response::Averaged);
-  if (!is_static && response == Scenario::Response::Sampled) contact.samples = triangle_samples();
   contact.share = a == b ? 0.5 : 1;
   const double factor = stiffness_factor(model.scenario, contact.averaged);
   const double layers = A->layer_compliance + B->layer_compliance;

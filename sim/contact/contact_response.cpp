@@ -125,7 +125,6 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
   }
   const auto contact = static_cast<std::size_t>(pair_state.contact);
   const bool averaged = model_.contacts[contact].averaged;
-  const std::span<const SamplePoint> samples = model_.contacts[contact].samples;
   DepthRange range = depth_range(side.triangles, side.faces, averaged);
   if (!allowances_.empty()) range.allowance = allowances_[contact];
   const std::vector<ContactCandidate>& pairs = list.pairs;
@@ -142,7 +141,7 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
       for (int nearest = 0; nearest <= ContactPatch::kFace; ++nearest) {
         if (pair_state.num_patches == pair_state.stored.size()) pair_state.stored.emplace_back();
         ContactPairState::Patch& entry = pair_state.stored[pair_state.num_patches];
-        if (!contact_patch(s, f, rest_area, range, entry.patch, samples, nearest)) continue;
+        if (!contact_patch(s, f, rest_area, range, entry.patch, nearest)) continue;
         ++pair_state.num_patches;
         entry.triangle = triangle;
         entry.face = face;

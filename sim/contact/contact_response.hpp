@@ -25,9 +25,8 @@
 /// Where a g_a exceeds the contact's max_penetration all the same, multipliers λ_a take over what
 /// the penalty carried, p_a = <λ_a + k_a g_a> (augment(): Uzawa's method).
 ///
-/// Else they count point by point, E = ½ k ∫ <d>² dA, on one side's triangles: everywhere, or at
-/// sample points that stand for the integral. In time, where a mean depth at a node exceeds a bound
-/// that the scenario sets, k is raised (set_stiffening()).
+/// Else they count point by point, E = ½ k ∫ <d>² dA, on one side's triangles. In time, where a
+/// mean depth at a node exceeds a bound that the scenario sets, k is raised (set_stiffening()).
 ///
 /// [Puso 2004] Puso, Laursen. A mortar segment-to-segment contact method for large deformation
 /// solid mechanics. Comput Methods Appl Mech Eng 193:601.

@@ -320,9 +320,9 @@ struct Scenario {
   std::vector<Ligament> ligaments;
   std::vector<Load> loads;
   bool contact = true;  // `contact = false`: nothing touches
-  /// Of a dynamic analysis: depths count point by point, everywhere or at samples of each triangle,
-  /// or as averages at nodes, which is what a static one does.
-  enum class Response { Pointwise, Sampled, Averaged } contact_response = Response::Averaged;
+  /// Of a dynamic analysis: depths count point by point, or as averages at nodes, which is what a
+  /// static one does.
+  enum class Response { Pointwise, Averaged } contact_response = Response::Averaged;
   /// Of averaged depths in a dynamic analysis: contact is this many times as stiff as the elements
   /// at the surface; default: chosen by the scheme.
   std::optional<double> contact_stiffness_factor;

@@ -16,7 +16,7 @@ constexpr std::pair<std::string_view, Integrator::Scheme> kSchemes[] = {
     {"bdf", Integrator::Scheme::Bdf},
     {"explicit", Integrator::Scheme::Explicit}};
 
-constexpr const char* kResponses[] = {"pointwise", "sampled", "averaged"};
+constexpr const char* kResponses[] = {"pointwise", "averaged"};
 constexpr const char* kSolvers[] = {"auto", "cholesky", "conjugate-gradients", "multigrid"};
 
 void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& integrator) {
@@ -143,7 +143,6 @@ void read_settings(const TableReader& document, Scenario& scenario) {
   scenario.contact_response = chosen.contact_response;
   document.may("contact_response", scenario.contact_response, [](const Node& n) {
     return read_choice<Scenario::Response>(n, {{"pointwise", Scenario::Response::Pointwise},
-                                               {"sampled", Scenario::Response::Sampled},
                                                {"averaged", Scenario::Response::Averaged}});
   });
   scenario.contact_stiffness_factor = chosen.contact_stiffness_factor;

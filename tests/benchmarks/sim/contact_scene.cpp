@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -12,7 +11,6 @@
 
 #include "fem/material/any_material.hpp"
 #include "sim/build/build_model.hpp"
-#include "sim/gap/sample_points.hpp"
 #include "sim/output/history.hpp"
 #include "tests/sim/support/scene.hpp"
 
@@ -37,39 +35,11 @@ std::vector<double> graded(double end, double fine, double h, double growth) {
   return lines;
 }
 
-/// Three points, each on the line from a corner to the centre, with this coordinate.
-std::array<SamplePoint, 3> three_points(double at_corner) {
-  std::array<SamplePoint, 3> points;
-  for (std::size_t i = 0; i < 3; ++i) {
-    Vec3 N = Vec3::Constant(0.5 * (1 - at_corner));
-    N[static_cast<Eigen::Index>(i)] = at_corner;
-    points[i] = {N, 1.0 / 3};
-  }
-  return points;
-}
-
-std::span<const SamplePoint> samples_of(DepthRule rule) {
-  // Beside the corners: on meshes that match, a face's edge would run through them.
-  static const std::array<SamplePoint, 3> inner = three_points(2.0 / 3),
-                                          corners = three_points(1 - 1e-6);
-  switch (rule) {
-    case DepthRule::SevenPoints:
-      return triangle_samples();
-    case DepthRule::ThreePoints:
-      return inner;
-    case DepthRule::Corners:
-      return corners;
-    default:
-      return {};
-  }
-}
-
 Model model_of(const Scene& scene, const StudyOptions& options) {
   Model model = build_model(scene.scenario());
   for (ContactModel& contact : model.contacts) {
     if (options.rule != DepthRule::Averaged) {
       contact.averaged = contact.is_bounded = false;
-      contact.samples = samples_of(options.rule);
       contact.stiffness.setConstant(contact.mean_stiffness);
     }
     contact.stiffness *= options.stiffness;

@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "`tree`, `lagged`, `margin`, `narrow_test`"},
         Mistake{
             "ResponseOfStatics",
-            "analysis = \"static\"\nduration = \"1 s\"\n@contact_response = \"sampled\"\n" +
+            "analysis = \"static\"\nduration = \"1 s\"\n@contact_response = \"pointwise\"\n" +
                 kBodies,
             "scenario: `contact_response` does not belong here: a static analysis averages depths"},
         Mistake{

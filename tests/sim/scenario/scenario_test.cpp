@@ -20,7 +20,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 const std::string kComplete = R"(title = "Jaw opening"
 duration = "0.6 s"
 accuracy = "balanced"
-contact_response = "sampled"
+contact_response = "pointwise"
 
 [integrator]
 scheme = "tr-bdf2"
@@ -234,7 +234,7 @@ TEST_F(CompleteScenario, HasItsSettings) {
   EXPECT_EQ(scenario_.integrator.position_tolerance, 3e-7);
   EXPECT_EQ(scenario_.integrator.max_iterations, 9);
   EXPECT_EQ(scenario_.integrator.min_step, 2e-7);
-  EXPECT_EQ(scenario_.contact_response, Scenario::Response::Sampled);
+  EXPECT_EQ(scenario_.contact_response, Scenario::Response::Pointwise);
   EXPECT_EQ(scenario_.detection.margin, 0.3e-3);
   EXPECT_EQ(scenario_.detection.narrow_test, collision::NarrowTest::Gjk);
   EXPECT_EQ(scenario_.output.interval, 20e-3);
@@ -471,7 +471,7 @@ TEST_F(CompleteScenario, RecordsItsSettingsAsJson) {
   EXPECT_EQ(json["integrator"]["position_tolerance_m"], 3e-7);
   EXPECT_EQ(json["settling"], true);
   EXPECT_EQ(json["contact"][0]["max_penetration_m"], 2e-6);
-  EXPECT_EQ(json["contact_response"], "sampled");
+  EXPECT_EQ(json["contact_response"], "pointwise");
   EXPECT_EQ(json["contact_parameters_set"], 4);
   EXPECT_EQ(json["detection"]["narrow_test"], "gjk");
   EXPECT_EQ(json["output"]["contact_surfaces"], true);
