@@ -94,7 +94,7 @@ ContactSearch::ContactSearch(const Model& model) : model_(model) {
     open_depth_ = std::max(open_depth_, model.bodies[nonmortar].collider->open_depth);
   }
   penetrations_ =
-      make_penetration_search(colliders, model.scenario.detection, model.scenario.threads);
+      make_penetration_search(colliders, model.scenario.detection.tree, model.scenario.threads);
 }
 
 bool ContactSearch::needs_update(const Moving& moving, double margin) const {

@@ -13,8 +13,7 @@ using collision::BucketTree;
 
 class BlockSearch final : public PenetrationSearch {
  public:
-  BlockSearch(const std::vector<const Collider*>& bodies, const Detection& detection, int threads) {
-    options_.narrow = detection.narrow_test;
+  BlockSearch(const std::vector<const Collider*>& bodies, int threads) {
     options_.threads = threads;
     trees_.reserve(bodies.size());
     for (const Collider* body : bodies) trees_.emplace_back(body->tets, body->surface, body->X);
@@ -67,9 +66,8 @@ class BlockSearch final : public PenetrationSearch {
 /// every update.
 class BucketSearch final : public PenetrationSearch {
  public:
-  BucketSearch(const std::vector<const Collider*>& bodies, const Detection& detection)
-      : is_fit_(bodies.size(), 0) {
-    options_.rule = detection.narrow_test;
+  explicit BucketSearch(const std::vector<const Collider*>& bodies) : is_fit_(bodies.size(), 0) {
+    options_.rule = collision::NarrowTest::SeparatingAxes;  // that of the block tree
     trees_.reserve(bodies.size());
     for (const Collider* body : bodies) trees_.emplace_back(body->tets, body->surface, body->X);
   }
@@ -110,10 +108,9 @@ class BucketSearch final : public PenetrationSearch {
 }  // namespace
 
 std::unique_ptr<PenetrationSearch> make_penetration_search(
-    const std::vector<const Collider*>& bodies, const Detection& detection, int threads) {
-  if (detection.tree == Detection::Tree::Buckets)
-    return std::make_unique<BucketSearch>(bodies, detection);
-  return std::make_unique<BlockSearch>(bodies, detection, threads);
+    const std::vector<const Collider*>& bodies, Detection::Tree tree, int threads) {
+  if (tree == Detection::Tree::Buckets) return std::make_unique<BucketSearch>(bodies);
+  return std::make_unique<BlockSearch>(bodies, threads);
 }
 
 }  // namespace articular::sim

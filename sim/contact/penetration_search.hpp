@@ -42,6 +42,6 @@ class PenetrationSearch {
 
 /// @param bodies  colliders, which stay where they are
 std::unique_ptr<PenetrationSearch> make_penetration_search(
-    const std::vector<const Collider*>& bodies, const Detection& detection, int threads);
+    const std::vector<const Collider*>& bodies, Detection::Tree tree, int threads);
 
 }  // namespace articular::sim

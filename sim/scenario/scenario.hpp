@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "collision/narrow/narrow_rule.hpp"
 #include "fem/material/prony_term.hpp"
 #include "sim/base/error.hpp"
 
@@ -292,7 +291,6 @@ struct Detection {
   enum class Tree { Blocks, Buckets } tree = Tree::Blocks;
   bool lagged = false;           // a dynamic analysis looks anew only when things have moved
   std::optional<double> margin;  // [m], least distance at which pairs are kept as candidates
-  collision::NarrowTest narrow_test = collision::NarrowTest::SeparatingAxes;
 };
 
 struct Output {

@@ -52,7 +52,7 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
 }
 
 void read_detection(const Node& node, Scenario::Analysis analysis, Detection& detection) {
-  const TableReader table(node, "[detection]", {"tree", "lagged", "margin", "narrow_test"});
+  const TableReader table(node, "[detection]", {"tree", "lagged", "margin"});
   if (analysis == Scenario::Analysis::Static)
     table.refuse({"lagged"}, "a static analysis looks wherever its iteration has come to");
   table.may("tree", detection.tree, [](const Node& n) {
@@ -61,11 +61,6 @@ void read_detection(const Node& node, Scenario::Analysis analysis, Detection& de
   });
   table.may("lagged", detection.lagged, read_boolean);
   table.may("margin", detection.margin, as_quantity(kLength, kPositive));
-  table.may("narrow_test", detection.narrow_test, [](const Node& n) {
-    return read_choice<collision::NarrowTest>(
-        n, {{"separating-axes", collision::NarrowTest::SeparatingAxes},
-            {"gjk", collision::NarrowTest::Gjk}});
-  });
 }
 
 void read_output(const Node& node, Output& output) {
@@ -188,9 +183,7 @@ std::string settings_as_json(const Scenario& scenario) {
   json["detection"] = {
       {"tree", scenario.detection.tree == Detection::Tree::Buckets ? "buckets" : "blocks"},
       {"lagged", scenario.detection.lagged},
-      {"margin_m", nullptr},  // chosen by the elements
-      {"narrow_test",
-       scenario.detection.narrow_test == collision::NarrowTest::Gjk ? "gjk" : "separating-axes"}};
+      {"margin_m", nullptr}};  // chosen by the elements
   if (scenario.detection.margin) json["detection"]["margin_m"] = *scenario.detection.margin;
   json["output"] = {{"interval_s", output.interval},
                     {"length_unit", output.length_unit_name},

@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "body `extra`: unknown key `densitty`; did you mean `density`?"},
         Mistake{"UnknownKeyFarFromAny", "duration = \"1 s\"\n[detection]\n@colour = 1\n" + kBodies,
                 "[detection]: unknown key `colour`; expected one of "
-                "`tree`, `lagged`, `margin`, `narrow_test`"},
+                "`tree`, `lagged`, `margin`"},
         Mistake{
             "ResponseOfStatics",
             "analysis = \"static\"\nduration = \"1 s\"\n@contact_response = \"pointwise\"\n" +

@@ -32,7 +32,6 @@ min_step = "0.2 us"
 
 [detection]
 margin = "0.3 mm"
-narrow_test = "gjk"
 
 [[body]]
 name = "skull"
@@ -236,7 +235,6 @@ TEST_F(CompleteScenario, HasItsSettings) {
   EXPECT_EQ(scenario_.integrator.min_step, 2e-7);
   EXPECT_EQ(scenario_.contact_response, Scenario::Response::Pointwise);
   EXPECT_EQ(scenario_.detection.margin, 0.3e-3);
-  EXPECT_EQ(scenario_.detection.narrow_test, collision::NarrowTest::Gjk);
   EXPECT_EQ(scenario_.output.interval, 20e-3);
   EXPECT_EQ(scenario_.output.length_unit, 1e-2);
   EXPECT_EQ(scenario_.output.length_unit_name, "cm");
@@ -473,7 +471,6 @@ TEST_F(CompleteScenario, RecordsItsSettingsAsJson) {
   EXPECT_EQ(json["contact"][0]["max_penetration_m"], 2e-6);
   EXPECT_EQ(json["contact_response"], "pointwise");
   EXPECT_EQ(json["contact_parameters_set"], 4);
-  EXPECT_EQ(json["detection"]["narrow_test"], "gjk");
   EXPECT_EQ(json["output"]["contact_surfaces"], true);
   EXPECT_EQ(json["output"]["checkpoint_interval_s"], 0.1);
 }
