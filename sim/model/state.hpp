@@ -38,7 +38,6 @@ SolverCounts operator-(SolverCounts a, const SolverCounts& b);
 
 struct Counts : SolverCounts {
   std::int64_t rejected_motion = 0;  // something moved farther than the detection covered
-  std::int64_t lagged_steps = 0;     // tried with the contact candidates of an earlier one
   std::int64_t tree_updates = 0;
   std::int64_t narrow_tests = 0;
   std::int64_t reported_pairs = 0;

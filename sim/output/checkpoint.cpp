@@ -12,7 +12,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 6\n";
+constexpr char kMagic[] = "articular checkpoint 7\n";
 
 /// FNV-1a: a plain hash is enough to notice damage and mix-ups.
 std::uint64_t hash_bytes(const char* data, std::size_t size) {

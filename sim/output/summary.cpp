@@ -41,7 +41,6 @@ Json counts(const Counts& c) {
   return {{"sundials_steps", c.steps},
           {"rejected_newton", c.rejected_newton},
           {"rejected_motion", c.rejected_motion},
-          {"lagged_steps", c.lagged_steps},
           {"newton_iterations", c.newton_iterations},
           {"factorizations", c.factorizations},
           {"projected_tangents", c.projected_tangents},

@@ -51,15 +51,12 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
                                  integrator.min_step, integrator.step));
 }
 
-void read_detection(const Node& node, Scenario::Analysis analysis, Detection& detection) {
-  const TableReader table(node, "[detection]", {"tree", "lagged", "margin"});
-  if (analysis == Scenario::Analysis::Static)
-    table.refuse({"lagged"}, "a static analysis looks wherever its iteration has come to");
+void read_detection(const Node& node, Detection& detection) {
+  const TableReader table(node, "[detection]", {"tree", "margin"});
   table.may("tree", detection.tree, [](const Node& n) {
     return read_choice<Detection::Tree>(
         n, {{"blocks", Detection::Tree::Blocks}, {"buckets", Detection::Tree::Buckets}});
   });
-  table.may("lagged", detection.lagged, read_boolean);
   table.may("margin", detection.margin, as_quantity(kLength, kPositive));
 }
 
@@ -147,8 +144,7 @@ void read_settings(const TableReader& document, Scenario& scenario) {
   scenario.integrator = chosen.integrator;
   if (const Node* node = document.find("integrator"))
     read_integrator(*node, scenario.analysis, scenario.integrator);
-  if (const Node* node = document.find("detection"))
-    read_detection(*node, scenario.analysis, scenario.detection);
+  if (const Node* node = document.find("detection")) read_detection(*node, scenario.detection);
   if (const Node* node = document.find("output")) read_output(*node, scenario.output);
 }
 
@@ -182,7 +178,6 @@ std::string settings_as_json(const Scenario& scenario) {
     json["integrator"]["position_tolerance_of_element"] = integrator.element_tolerance;
   json["detection"] = {
       {"tree", scenario.detection.tree == Detection::Tree::Buckets ? "buckets" : "blocks"},
-      {"lagged", scenario.detection.lagged},
       {"margin_m", nullptr}};  // chosen by the elements
   if (scenario.detection.margin) json["detection"]["margin_m"] = *scenario.detection.margin;
   json["output"] = {{"interval_s", output.interval},

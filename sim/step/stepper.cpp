@@ -81,23 +81,13 @@ void Stepper::restart(const State& state) {
   Configuration now;
   read_state(model_, state.y.data(), state.t, now);
   find_contacts(now, state.next_margin);
-  found_in_step_ = false;
   dynamics_->evaluate(state.y.data(), state.t);
 }
 
 void Stepper::find_contacts(const Configuration& where, double margin) {
   if (!search_) return;
   search_->find(where, margin);
-  found_in_step_ = true;
   dynamics_->set_candidates(search_->candidates());
-}
-
-/// What the last step's detection found will do for one that ends about here.
-bool Stepper::is_still_found(const Configuration& end) const {
-  if (!model_.scenario.detection.lagged || !search_ || !found_in_step_) return false;
-  constexpr double kPartOfMargin = 0.25;  // half of it covers a step, which may end elsewhere
-  const double most = kPartOfMargin * search_->margin();
-  return search_->motion_since(start_) <= most && search_->motion_since(end) <= most;
 }
 
 void Stepper::step(State& state, double t_target) {
@@ -194,10 +184,8 @@ bool Stepper::try_time_step(State& state, double h) {
     return false;
   }
   const Configuration where = only_end ? end : predicted(model_, start_, 0.5 * h);
-  bool is_lagged = is_still_found(end);
-  state.counts.lagged_steps += is_lagged ? 1 : 0;
   for (;;) {
-    if (!is_lagged) find_contacts(where, state.next_margin);
+    find_contacts(where, state.next_margin);
     y_ = state.y;
     const std::optional<double> reached =
         y_.size() == 0 ? std::optional(state.t + h)  // only driven bones move
@@ -221,8 +209,7 @@ bool Stepper::try_time_step(State& state, double h) {
         return false;
       }
       covered = stray <= 0.5 * search_->margin();
-      if (!is_lagged) state.next_margin = margin_for(model_, stray);
-      is_lagged = is_lagged && covered;
+      state.next_margin = margin_for(model_, stray);
     }
     if (covered && !stiffen(state)) {
       state.y = y_;

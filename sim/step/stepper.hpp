@@ -65,7 +65,6 @@ class Stepper {
 
  private:
   void find_contacts(const Configuration& where, double margin);
-  bool is_still_found(const Configuration& end) const;
   void remember_start(const State& state);
   bool try_step(State& state, double h);
   bool try_time_step(State& state, double h);
@@ -84,7 +83,6 @@ class Stepper {
   std::vector<ConvergenceRow> convergence_;
   std::optional<RigidBodyMode> loose_;  // in the last load step: what nothing holds
   std::vector<RigidBodyMode> indifferent_;
-  bool found_in_step_ = false;                // the candidates, not by restart()
   Eigen::VectorXd y_;                         // being tried
   Rejection why_ = Rejection::NoConvergence;  // the last step that was not taken
 

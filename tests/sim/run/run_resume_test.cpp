@@ -33,7 +33,7 @@ void expect_same_files(const fs::path& a, const fs::path& b) {
 class Resumed : public RunTest, public ::testing::WithParamInterface<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Run, Resumed,
                          ::testing::Values("integrator.scheme=implicit-euler",
-                                           "integrator.scheme=tr-bdf2", "detection.lagged=true",
+                                           "integrator.scheme=tr-bdf2",
                                            "integrator.solver=conjugate-gradients"));
 
 // Interrupted between two checkpoints, twice; every byte of checkpoint, history and frames.

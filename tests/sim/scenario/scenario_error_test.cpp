@@ -74,17 +74,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "body `extra`: unknown key `densitty`; did you mean `density`?"},
         Mistake{"UnknownKeyFarFromAny", "duration = \"1 s\"\n[detection]\n@colour = 1\n" + kBodies,
                 "[detection]: unknown key `colour`; expected one of "
-                "`tree`, `lagged`, `margin`"},
+                "`tree`, `margin`"},
         Mistake{
             "ResponseOfStatics",
             "analysis = \"static\"\nduration = \"1 s\"\n@contact_response = \"pointwise\"\n" +
                 kBodies,
             "scenario: `contact_response` does not belong here: a static analysis averages depths"},
-        Mistake{
-            "LaggedStatics",
-            "analysis = \"static\"\nduration = \"1 s\"\n[detection]\n@lagged = true\n" + kBodies,
-            "[detection]: `lagged` does not belong here: a static analysis looks wherever its "
-            "iteration has come to"},
         Mistake{"MissingKey", "@title = \"x\"\n" + kBodies, "scenario: `duration` is missing"},
         Mistake{"MissingKeyInAnEntry", kStart + "@[[body]]\nname = \"extra\"\n",
                 "body `extra`: `kind` is missing"},
