@@ -126,7 +126,6 @@ void make_contacts(Model& model) {
 
 double detection_margin(const Model& model) {
   constexpr double kMarginOfElement = 0.1;
-  if (model.scenario.detection.margin) return *model.scenario.detection.margin;
   double least = std::numeric_limits<double>::infinity();
   for (const BodyModel& body : model.bodies)
     if (body.collider) least = std::min(least, body.collider->size);

@@ -289,7 +289,6 @@ struct Detection {
   /// The tree that penetrations are searched by: blocks that move with the tissue, or the article's
   /// buckets, which are filled anew. The pairs are the same.
   enum class Tree { Blocks, Buckets } tree = Tree::Blocks;
-  std::optional<double> margin;  // [m], least distance at which pairs are kept as candidates
 };
 
 struct Output {

@@ -52,12 +52,11 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
 }
 
 void read_detection(const Node& node, Detection& detection) {
-  const TableReader table(node, "[detection]", {"tree", "margin"});
+  const TableReader table(node, "[detection]", {"tree"});
   table.may("tree", detection.tree, [](const Node& n) {
     return read_choice<Detection::Tree>(
         n, {{"blocks", Detection::Tree::Blocks}, {"buckets", Detection::Tree::Buckets}});
   });
-  table.may("margin", detection.margin, as_quantity(kLength, kPositive));
 }
 
 void read_output(const Node& node, Output& output) {
@@ -92,7 +91,7 @@ nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
 
 /// What other programs leave to trial and we choose: how many of it the scenario sets all the same.
 int contact_parameters_set(const Scenario& scenario) {
-  int count = scenario.detection.margin ? 1 : 0;
+  int count = 0;
   for (const ContactPair& pair : scenario.contacts)
     count +=
         (pair.stiffness ? 1 : 0) + (pair.max_penetration ? 1 : 0) + (pair.slip_velocity ? 1 : 0);
@@ -177,9 +176,7 @@ std::string settings_as_json(const Scenario& scenario) {
   else
     json["integrator"]["position_tolerance_of_element"] = integrator.element_tolerance;
   json["detection"] = {
-      {"tree", scenario.detection.tree == Detection::Tree::Buckets ? "buckets" : "blocks"},
-      {"margin_m", nullptr}};  // chosen by the elements
-  if (scenario.detection.margin) json["detection"]["margin_m"] = *scenario.detection.margin;
+      {"tree", scenario.detection.tree == Detection::Tree::Buckets ? "buckets" : "blocks"}};
   json["output"] = {{"interval_s", output.interval},
                     {"length_unit", output.length_unit_name},
                     {"contact_surfaces", output.contact_surfaces}};

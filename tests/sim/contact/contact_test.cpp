@@ -270,11 +270,10 @@ TEST(Contact, WithoutContactThereAreNoTrees) {
 TEST(Contact, AFixedBodyIsMappedOnceForAMargin) {
   Scenario s = scene(1e-3);
   s.contact = true;
-  s.detection.margin = 1e-3;
   s.bodies = {box_body("table", Body::Kind::Fixed, {kSide, kSide, kSide}, {0, 0, -kSide}),
               box_body("block", Body::Kind::Tissue, {kSide, kSide, kSide}, {0, 0, 0.1 * kSide})};
   s.loads = {gravity({0, 0, -1})};
-  Simulation run(s);
+  Simulation run(s, detection_margin_of(1e-3));
   run.advance(0.02);
   EXPECT_EQ(run.state.counts.steps, 20);
   EXPECT_EQ(run.state.counts.tree_updates, 20);

@@ -31,7 +31,7 @@ max_iterations = 9
 min_step = "0.2 us"
 
 [detection]
-margin = "0.3 mm"
+tree = "buckets"
 
 [[body]]
 name = "skull"
@@ -234,7 +234,7 @@ TEST_F(CompleteScenario, HasItsSettings) {
   EXPECT_EQ(scenario_.integrator.max_iterations, 9);
   EXPECT_EQ(scenario_.integrator.min_step, 2e-7);
   EXPECT_EQ(scenario_.contact_response, Scenario::Response::Pointwise);
-  EXPECT_EQ(scenario_.detection.margin, 0.3e-3);
+  EXPECT_EQ(scenario_.detection.tree, Detection::Tree::Buckets);
   EXPECT_EQ(scenario_.output.interval, 20e-3);
   EXPECT_EQ(scenario_.output.length_unit, 1e-2);
   EXPECT_EQ(scenario_.output.length_unit_name, "cm");
@@ -454,8 +454,8 @@ TEST_F(CompleteScenario, KnowsWhereEveryEntryStands) {
     EXPECT_GT(place.line, 0);
     EXPECT_GT(place.column, 0);
   }
-  EXPECT_EQ(scenario_.bodies[0].where.line, 18);
-  EXPECT_EQ(scenario_.bodies[0].mesh->where.line, 21);
+  EXPECT_EQ(scenario_.bodies[0].where.line, 17);
+  EXPECT_EQ(scenario_.bodies[0].mesh->where.line, 20);
   EXPECT_EQ(scenario_.bodies[0].mesh->where.column, 17);
 }
 
@@ -470,7 +470,7 @@ TEST_F(CompleteScenario, RecordsItsSettingsAsJson) {
   EXPECT_EQ(json["settling"], true);
   EXPECT_EQ(json["contact"][0]["max_penetration_m"], 2e-6);
   EXPECT_EQ(json["contact_response"], "pointwise");
-  EXPECT_EQ(json["contact_parameters_set"], 4);
+  EXPECT_EQ(json["contact_parameters_set"], 3);
   EXPECT_EQ(json["output"]["contact_surfaces"], true);
   EXPECT_EQ(json["output"]["checkpoint_interval_s"], 0.1);
 }

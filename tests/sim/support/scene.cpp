@@ -87,10 +87,16 @@ Load shift(const std::string& body, double duration, const Vec3& translation) {
   return load;
 }
 
-Simulation::Simulation(Scenario scenario)
-    : model(build_model(std::move(scenario))), stepper(model), state(stepper.initial()) {}
+ModelChange detection_margin_of(double margin) {
+  return [margin](Model& model) { model.detection_margin = margin; };
+}
 
 namespace {
+
+Model changed(Model model, const ModelChange& change) {
+  if (change) change(model);
+  return model;
+}
 
 Vec6 force_and_moment(const Simulation& simulation, int rigid) {
   const int block = simulation.model.rigid_bodies[static_cast<std::size_t>(rigid)].block;
@@ -98,6 +104,11 @@ Vec6 force_and_moment(const Simulation& simulation, int rigid) {
 }
 
 }  // namespace
+
+Simulation::Simulation(Scenario scenario, const ModelChange& change)
+    : model(changed(build_model(std::move(scenario)), change)),
+      stepper(model),
+      state(stepper.initial()) {}
 
 Vec3 Simulation::force_on(int rigid) const { return force_and_moment(*this, rigid).head<3>(); }
 
