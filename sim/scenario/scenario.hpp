@@ -282,7 +282,6 @@ struct Integrator {
   std::optional<double> position_tolerance;
   double element_tolerance = 5e-4;
   int max_iterations = 20;  // Newton iterations before the step is halved
-  double min_step = 1e-7;   // [s], below which the run stops
 };
 
 struct Detection {

@@ -21,9 +21,9 @@ constexpr const char* kSolvers[] = {"auto", "cholesky", "conjugate-gradients", "
 
 void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& integrator) {
   constexpr int kMostIterations = 1000;
-  const TableReader table(node, "[integrator]",
-                          {"scheme", "step", "solver", "position_tolerance", "element_tolerance",
-                           "max_iterations", "min_step"});
+  const TableReader table(
+      node, "[integrator]",
+      {"scheme", "step", "solver", "position_tolerance", "element_tolerance", "max_iterations"});
   table.may("scheme", integrator.scheme, [](const Node& n) {
     return read_choice<Integrator::Scheme>(
         n, {kSchemes[0], kSchemes[1], kSchemes[2], kSchemes[3], kSchemes[4]});
@@ -44,11 +44,6 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
   table.may("element_tolerance", integrator.element_tolerance, as_number(kPositive));
   table.may("max_iterations", integrator.max_iterations,
             [](const Node& n) { return read_integer(n, 1, kMostIterations); });
-  table.may("min_step", integrator.min_step, as_quantity(kTime, kPositive));
-  if (integrator.min_step > integrator.step)
-    throw InputError(node.where,
-                     fmt::format("[integrator]: `min_step` ({} s) must not exceed `step` ({} s)",
-                                 integrator.min_step, integrator.step));
 }
 
 void read_detection(const Node& node, Detection& detection) {
@@ -169,8 +164,7 @@ std::string settings_as_json(const Scenario& scenario) {
   json["integrator"] = {{"scheme", kSchemes[static_cast<int>(integrator.scheme)].first},
                         {"step_s", integrator.step},
                         {"solver", kSolvers[static_cast<int>(integrator.solver)]},
-                        {"max_iterations", integrator.max_iterations},
-                        {"min_step_s", integrator.min_step}};
+                        {"max_iterations", integrator.max_iterations}};
   if (integrator.position_tolerance)
     json["integrator"]["position_tolerance_m"] = *integrator.position_tolerance;
   else

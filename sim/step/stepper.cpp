@@ -15,6 +15,10 @@
 namespace articular::sim {
 namespace {
 
+/// [s] A step is halved no further: a millisecond has been halved thirteen times by then, and what
+/// fails all the same does not fail for the length of the step.
+constexpr double kLeastStep = 1e-7;
+
 /// Some contact of a dynamic analysis may not penetrate farther than the scenario says.
 bool has_bounds_in_time(const Model& model) {
   return model.scenario.analysis == Scenario::Analysis::Dynamic &&
@@ -109,7 +113,7 @@ void Stepper::step(State& state, double t_target) {
   for (;;) {
     if (try_step(state, tried)) break;
     tried *= 0.5;
-    if (tried < model_.scenario.integrator.min_step) fail(state, tried);
+    if (tried < kLeastStep) fail(state, tried);
   }
   if (last && state.t - t_start >= remaining * (1 - 1e-12)) state.t = t_target;
   if (free_steps)

@@ -38,7 +38,7 @@ class Stepper {
   /// One step of Listing 1.5.1 towards t_target: find contacts, advance (or, in a static analysis,
   /// find equilibrium under the loads of its end), check, account. Halves the step as often as
   /// needed.
-  /// @throws SimulationError when the step would get smaller than the scenario's least one
+  /// @throws SimulationError when the step would get shorter than 0.1 µs
   void step(State& state, double t_target);
 
   /// Of a static analysis: told of each iteration, see Equilibrium. step() then throws Interruption

@@ -17,8 +17,8 @@
 namespace articular::sim {
 namespace {
 
-/// A load step that has to be cut into more than so many is given up.
-constexpr double kMostCuts = 64;
+/// A load step that has to be cut into shorter ones than this is given up [unit of time].
+constexpr double kLeastStep = 1.0 / 64;
 constexpr double kDensity = 1000;  // [kg/m³] of what is loose before contact: pseudo-time asks
 
 /// Distances from 0 to `end`: h up to `fine`, then growing; the last one is `end` itself.
@@ -120,7 +120,6 @@ Scene::Scene(const StudyOptions& options) : scenario_(scene(1)), element_(option
   scenario_.analysis = Scenario::Analysis::Static;
   scenario_.contact = true;
   scenario_.integrator.position_tolerance.reset();
-  scenario_.integrator.min_step = 1 / kMostCuts;
   scenario_.output.length_unit = 1;
   scenario_.output.length_unit_name = "m";
 }
@@ -186,7 +185,13 @@ ContactRun::ContactRun(const Scene& scene, const StudyOptions& options)
 
 void ContactRun::step(double t) {
   const auto start = std::chrono::steady_clock::now();
-  while (state_.t < t) stepper_.step(state_, t);
+  const double least = std::min(kLeastStep, 0.9 * (t - state_.t));
+  while (state_.t < t) {
+    const double before = state_.t;
+    stepper_.step(state_, t);
+    if (state_.t < t && state_.t - before < least)
+      throw std::runtime_error("a load step was cut too often");
+  }
   ++steps_;
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -216,10 +216,6 @@ INSTANTIATE_TEST_SUITE_P(
                 geometry("v_shape = { leg_length = \"1 m\", width = \"1 m\", angle = @\"180 deg\", "
                          "cells = [1, 1] }"),
                 "`angle` must lie between 0 and 180 deg, found \"180 deg\""},
-        Mistake{
-            "IntegratorStep",
-            "duration = \"1 s\"\n@[integrator]\nstep = \"1 us\"\nmin_step = \"1 ms\"\n" + kBodies,
-            "[integrator]: `min_step` (0.001 s) must not exceed `step` (1e-06 s)"},
         Mistake{"Variable",
                 body("kind = \"fixed\"\nmesh = { file = @\"${ARTICULAR_NOT_SET}/a.vtp\" }\n"),
                 "`file`: ${ARTICULAR_NOT_SET} is not set in the environment; set ARTICULAR_NOT_SET "

@@ -28,7 +28,6 @@ step = "2 ms"
 solver = "conjugate-gradients"
 position_tolerance = "0.3 um"
 max_iterations = 9
-min_step = "0.2 us"
 
 [detection]
 tree = "buckets"
@@ -232,7 +231,6 @@ TEST_F(CompleteScenario, HasItsSettings) {
   EXPECT_EQ(scenario_.integrator.step, 2e-3);
   EXPECT_EQ(scenario_.integrator.position_tolerance, 3e-7);
   EXPECT_EQ(scenario_.integrator.max_iterations, 9);
-  EXPECT_EQ(scenario_.integrator.min_step, 2e-7);
   EXPECT_EQ(scenario_.contact_response, Scenario::Response::Pointwise);
   EXPECT_EQ(scenario_.detection.tree, Detection::Tree::Buckets);
   EXPECT_EQ(scenario_.output.interval, 20e-3);
@@ -454,8 +452,8 @@ TEST_F(CompleteScenario, KnowsWhereEveryEntryStands) {
     EXPECT_GT(place.line, 0);
     EXPECT_GT(place.column, 0);
   }
-  EXPECT_EQ(scenario_.bodies[0].where.line, 17);
-  EXPECT_EQ(scenario_.bodies[0].mesh->where.line, 20);
+  EXPECT_EQ(scenario_.bodies[0].where.line, 16);
+  EXPECT_EQ(scenario_.bodies[0].mesh->where.line, 19);
   EXPECT_EQ(scenario_.bodies[0].mesh->where.column, 17);
 }
 
