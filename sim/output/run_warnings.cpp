@@ -22,9 +22,7 @@ const std::string& name_of(const Model& model, int body) {
 
 /// What makes less of the energy that was made.
 std::string remedy(const Model& model) {
-  const Integrator::Scheme scheme = model.scenario.integrator.scheme;
-  const bool chooses_steps =
-      scheme == Integrator::Scheme::Bdf || scheme == Integrator::Scheme::Explicit;
+  const bool chooses_steps = model.scenario.integrator.scheme == Integrator::Scheme::Explicit;
   return fmt::format("a smaller integrator.{} makes less{}",
                      chooses_steps ? "position_tolerance" : "step",
                      model.contacts.empty() ? ""

@@ -273,7 +273,7 @@ struct Probe {
 };
 
 struct Integrator {
-  enum class Scheme { ImplicitEuler, TrBdf2, Dirk3, Bdf, Explicit };
+  enum class Scheme { ImplicitEuler, TrBdf2, Dirk3, Explicit };
   enum class Solver { Auto, Cholesky, ConjugateGradients, Multigrid };
   Scheme scheme = Scheme::ImplicitEuler;
   Solver solver = Solver::Auto;

@@ -13,7 +13,6 @@ constexpr std::pair<std::string_view, Integrator::Scheme> kSchemes[] = {
     {"implicit-euler", Integrator::Scheme::ImplicitEuler},
     {"tr-bdf2", Integrator::Scheme::TrBdf2},
     {"dirk-3", Integrator::Scheme::Dirk3},
-    {"bdf", Integrator::Scheme::Bdf},
     {"explicit", Integrator::Scheme::Explicit}};
 
 constexpr const char* kResponses[] = {"pointwise", "averaged"};
@@ -25,8 +24,7 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
       node, "[integrator]",
       {"scheme", "step", "solver", "position_tolerance", "element_tolerance", "max_iterations"});
   table.may("scheme", integrator.scheme, [](const Node& n) {
-    return read_choice<Integrator::Scheme>(
-        n, {kSchemes[0], kSchemes[1], kSchemes[2], kSchemes[3], kSchemes[4]});
+    return read_choice<Integrator::Scheme>(n, {kSchemes[0], kSchemes[1], kSchemes[2], kSchemes[3]});
   });
   if (analysis == Scenario::Analysis::Static)
     table.refuse({"scheme"}, "a static analysis has no time integration");

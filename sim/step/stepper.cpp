@@ -175,12 +175,10 @@ bool Stepper::try_step(State& state, double h) {
 }
 
 bool Stepper::try_time_step(State& state, double h) {
-  // Implicit Euler and BDF need contacts where the step ends: they are looked for where everything
-  // will be if it moves on as now. A scheme with stages between needs them on the whole way, and
-  // looks from its middle.
-  const Integrator::Scheme scheme = model_.scenario.integrator.scheme;
-  const bool only_end =
-      scheme == Integrator::Scheme::ImplicitEuler || scheme == Integrator::Scheme::Bdf;
+  // Implicit Euler needs contacts where the step ends: they are looked for where everything will be
+  // if it moves on as now. A scheme with stages between needs them on the whole way, and looks from
+  // its middle.
+  const bool only_end = model_.scenario.integrator.scheme == Integrator::Scheme::ImplicitEuler;
   const Configuration end = predicted(model_, start_, h);
   if (search_ && search_->passes_unseen(start_, end)) {
     ++state.counts.rejected_motion;

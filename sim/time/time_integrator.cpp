@@ -1,19 +1,13 @@
 #include "sim/time/time_integrator.hpp"
 
-#include "sim/time/bdf.hpp"
 #include "sim/time/runge_kutta.hpp"
 
 namespace articular::sim {
 
 std::unique_ptr<TimeIntegrator> make_time_integrator(const Model& model, Dynamics& dynamics) {
-  switch (model.scenario.integrator.scheme) {
-    case Integrator::Scheme::Bdf:
-      return make_bdf(model, dynamics);
-    case Integrator::Scheme::Explicit:
-      return make_explicit_runge_kutta(model, dynamics);
-    default:
-      return make_implicit_runge_kutta(model, dynamics);
-  }
+  if (model.scenario.integrator.scheme == Integrator::Scheme::Explicit)
+    return make_explicit_runge_kutta(model, dynamics);
+  return make_implicit_runge_kutta(model, dynamics);
 }
 
 }  // namespace articular::sim

@@ -11,7 +11,7 @@
 
 namespace articular::sim {
 
-/// Advances y' = rate(t, y) by SUNDIALS.
+/// Advances y' = rate(t, y) by ARKODE.
 class TimeIntegrator {
  public:
   virtual ~TimeIntegrator() = default;
@@ -42,8 +42,7 @@ class TimeIntegrator {
   std::function<bool()> is_to_stop_;
 };
 
-/// The scheme that the scenario asks for: implicit Runge–Kutta at fixed step and explicit ones by
-/// ARKODE, BDF by CVODE.
+/// The scheme that the scenario asks for.
 std::unique_ptr<TimeIntegrator> make_time_integrator(const Model& model, Dynamics& dynamics);
 
 }  // namespace articular::sim
