@@ -75,10 +75,9 @@ void add_contact(int a, int b, const ContactPair& pair, Model& model) {
   const double layers = A->layer_compliance + B->layer_compliance;
   contact.mean_stiffness =
       pair.stiffness.value_or(1 / ((A->mean_compliance + B->mean_compliance) / factor + layers));
-  contact.max_penetration =
-      pair.max_penetration.value_or(kMaxPenetration * std::min(A->size, B->size));
+  contact.max_penetration = kMaxPenetration * std::min(A->size, B->size);
   // The depth of a layer is its own compression.
-  contact.is_bounded = layers == 0 && (is_static || pair.max_penetration);
+  contact.is_bounded = layers == 0 && is_static;
   const auto of_groups = [&](const Collider& side, const Collider& other, double c) {
     if (pair.stiffness || !contact.averaged)
       return Eigen::VectorXd::Constant(std::ssize(side.group_node),

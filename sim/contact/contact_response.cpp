@@ -45,10 +45,8 @@ void ContactResponse::evaluate(const Configuration& configuration,
 void ContactResponse::find_pressures(const Configuration& configuration,
                                      ContactPairState& pair_state) {
   ++evaluations_[Term::ContactForce];
-  const auto c = static_cast<std::size_t>(pair_state.contact);
-  const ContactModel& contact = model_.contacts[c];
+  const ContactModel& contact = model_.contacts[static_cast<std::size_t>(pair_state.contact)];
   pair_state.model_stiffness = soft_ ? &contact.soft : &contact.stiffness;
-  pair_state.stiffening = stiffening_.size() > 0 ? stiffening_[static_cast<Eigen::Index>(c)] : 1;
   pair_state.point_stiffness = contact.averaged ? 0 : pair_state.stiffness(0);
   for (const int group : pair_state.groups) {
     pair_state.depth[group] /= pair_state.measure[group];
@@ -66,7 +64,7 @@ bool ContactResponse::augment() {
   for (ContactPairState* const near : near_) {
     ContactPairState& pair_state = *near;
     const ContactModel& contact = model_.contacts[static_cast<std::size_t>(pair_state.contact)];
-    if (!contact.is_bounded || !contact.averaged) continue;
+    if (!contact.is_bounded) continue;
     const bool exceeds =
         std::any_of(pair_state.groups.begin(), pair_state.groups.end(), [&](int group) {
           return pair_state.pressure[group] > 0 &&

@@ -26,8 +26,8 @@ std::string remedy(const Model& model) {
   return fmt::format("a smaller integrator.{} makes less{}",
                      chooses_steps ? "position_tolerance" : "step",
                      model.contacts.empty() ? ""
-                                            : " where the time integration made it, a "
-                                              "max_penetration where deep contact did");
+                                            : " where the time integration made it, "
+                                              "accuracy = \"accurate\" where deep contact did");
 }
 
 void warn_of_energy(const Model& model, const State& state, const Stepper& stepper,

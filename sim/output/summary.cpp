@@ -50,7 +50,6 @@ Json counts(const Counts& c) {
           {"tree_updates", c.tree_updates},
           {"narrow_tests", c.narrow_tests},
           {"reported_pairs", c.reported_pairs},
-          {"stiffened", c.stiffened},
           {"deep_pairs", c.deep_pairs}};
 }
 

@@ -243,7 +243,6 @@ struct ContactPair {
   double friction = 0;                       // coefficient; dynamic analysis only
   std::optional<double> slip_velocity = {};  // [m/s] that friction takes for rest; default: chosen
   double damping = 0;                        // pressure per closing velocity [Pa s/m]
-  std::optional<double> max_penetration = {};  // [m]; default: see ContactModel
 };
 
 /// A body's axes at the start for joint coordinates, see joint_coordinates.hpp.

@@ -76,7 +76,6 @@ nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
     if (pair.friction > 0) entry["friction"] = pair.friction;
     if (pair.slip_velocity) entry["slip_velocity_m_per_s"] = *pair.slip_velocity;
     if (pair.damping > 0) entry["damping_Pa_s_per_m"] = pair.damping;
-    if (pair.max_penetration) entry["max_penetration_m"] = *pair.max_penetration;
     pairs.push_back(std::move(entry));
   }
   return pairs;
@@ -86,8 +85,7 @@ nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
 int contact_parameters_set(const Scenario& scenario) {
   int count = 0;
   for (const ContactPair& pair : scenario.contacts)
-    count +=
-        (pair.stiffness ? 1 : 0) + (pair.max_penetration ? 1 : 0) + (pair.slip_velocity ? 1 : 0);
+    count += (pair.stiffness ? 1 : 0) + (pair.slip_velocity ? 1 : 0);
   return count;
 }
 

@@ -19,13 +19,6 @@ namespace {
 /// fails all the same does not fail for the length of the step.
 constexpr double kLeastStep = 1e-7;
 
-/// Some contact of a dynamic analysis may not penetrate farther than the scenario says.
-bool has_bounds_in_time(const Model& model) {
-  return model.scenario.analysis == Scenario::Analysis::Dynamic &&
-         std::any_of(model.contacts.begin(), model.contacts.end(),
-                     [](const ContactModel& contact) { return contact.is_bounded; });
-}
-
 const char* words_for(Rejection why) {
   switch (why) {
     case Rejection::NoConvergence:
@@ -62,7 +55,6 @@ State Stepper::initial() {
   state.y = initial_state(model_);
   state.next_step = model_.scenario.integrator.step;
   state.next_margin = model_.detection_margin;
-  state.stiffening = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(model_.contacts.size()));
   restart(state);
   state.energy.start = stored_energy().total();
   note_extrema(model_, *dynamics_, state);
@@ -79,7 +71,6 @@ void Stepper::set_stop(std::function<bool()> is_to_stop) {
 
 void Stepper::restart(const State& state) {
   dynamics_->forget();
-  dynamics_->set_stiffening(state.stiffening);
   if (integrator_) integrator_->restart(state.next_step);
   if (equilibrium_) equilibrium_->restart();
   Configuration now;
@@ -154,11 +145,6 @@ void Stepper::remember_start(const State& state) {
   for (std::size_t t = 0; t < model_.tissues.size(); ++t)
     if (model_.tissues[t].muscle >= 0)
       fibre_energy_before_[t] = dynamics_->energy_per_activation(t);
-  if (has_bounds_in_time(model_)) {
-    contact_energy_before_.assign(model_.contacts.size(), 0);
-    for (const ContactSummary& contact : dynamics_->contacts())
-      contact_energy_before_[static_cast<std::size_t>(contact.contact)] = contact.energy;
-  }
   reactions_before_.assign(model_.rigid_bodies.size(), Vec6::Zero());
   for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b)
     if (model_.rigid_bodies[b].motion && model_.rigid_bodies[b].unknown)
@@ -201,7 +187,6 @@ bool Stepper::try_time_step(State& state, double h) {
       why_ = Rejection::NotFinite;
       return false;
     }
-    bool covered = true;
     if (search_) {
       double stray = search_->motion_since(dynamics_->configuration());
       if (!only_end) stray = std::max(stray, search_->motion_since(start_));
@@ -210,37 +195,17 @@ bool Stepper::try_time_step(State& state, double h) {
         why_ = Rejection::TooFast;
         return false;
       }
-      covered = stray <= 0.5 * search_->margin();
+      const bool covered = stray <= 0.5 * search_->margin();
       state.next_margin = margin_for(model_, stray);
+      if (!covered) {
+        ++state.counts.rejected_motion;
+        continue;
+      }
     }
-    if (covered && !stiffen(state)) {
-      state.y = y_;
-      state.t = *reached;
-      return true;
-    }
-    state.counts.rejected_motion += covered ? 0 : 1;
+    state.y = y_;
+    state.t = *reached;
+    return true;
   }
-}
-
-/// Doubles the stiffness of contacts that penetrate by more than they may. What that adds to the
-/// energy stored at the start of the step is a loss below zero.
-bool Stepper::stiffen(State& state) const {
-  if (!has_bounds_in_time(model_)) return false;
-  constexpr double kMostStiffening =
-      128;  // beyond, Newton's tolerance would be all of the pressure
-  bool any = false;
-  for (const ContactSummary& contact : dynamics_->contacts()) {
-    const auto c = static_cast<std::size_t>(contact.contact);
-    double& factor = state.stiffening[static_cast<Eigen::Index>(c)];
-    if (!model_.contacts[c].is_bounded || factor >= kMostStiffening) continue;
-    if (contact.max_depth <= model_.contacts[c].max_penetration) continue;
-    factor *= 2;
-    state.energy.contact_loss -= contact_energy_before_[c];
-    any = true;
-  }
-  state.counts.stiffened += any ? 1 : 0;
-  if (any) dynamics_->set_stiffening(state.stiffening);
-  return any;
 }
 
 bool Stepper::try_load_step(State& state, double h) {

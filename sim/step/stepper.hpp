@@ -69,7 +69,6 @@ class Stepper {
   bool try_step(State& state, double h);
   bool try_time_step(State& state, double h);
   bool try_load_step(State& state, double h);
-  bool stiffen(State& state) const;
   SolverCounts solver_counts() const;
   void account(State& after);
   void stop_where_energy_is_made(const State& state) const;
@@ -92,7 +91,6 @@ class Stepper {
   std::vector<Vec3> loads_before_;
   std::vector<Vec6> reactions_before_;  // of held bones that are driven, by bone
   Eigen::VectorXd forces_before_;
-  std::vector<double> contact_energy_before_;  // [J] of each contact
   double t_before_ = 0;
   double damping_before_ = 0;                // [W]
   double contact_power_before_ = 0;          // [W]
