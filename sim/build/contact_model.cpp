@@ -73,13 +73,12 @@ void add_contact(int a, int b, const ContactPair& pair, Model& model) {
   contact.share = a == b ? 0.5 : 1;
   const double factor = stiffness_factor(model.scenario, contact.averaged);
   const double layers = A->layer_compliance + B->layer_compliance;
-  contact.mean_stiffness =
-      pair.stiffness.value_or(1 / ((A->mean_compliance + B->mean_compliance) / factor + layers));
+  contact.mean_stiffness = 1 / ((A->mean_compliance + B->mean_compliance) / factor + layers);
   contact.max_penetration = kMaxPenetration * std::min(A->size, B->size);
   // The depth of a layer is its own compression.
   contact.is_bounded = layers == 0 && is_static;
   const auto of_groups = [&](const Collider& side, const Collider& other, double c) {
-    if (pair.stiffness || !contact.averaged)
+    if (!contact.averaged)
       return Eigen::VectorXd::Constant(std::ssize(side.group_node),
                                        contact.share * contact.mean_stiffness)
           .eval();

@@ -237,8 +237,7 @@ struct Load {
 
 /// Without any of these every pair of bodies can meet, and none meets itself.
 struct ContactPair {
-  std::string a, b;                 // a == b: the body with itself
-  std::optional<double> stiffness;  // [Pa/m]; default: chosen from the tissue
+  std::string a, b;  // a == b: the body with itself
   Location where;
   double friction = 0;                       // coefficient; dynamic analysis only
   std::optional<double> slip_velocity = {};  // [m/s] that friction takes for rest; default: chosen

@@ -18,7 +18,7 @@ void read_friction(const TableReader& table, Scenario::Analysis analysis, Contac
 
 ContactPair read_contact(const Node& node, const Context& context, Scenario::Analysis analysis) {
   const TableReader table(node, "[[contact]]",
-                          {"bodies", "self", "stiffness", "friction", "slip_velocity", "damping"});
+                          {"bodies", "self", "friction", "slip_velocity", "damping"});
   ContactPair pair;
   pair.where = node.where;
   const Node& which = table.exactly_one({"bodies", "self"});
@@ -31,7 +31,6 @@ ContactPair read_contact(const Node& node, const Context& context, Scenario::Ana
     fail(second, fmt::format("only tissue can touch itself, body `{}` is rigid", a.name));
   pair.a = a.name;
   pair.b = b.name;
-  table.may("stiffness", pair.stiffness, as_quantity(kContactStiffness, kPositive));
   read_friction(table, analysis, pair);
   table.may("damping", pair.damping, as_quantity(kContactDamping, kNotNegative));
   return pair;

@@ -72,7 +72,6 @@ nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
   auto pairs = nlohmann::ordered_json::array();
   for (const ContactPair& pair : scenario.contacts) {
     nlohmann::ordered_json entry{{"bodies", {pair.a, pair.b}}};
-    if (pair.stiffness) entry["stiffness_Pa_per_m"] = *pair.stiffness;
     if (pair.friction > 0) entry["friction"] = pair.friction;
     if (pair.slip_velocity) entry["slip_velocity_m_per_s"] = *pair.slip_velocity;
     if (pair.damping > 0) entry["damping_Pa_s_per_m"] = pair.damping;
@@ -84,8 +83,7 @@ nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
 /// What other programs leave to trial and we choose: how many of it the scenario sets all the same.
 int contact_parameters_set(const Scenario& scenario) {
   int count = 0;
-  for (const ContactPair& pair : scenario.contacts)
-    count += (pair.stiffness ? 1 : 0) + (pair.slip_velocity ? 1 : 0);
+  for (const ContactPair& pair : scenario.contacts) count += pair.slip_velocity ? 1 : 0;
   return count;
 }
 

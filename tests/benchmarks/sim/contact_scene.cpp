@@ -171,7 +171,7 @@ void Scene::drive(const std::string& rigid, const std::vector<Vec3>& places) {
 }
 
 void Scene::touch(const std::string& a, const std::string& b) {
-  scenario_.contacts = {{a, b, {}, {}}};
+  scenario_.contacts = {{a, b, {}}};
   Probe probe;
   probe.name = "contact";
   probe.kind = Probe::Kind::Contact;

@@ -9,7 +9,7 @@ namespace articular::sim::contact_bound_test {
 constexpr double kSide = 0.1;  // [m]
 
 /// A plate comes down on a block that stands on the floor, by a twentieth of its height.
-Scenario pressed(std::optional<double> stiffness) {
+Scenario pressed() {
   Scenario s = contact_scene(0.1);
   s.analysis = Scenario::Analysis::Static;
   s.bodies = {
@@ -21,7 +21,6 @@ Scenario pressed(std::optional<double> stiffness) {
   ContactPair pair;
   pair.a = "block";
   pair.b = "plate";
-  pair.stiffness = stiffness;
   s.contacts = {pair};
   return s;
 }
@@ -30,9 +29,11 @@ struct Press {
   double force = 0, depth = 0;  // [N], [m]
 };
 
-/// @param bound  on the mean depth [m]; none: by default
-Press press(const Scenario& scenario, std::optional<double> bound = {}) {
-  Simulation run(scenario, [&](Model& model) {
+/// @param stiffness  of the contact [Pa/m], and
+/// @param bound  on its mean depth [m]; none: by default
+Press press(std::optional<double> stiffness = {}, std::optional<double> bound = {}) {
+  Simulation run(pressed(), [&](Model& model) {
+    if (stiffness) contact_stiffness_of (*stiffness)(model);
     if (bound) model.contacts[0].max_penetration = *bound;
   });
   run.advance(0.1);
@@ -44,9 +45,9 @@ Press press(const Scenario& scenario, std::optional<double> bound = {}) {
 // bound it presses as a stiff one.
 TEST(MaxPenetration, MultipliersTakeOverWhatASoftPenaltyCannotCarry) {
   const double soft = 10 * 20e3 / kSide, bound = 1e-6;
-  const Press stiff = press(pressed({}));
-  const Press sunk = press(pressed(soft), 1.0);
-  const Press bounded = press(pressed(soft), bound);
+  const Press stiff = press();
+  const Press sunk = press(soft, 1.0);
+  const Press bounded = press(soft, bound);
   EXPECT_GT(sunk.depth, 100 * bound);
   EXPECT_LT(sunk.force, 0.95 * stiff.force);
   EXPECT_LE(bounded.depth, bound);
@@ -56,9 +57,9 @@ TEST(MaxPenetration, MultipliersTakeOverWhatASoftPenaltyCannotCarry) {
 // By default the bound is a hundredth of an element.
 TEST(MaxPenetration, IsAHundredthOfAnElementInStatics) {
   const double element = kSide / 4;
-  const Press sunk = press(pressed(20e3 / kSide));
+  const Press sunk = press(20e3 / kSide);
   EXPECT_LE(sunk.depth, 0.0101 * element);
-  EXPECT_GT(sunk.force, 0.95 * press(pressed({})).force);
+  EXPECT_GT(sunk.force, 0.95 * press().force);
 }
 
 /// A block dropped on a table from half its height.
@@ -90,7 +91,7 @@ TEST(ContactResponses, CarryTheWeight) {
 /// Force of a ball that is pressed into the block and stays there.
 /// @param stiffness_factor  of averages in time; none: by default
 double force_of_a_ball(Scenario::Analysis analysis, std::optional<double> stiffness_factor) {
-  Scenario s = pressed({});
+  Scenario s = pressed();
   s.analysis = analysis;
   s.contact_response = Scenario::Response::Averaged;
   s.contact_stiffness_factor = stiffness_factor;

@@ -42,7 +42,7 @@ Scenario press(Scenario::Analysis analysis, double turn) {
       stand("wall")};
   s.bodies[0].material = linear(20e3, 0);
   s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, -0.49 * kSide})};
-  s.contacts = {{"plate", "block", kStiffness, {}}};
+  s.contacts = {{"plate", "block", {}}};
   Load down = shift("plate", 0.2, {0, 0, -2e-4});
   down.motion.rotation = {Vec3::Zero(), Vec3(0, turn, 0)};
   down.motion.about = Vec3(0, 0, kSide / 2);
@@ -80,7 +80,7 @@ Carried carried(const Probes& probes, const std::string& name) {
 
 TEST(ContactProbe, CompartmentsAddUpToTheWholeOfEitherBodyInStaticsAndInTime) {
   for (const auto analysis : {Scenario::Analysis::Static, Scenario::Analysis::Dynamic}) {
-    Simulation run(press(analysis, 0.004));
+    Simulation run(press(analysis, 0.004), contact_stiffness_of(kStiffness));
     run.advance(analysis == Scenario::Analysis::Static ? 1 : 0.3);
     const Probes probes(run);
     for (const std::string name : {"block", "plate"}) {
@@ -110,7 +110,7 @@ TEST(ContactProbe, CompartmentsAddUpToTheWholeOfEitherBodyInStaticsAndInTime) {
 
 // Uniform pressure: each half has half of the force, in the middle of its half, on half the area.
 TEST(ContactProbe, HalfOfAUniformlyPressedBlockCarriesHalf) {
-  Simulation run(press(Scenario::Analysis::Static, 0));
+  Simulation run(press(Scenario::Analysis::Static, 0), contact_stiffness_of(kStiffness));
   run.advance(1);
   const Probes probes(run);
   const double p = 2e-4 / (kSide / 20e3 + 1 / kStiffness), area = kSide * kSide;
@@ -124,7 +124,7 @@ TEST(ContactProbe, HalfOfAUniformlyPressedBlockCarriesHalf) {
 }
 
 TEST(ContactProbe, ApartThereIsNoMeanPressureAndNoShare) {
-  Simulation run(press(Scenario::Analysis::Dynamic, 0));
+  Simulation run(press(Scenario::Analysis::Dynamic, 0), contact_stiffness_of(kStiffness));
   const Probes probes(run);
   EXPECT_EQ(probes("block_low.mean_pressure [Pa]"), 0);
   EXPECT_TRUE(std::isnan(probes("block_low.center.x [mm]")));
@@ -153,7 +153,7 @@ TEST(AttachmentProbe, CountsContactOnTheTiedNodesToo) {
                                [](const Probe& probe) { return probe.kind == Probe::Kind::Share; });
   share.part = {"tied"};
   share.whole = {"block"};
-  Simulation run(s);
+  Simulation run(s, contact_stiffness_of(kStiffness));
   run.advance(1);
   const Probes probes(run);
   const Carried plate = carried(probes, "block"), tied_half = carried(probes, "block_low");

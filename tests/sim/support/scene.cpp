@@ -91,6 +91,16 @@ ModelChange detection_margin_of(double margin) {
   return [margin](Model& model) { model.detection_margin = margin; };
 }
 
+ModelChange contact_stiffness_of(double stiffness) {
+  return [stiffness](Model& model) {
+    for (ContactModel& contact : model.contacts) {
+      contact.mean_stiffness = stiffness;
+      contact.stiffness.setConstant(contact.share * stiffness);
+      contact.soft = contact.stiffness;
+    }
+  };
+}
+
 namespace {
 
 Model changed(Model model, const ModelChange& change) {

@@ -35,7 +35,8 @@ Load shift(const std::string& body, double duration, const Vec3& translation);
 
 /// Sets numbers of a model that no scenario sets.
 using ModelChange = std::function<void(Model&)>;
-ModelChange detection_margin_of(double margin);  // [m]
+ModelChange detection_margin_of(double margin);      // [m]
+ModelChange contact_stiffness_of(double stiffness);  // [Pa/m], of all contacts, at all nodes
 
 /// A scene's model with what advances it.
 struct Simulation {
