@@ -56,9 +56,7 @@ class Dynamics {
   void set_allowances(std::vector<double> allowances) {
     contact_.set_allowances(std::move(allowances));
   }
-  /// From the next evaluate() on, see ContactResponse::set_stiffening(), augment() and
-  /// drop_multipliers().
-  void set_stiffening(const Eigen::VectorXd& factors) { contact_.set_stiffening(factors); }
+  /// From the next evaluate() on, see ContactResponse::augment() and drop_multipliers().
   bool augment_contact() { return contact_.augment(); }
   void drop_multipliers() { contact_.drop_multipliers(); }
   /// From the next evaluate() on, see ContactResponse::update_friction_duals() and

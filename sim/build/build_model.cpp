@@ -42,7 +42,7 @@ class Builder {
     make_contacts(scenario_, model_);
     model_.probes = make_probes(scenario_, model_, geometry_, surface_);
     model_.position_tolerance = position_tolerance(scenario_.integrator, model_);
-    model_.detection_margin = detection_margin(scenario_.detection, model_);
+    model_.detection_margin = detection_margin(model_);
     model_.linear_solver = choose_linear_solver(scenario_, model_);
     return std::move(model_);
   }
@@ -334,9 +334,8 @@ StepSettings step_settings(const Scenario& scenario) {
   const Integrator& integrator = scenario.integrator;
   return {.scheme = integrator.scheme,
           .step = integrator.step,
-          .min_step = integrator.min_step,
           .max_iterations = integrator.max_iterations,
-          .detection = scenario.detection};
+          .tree = scenario.detection.tree};
 }
 
 }  // namespace articular::sim

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 
-#include "sim/gap/sample_points.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
@@ -72,18 +71,15 @@ void add_contact(const Scenario& scenario, int a, int b, const ContactPair& pair
   const bool has_tissue = model.bodies[static_cast<std::size_t>(a)].tissue >= 0 ||
                           model.bodies[static_cast<std::size_t>(b)].tissue >= 0;
   contact.averaged = is_static || (has_tissue && response == Scenario::Response::Averaged);
-  if (!is_static && response == Scenario::Response::Sampled) contact.samples = triangle_samples();
   contact.share = a == b ? 0.5 : 1;
   const double factor = stiffness_factor(scenario, contact.averaged);
   const double layers = A->layer_compliance + B->layer_compliance;
-  contact.mean_stiffness =
-      pair.stiffness.value_or(1 / ((A->mean_compliance + B->mean_compliance) / factor + layers));
-  contact.max_penetration =
-      pair.max_penetration.value_or(kMaxPenetration * std::min(A->size, B->size));
+  contact.mean_stiffness = 1 / ((A->mean_compliance + B->mean_compliance) / factor + layers);
+  contact.max_penetration = kMaxPenetration * std::min(A->size, B->size);
   // The depth of a layer is its own compression.
-  contact.is_bounded = layers == 0 && (is_static || pair.max_penetration);
+  contact.is_bounded = layers == 0 && is_static;
   const auto of_groups = [&](const Collider& side, const Collider& other, double c) {
-    if (pair.stiffness || !contact.averaged)
+    if (!contact.averaged)
       return Eigen::VectorXd::Constant(std::ssize(side.group_node),
                                        contact.share * contact.mean_stiffness)
           .eval();
@@ -127,9 +123,8 @@ void make_contacts(const Scenario& scenario, Model& model) {
     }
 }
 
-double detection_margin(const Detection& detection, const Model& model) {
+double detection_margin(const Model& model) {
   constexpr double kMarginOfElement = 0.1;
-  if (detection.margin) return *detection.margin;
   double least = std::numeric_limits<double>::infinity();
   for (const BodyModel& body : model.bodies)
     if (body.collider) least = std::min(least, body.collider->size);

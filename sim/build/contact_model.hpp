@@ -11,6 +11,6 @@ void make_contacts(const Scenario& scenario, Model& model);
 
 /// [m] Within which pairs are kept as candidates at least: as the scenario says, or by the
 /// elements.
-double detection_margin(const Detection& detection, const Model& model);
+double detection_margin(const Model& model);
 
 }  // namespace articular::sim

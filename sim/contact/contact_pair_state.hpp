@@ -32,8 +32,7 @@ struct ContactPairState {
   Eigen::VectorXd multiplier;                        // λ [Pa]; empty: none
   std::vector<int> groups;                           // that have an area
   const Eigen::VectorXd* model_stiffness = nullptr;  // of the groups [Pa/m]
-  double stiffening = 1;
-  double stiffness(int group) const { return (*model_stiffness)[group] * stiffening; }  // k [Pa/m]
+  double stiffness(int group) const { return (*model_stiffness)[group]; }  // k [Pa/m]
   /// <λ + k g> [Pa]: the pressure without that of damping.
   double penalty(int group) const {
     const double lambda = multiplier.size() > 0 ? multiplier[group] : 0;

@@ -45,10 +45,8 @@ void ContactResponse::evaluate(const Configuration& configuration,
 void ContactResponse::find_pressures(const Configuration& configuration,
                                      ContactPairState& pair_state) {
   ++evaluations_[Term::ContactForce];
-  const auto c = static_cast<std::size_t>(pair_state.contact);
-  const ContactModel& contact = model_.contacts[c];
+  const ContactModel& contact = model_.contacts[static_cast<std::size_t>(pair_state.contact)];
   pair_state.model_stiffness = soft_ ? &contact.soft : &contact.stiffness;
-  pair_state.stiffening = stiffening_.size() > 0 ? stiffening_[static_cast<Eigen::Index>(c)] : 1;
   pair_state.point_stiffness = contact.averaged ? 0 : pair_state.stiffness(0);
   for (const int group : pair_state.groups) {
     pair_state.depth[group] /= pair_state.measure[group];
@@ -66,7 +64,7 @@ bool ContactResponse::augment() {
   for (ContactPairState* const near : near_) {
     ContactPairState& pair_state = *near;
     const ContactModel& contact = model_.contacts[static_cast<std::size_t>(pair_state.contact)];
-    if (!contact.is_bounded || !contact.averaged) continue;
+    if (!contact.is_bounded) continue;
     const bool exceeds =
         std::any_of(pair_state.groups.begin(), pair_state.groups.end(), [&](int group) {
           return pair_state.pressure[group] > 0 &&
@@ -125,7 +123,6 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
   }
   const auto contact = static_cast<std::size_t>(pair_state.contact);
   const bool averaged = model_.contacts[contact].averaged;
-  const std::span<const SamplePoint> samples = model_.contacts[contact].samples;
   DepthRange range = depth_range(side.triangles, side.faces, averaged);
   if (!allowances_.empty()) range.allowance = allowances_[contact];
   const std::vector<ContactCandidate>& pairs = list.pairs;
@@ -142,7 +139,7 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
       for (int nearest = 0; nearest <= ContactPatch::kFace; ++nearest) {
         if (pair_state.num_patches == pair_state.stored.size()) pair_state.stored.emplace_back();
         ContactPairState::Patch& entry = pair_state.stored[pair_state.num_patches];
-        if (!contact_patch(s, f, rest_area, range, entry.patch, samples, nearest)) continue;
+        if (!contact_patch(s, f, rest_area, range, entry.patch, nearest)) continue;
         ++pair_state.num_patches;
         entry.triangle = triangle;
         entry.face = face;

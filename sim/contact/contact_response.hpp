@@ -25,9 +25,7 @@
 /// Where a g_a exceeds the contact's max_penetration all the same, multipliers λ_a take over what
 /// the penalty carried, p_a = <λ_a + k_a g_a> (augment(): Uzawa's method).
 ///
-/// Else they count point by point, E = ½ k ∫ <d>² dA, on one side's triangles: everywhere, or at
-/// sample points that stand for the integral. In time, where a mean depth at a node exceeds a bound
-/// that the scenario sets, k is raised (set_stiffening()).
+/// Else they count point by point, E = ½ k ∫ <d>² dA, on one side's triangles.
 ///
 /// [Puso 2004] Puso, Laursen. A mortar segment-to-segment contact method for large deformation
 /// solid mechanics. Comput Methods Appl Mech Eng 193:601.
@@ -40,8 +38,6 @@ class ContactResponse {
   ContactResponse& operator=(const ContactResponse&) = delete;
   /// From the next evaluate() on, with the soft stiffness of the ContactModel.
   void set_soft(bool soft) { soft_ = soft; }
-  /// From the next evaluate() on, k of each contact is that of the model times these; empty: 1.
-  void set_stiffening(const Eigen::VectorXd& factors) { stiffening_ = factors; }
   /// Where averaged depths exceed a bounded contact's max_penetration: from the next evaluate() on,
   /// λ = p. @return whether any does
   bool augment();
@@ -95,7 +91,6 @@ class ContactResponse {
   const Model& model_;
   bool soft_ = false;
   std::vector<double> allowances_;
-  Eigen::VectorXd stiffening_;
   std::deque<ContactPairState> pair_states_;   // all that have had candidates so far
   std::vector<ContactPairState*> of_contact_;  // by contact; none yet: null
   std::vector<ContactPairState*> near_;        // those that have some now

@@ -93,7 +93,7 @@ ContactSearch::ContactSearch(const Model& model, const StepSettings& settings) :
     const auto nonmortar = static_cast<std::size_t>(contact.reversed ? contact.b : contact.a);
     open_depth_ = std::max(open_depth_, model.bodies[nonmortar].collider->open_depth);
   }
-  penetrations_ = make_penetration_search(colliders, settings.detection, model.pool);
+  penetrations_ = make_penetration_search(colliders, settings.tree, model.pool);
 }
 
 bool ContactSearch::needs_update(const Moving& moving, double margin) const {

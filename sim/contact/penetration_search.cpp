@@ -13,10 +13,8 @@ using collision::BucketTree;
 
 class BlockSearch final : public PenetrationSearch {
  public:
-  BlockSearch(const std::vector<const Collider*>& bodies, const Detection& detection,
-              std::shared_ptr<ThreadPool> pool)
+  BlockSearch(const std::vector<const Collider*>& bodies, std::shared_ptr<ThreadPool> pool)
       : scratch_(std::move(pool)) {
-    options_.narrow = detection.narrow_test;
     trees_.reserve(bodies.size());
     for (const Collider* body : bodies) trees_.emplace_back(body->tets, body->surface, body->X);
   }
@@ -68,9 +66,8 @@ class BlockSearch final : public PenetrationSearch {
 /// every update.
 class BucketSearch final : public PenetrationSearch {
  public:
-  BucketSearch(const std::vector<const Collider*>& bodies, const Detection& detection)
-      : is_fit_(bodies.size(), 0) {
-    options_.rule = detection.narrow_test;
+  explicit BucketSearch(const std::vector<const Collider*>& bodies) : is_fit_(bodies.size(), 0) {
+    options_.rule = collision::NarrowTest::SeparatingAxes;  // that of the block tree
     trees_.reserve(bodies.size());
     for (const Collider* body : bodies) trees_.emplace_back(body->tets, body->surface, body->X);
   }
@@ -111,11 +108,10 @@ class BucketSearch final : public PenetrationSearch {
 }  // namespace
 
 std::unique_ptr<PenetrationSearch> make_penetration_search(
-    const std::vector<const Collider*>& bodies, const Detection& detection,
+    const std::vector<const Collider*>& bodies, Detection::Tree tree,
     std::shared_ptr<ThreadPool> pool) {
-  if (detection.tree == Detection::Tree::Buckets)
-    return std::make_unique<BucketSearch>(bodies, detection);
-  return std::make_unique<BlockSearch>(bodies, detection, std::move(pool));
+  if (tree == Detection::Tree::Buckets) return std::make_unique<BucketSearch>(bodies);
+  return std::make_unique<BlockSearch>(bodies, std::move(pool));
 }
 
 }  // namespace articular::sim

@@ -42,7 +42,7 @@ class PenetrationSearch {
 
 /// @param bodies  colliders, which stay where they are
 std::unique_ptr<PenetrationSearch> make_penetration_search(
-    const std::vector<const Collider*>& bodies, const Detection& detection,
+    const std::vector<const Collider*>& bodies, Detection::Tree tree,
     std::shared_ptr<ThreadPool> pool);
 
 }  // namespace articular::sim

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "sim/gap/patch_motion.hpp"
 #include "sim/gap/triangle_polygon.hpp"
@@ -78,7 +79,7 @@ Mat3 edge_integral(const PatchEdge& edge, const Vec3& p) {
 
 /// Q, depth_max and the edges of the part within the cuts, in units of the triangle's area.
 /// @return how much of it that is
-double cover_exactly(const Cuts& cuts, ContactPatch& patch) {
+double cover(const Cuts& cuts, ContactPatch& patch) {
   const TrianglePolygon whole = whole_triangle();
   std::array<TrianglePolygon, 2> rooms;
   const TrianglePolygon* part = &whole;
@@ -92,22 +93,6 @@ double cover_exactly(const Cuts& cuts, ContactPatch& patch) {
         std::max(patch.depth_max, patch.depth.dot(part->corner[static_cast<std::size_t>(i)]));
   find_edges(*part, cuts, patch);
   return integrate(*part, patch.Q);
-}
-
-/// The same by the samples there; without edges: points stay where they are.
-double cover_by_samples(const Cuts& cuts, std::span<const SamplePoint> samples,
-                        ContactPatch& patch) {
-  patch.Q.setZero();
-  double total = 0;
-  for (const SamplePoint& sample : samples) {
-    if (std::any_of(cuts.all().begin(), cuts.all().end(),
-                    [&](const Cut& cut) { return cut.level.dot(sample.N) < 0; }))
-      continue;
-    patch.depth_max = std::max(patch.depth_max, patch.depth.dot(sample.N));
-    patch.Q += sample.part * sample.N * sample.N.transpose();
-    total += sample.part;
-  }
-  return total;
 }
 
 struct Facing {
@@ -204,8 +189,7 @@ FlatTriangle flat_triangle(const Mat3& x) {
 }
 
 bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_area,
-                   const DepthRange& range, ContactPatch& patch,
-                   std::span<const SamplePoint> samples, int nearest) {
+                   const DepthRange& range, ContactPatch& patch, int nearest) {
   const bool is_rim = nearest != ContactPatch::kFace;
   if (is_rim && f.rim_height[nearest] == 0) return false;
   const Vec3& n = s.normal;
@@ -226,8 +210,7 @@ bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_are
   const Cuts cuts = cuts_of_part(f, behind, range.open, patch);
   patch.num_edges = 0;
   patch.depth_max = -range.open;
-  const double fraction =
-      samples.empty() ? cover_exactly(cuts, patch) : cover_by_samples(cuts, samples, patch);
+  const double fraction = cover(cuts, patch);
   if (!(fraction > 0)) return false;
   if (patch.depth_max + range.allowance > range.reach) return false;
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include "fem/base/types.hpp"
 
@@ -29,10 +28,9 @@
 /// forces jump.
 ///
 /// Nodes of the face move G_a with the weights β_m(N) of the point opposite, so that forces derived
-/// from G_a are equal and opposite and make no net moment. Everything is integrated exactly, or
-/// summed over sample points of the triangle, those that lie opposite the face. Gradients have the
-/// motion of the edges at which the polygon ends: where surfaces slip off each other that keeps
-/// energy.
+/// from G_a are equal and opposite and make no net moment. Everything is integrated exactly.
+/// Gradients have the motion of the edges at which the polygon ends: where surfaces slip off each
+/// other that keeps energy.
 namespace articular::sim {
 
 using Vec18 = Eigen::Matrix<double, 18, 1>;
@@ -65,7 +63,7 @@ struct ContactPatch {
   int nearest = kFace;         // or the number of the face's edge
   double area = 0;             // [m²] rest area of the polygon, times w
   double depth_max = 0;        // [m]
-  Mat3 Q = Mat3::Zero();       // w ∫ N Nᵀ dA [m²], or the sum that stands for it
+  Mat3 Q = Mat3::Zero();       // w ∫ N Nᵀ dA [m²]
   Mat3 beta = Mat3::Zero();    // beta(m, i): weight of face node m opposite node i of s
   Vec3 depth = Vec3::Zero();   // d at the nodes of s, without the allowance [m]
   Vec3 height = Vec3::Zero();  // behind the face, with the allowance [m]
@@ -104,19 +102,11 @@ struct FlatTriangle {
 };
 FlatTriangle flat_triangle(const Mat3& x);
 
-/// A point of a triangle that stands for a part of it.
-struct SamplePoint {
-  Vec3 N;       // barycentric coordinates
-  double part;  // of the triangle's area
-};
-
 /// @param rest_area  of the triangle s [m²]
-/// @param samples    of the triangle; none: exact
 /// @param nearest    which part of the polygon, ContactPatch::nearest
 /// @return false when nothing of s is opposite f within the range and part
 bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_area,
-                   const DepthRange& range, ContactPatch& patch,
-                   std::span<const SamplePoint> samples = {}, int nearest = ContactPatch::kFace);
+                   const DepthRange& range, ContactPatch& patch, int nearest = ContactPatch::kFace);
 
 /// Whether the polygon ends inside the triangle.
 bool has_end(const ContactPatch& patch);

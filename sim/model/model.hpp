@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -132,10 +131,9 @@ struct ForceModel {
 };
 
 struct ContactModel {
-  int a = 0, b = 0;      // bodies; a == b: with itself
-  bool averaged = true;  // depths are averaged at the nodes of one side; else pointwise
-  std::span<const SamplePoint> samples;  // of each triangle, for all time; empty: exact
-  bool reversed = false;                 // b's triangles look for a's faces
+  int a = 0, b = 0;            // bodies; a == b: with itself
+  bool averaged = true;        // depths are averaged at the nodes of one side; else pointwise
+  bool reversed = false;       // b's triangles look for a's faces
   Eigen::VectorXd stiffness;   // at the nodes of the non-mortar side, times `share` [Pa/m]
   Eigen::VectorXd soft;        // what an iteration that comes from afar starts with
   double mean_stiffness = 0;   // of the two sides in series [Pa/m]

@@ -38,11 +38,9 @@ SolverCounts operator-(SolverCounts a, const SolverCounts& b);
 
 struct Counts : SolverCounts {
   std::int64_t rejected_motion = 0;  // something moved farther than the detection covered
-  std::int64_t lagged_steps = 0;     // tried with the contact candidates of an earlier one
   std::int64_t tree_updates = 0;
   std::int64_t narrow_tests = 0;
   std::int64_t reported_pairs = 0;
-  std::int64_t stiffened = 0;   // steps done again with a contact's stiffness doubled
   std::int64_t deep_pairs = 0;  // contact candidates deeper than usual: see ContactSearch
   EvaluationCounts evaluations;
 };
@@ -89,7 +87,6 @@ struct State {
   Counts counts;
   OverlapResolution overlap_resolution;
   RunExtrema extrema;
-  Eigen::VectorXd stiffening;  // of each contact's stiffness, by max_penetration; ≥ 1
 };
 
 }  // namespace articular::sim

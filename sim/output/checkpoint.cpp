@@ -12,7 +12,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 6\n";
+constexpr char kMagic[] = "articular checkpoint 7\n";
 
 /// FNV-1a: a plain hash is enough to notice damage and mix-ups.
 std::uint64_t hash_bytes(const char* data, std::size_t size) {
@@ -132,7 +132,6 @@ void write_checkpoint(const std::filesystem::path& file, const State& state,
   put(state.overlap_resolution.overlaps.size(), bytes);
   for (const ResolvedOverlap& overlap : state.overlap_resolution.overlaps)
     each_of_overlap(overlap, put_member);
-  put_vector(state.stiffening, bytes);
   put_vector(state.y, bytes);
   put(hash_bytes(bytes.data(), bytes.size()), bytes);
   write_text_file(file, bytes);
@@ -172,7 +171,6 @@ std::optional<State> read_checkpoint(const std::filesystem::path& file,
     reader.get(num_overlaps);
     for (std::size_t k = 0; k < num_overlaps; ++k)
       each_of_overlap(state.overlap_resolution.overlaps.emplace_back(), get_member);
-    reader.get_vector(state.stiffening);
     reader.get_vector(state.y);
   } catch (const Torn&) {
     throw InputError(

@@ -22,13 +22,12 @@ const std::string& name_of(const Model& model, int body) {
 
 /// What makes less of the energy that was made.
 std::string remedy(const Model& model, Integrator::Scheme scheme) {
-  const bool chooses_steps =
-      scheme == Integrator::Scheme::Bdf || scheme == Integrator::Scheme::Explicit;
+  const bool chooses_steps = scheme == Integrator::Scheme::Explicit;
   return fmt::format("a smaller integrator.{} makes less{}",
                      chooses_steps ? "position_tolerance" : "step",
                      model.contacts.empty() ? ""
-                                            : " where the time integration made it, a "
-                                              "max_penetration where deep contact did");
+                                            : " where the time integration made it, "
+                                              "accuracy = \"accurate\" where deep contact did");
 }
 
 void warn_of_energy(const Model& model, const State& state, const Stepper& stepper,

@@ -41,7 +41,6 @@ Json counts(const Counts& c) {
   return {{"sundials_steps", c.steps},
           {"rejected_newton", c.rejected_newton},
           {"rejected_motion", c.rejected_motion},
-          {"lagged_steps", c.lagged_steps},
           {"newton_iterations", c.newton_iterations},
           {"factorizations", c.factorizations},
           {"projected_tangents", c.projected_tangents},
@@ -51,7 +50,6 @@ Json counts(const Counts& c) {
           {"tree_updates", c.tree_updates},
           {"narrow_tests", c.narrow_tests},
           {"reported_pairs", c.reported_pairs},
-          {"stiffened", c.stiffened},
           {"deep_pairs", c.deep_pairs}};
 }
 

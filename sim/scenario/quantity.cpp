@@ -85,7 +85,6 @@ constexpr std::array kNouns{
     Noun{kForce.dimension, kForce.noun},
     Noun{kStiffness.dimension, kStiffness.noun},
     Noun{kDamping.dimension, kDamping.noun},
-    Noun{kContactStiffness.dimension, kContactStiffness.noun},
     Noun{kContactDamping.dimension, kContactDamping.noun},
     Noun{kInertia.dimension, kInertia.noun},
     Noun{kVelocity.dimension, kVelocity.noun},

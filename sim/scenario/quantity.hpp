@@ -38,8 +38,6 @@ inline constexpr QuantityKind kStress{{1, -1, -2, 0}, "a stress", "15 kPa"};
 inline constexpr QuantityKind kForce{{1, 1, -2, 0}, "a force", "190 N", "0 0 -1 N"};
 inline constexpr QuantityKind kStiffness{{1, 0, -2, 0}, "a stiffness", "250 N/mm"};
 inline constexpr QuantityKind kDamping{{1, 0, -1, 0}, "a damping", "0.05 N s/mm"};
-inline constexpr QuantityKind kContactStiffness{
-    {1, -2, -2, 0}, "a stiffness per area", "1e11 Pa/m"};
 inline constexpr QuantityKind kContactDamping{{1, -2, -1, 0}, "a damping per area", "1e4 Pa s/m"};
 inline constexpr QuantityKind kInertia{
     {1, 2, 0, 0}, "an inertia", "147 kg mm^2", "147 246 297 kg mm^2"};

@@ -10,7 +10,6 @@
 #include <variant>
 #include <vector>
 
-#include "collision/narrow/narrow_rule.hpp"
 #include "fem/material/prony_term.hpp"
 #include "sim/base/error.hpp"
 #include "sim/base/length_unit.hpp"
@@ -258,13 +257,11 @@ using Load = std::variant<GravityLoad, ForceLoad, MotionLoad>;
 
 /// Without any of these every pair of bodies can meet, and none meets itself.
 struct ContactPair {
-  std::string a, b;                 // a == b: the body with itself
-  std::optional<double> stiffness;  // [Pa/m]; default: chosen from the tissue
+  std::string a, b;  // a == b: the body with itself
   Location where;
   double friction = 0;                       // coefficient; dynamic analysis only
   std::optional<double> slip_velocity = {};  // [m/s] that friction takes for rest; default: chosen
   double damping = 0;                        // pressure per closing velocity [Pa s/m]
-  std::optional<double> max_penetration = {};  // [m]; default: see ContactModel
 };
 
 /// A body's axes at the start for joint coordinates, see joint_coordinates.hpp.
@@ -332,7 +329,7 @@ struct Probe {
 };
 
 struct Integrator {
-  enum class Scheme { ImplicitEuler, TrBdf2, Dirk3, Bdf, Explicit };
+  enum class Scheme { ImplicitEuler, TrBdf2, Dirk3, Explicit };
   enum class Solver { Auto, Cholesky, ConjugateGradients, Multigrid };
   Scheme scheme = Scheme::ImplicitEuler;
   Solver solver = Solver::Auto;
@@ -341,16 +338,12 @@ struct Integrator {
   std::optional<double> position_tolerance;
   double element_tolerance = 5e-4;
   int max_iterations = 20;  // Newton iterations before the step is halved
-  double min_step = 1e-7;   // [s], below which the run stops
 };
 
 struct Detection {
   /// The tree that penetrations are searched by: blocks that move with the tissue, or the article's
   /// buckets, which are filled anew. The pairs are the same.
   enum class Tree { Blocks, Buckets } tree = Tree::Blocks;
-  bool lagged = false;           // a dynamic analysis looks anew only when things have moved
-  std::optional<double> margin;  // [m], least distance at which pairs are kept as candidates
-  collision::NarrowTest narrow_test = collision::NarrowTest::SeparatingAxes;
 };
 
 struct Output {
@@ -377,9 +370,9 @@ struct Scenario {
   std::vector<Ligament> ligaments;
   std::vector<Load> loads;
   bool contact = true;  // `contact = false`: nothing touches
-  /// Of a dynamic analysis: depths count point by point, everywhere or at samples of each triangle,
-  /// or as averages at nodes, which is what a static one does.
-  enum class Response { Pointwise, Sampled, Averaged } contact_response = Response::Averaged;
+  /// Of a dynamic analysis: depths count point by point, or as averages at nodes, which is what a
+  /// static one does.
+  enum class Response { Pointwise, Averaged } contact_response = Response::Averaged;
   /// Of averaged depths in a dynamic analysis: contact is this many times as stiff as the elements
   /// at the surface; default: chosen by the scheme.
   std::optional<double> contact_stiffness_factor;

@@ -17,9 +17,8 @@ void read_friction(const TableReader& table, Scenario::Analysis analysis, Contac
 }
 
 ContactPair read_contact(const Node& node, const Context& context, Scenario::Analysis analysis) {
-  const TableReader table(
-      node, "[[contact]]",
-      {"bodies", "self", "stiffness", "max_penetration", "friction", "slip_velocity", "damping"});
+  const TableReader table(node, "[[contact]]",
+                          {"bodies", "self", "friction", "slip_velocity", "damping"});
   ContactPair pair;
   pair.where = node.where;
   const Node& which = table.exactly_one({"bodies", "self"});
@@ -32,8 +31,6 @@ ContactPair read_contact(const Node& node, const Context& context, Scenario::Ana
     fail(second, fmt::format("only tissue can touch itself, body `{}` is rigid", a.name));
   pair.a = a.name;
   pair.b = b.name;
-  table.may("stiffness", pair.stiffness, as_quantity(kContactStiffness, kPositive));
-  table.may("max_penetration", pair.max_penetration, as_quantity(kLength, kPositive));
   read_friction(table, analysis, pair);
   table.may("damping", pair.damping, as_quantity(kContactDamping, kNotNegative));
   return pair;

@@ -13,20 +13,18 @@ constexpr std::pair<std::string_view, Integrator::Scheme> kSchemes[] = {
     {"implicit-euler", Integrator::Scheme::ImplicitEuler},
     {"tr-bdf2", Integrator::Scheme::TrBdf2},
     {"dirk-3", Integrator::Scheme::Dirk3},
-    {"bdf", Integrator::Scheme::Bdf},
     {"explicit", Integrator::Scheme::Explicit}};
 
-constexpr const char* kResponses[] = {"pointwise", "sampled", "averaged"};
+constexpr const char* kResponses[] = {"pointwise", "averaged"};
 constexpr const char* kSolvers[] = {"auto", "cholesky", "conjugate-gradients", "multigrid"};
 
 void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& integrator) {
   constexpr int kMostIterations = 1000;
-  const TableReader table(node, "[integrator]",
-                          {"scheme", "step", "solver", "position_tolerance", "element_tolerance",
-                           "max_iterations", "min_step"});
+  const TableReader table(
+      node, "[integrator]",
+      {"scheme", "step", "solver", "position_tolerance", "element_tolerance", "max_iterations"});
   table.may("scheme", integrator.scheme, [](const Node& n) {
-    return read_choice<Integrator::Scheme>(
-        n, {kSchemes[0], kSchemes[1], kSchemes[2], kSchemes[3], kSchemes[4]});
+    return read_choice<Integrator::Scheme>(n, {kSchemes[0], kSchemes[1], kSchemes[2], kSchemes[3]});
   });
   if (analysis == Scenario::Analysis::Static)
     table.refuse({"scheme"}, "a static analysis has no time integration");
@@ -44,27 +42,13 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
   table.may("element_tolerance", integrator.element_tolerance, as_number(kPositive));
   table.may("max_iterations", integrator.max_iterations,
             [](const Node& n) { return read_integer(n, 1, kMostIterations); });
-  table.may("min_step", integrator.min_step, as_quantity(kTime, kPositive));
-  if (integrator.min_step > integrator.step)
-    throw InputError(node.where,
-                     fmt::format("[integrator]: `min_step` ({} s) must not exceed `step` ({} s)",
-                                 integrator.min_step, integrator.step));
 }
 
-void read_detection(const Node& node, Scenario::Analysis analysis, Detection& detection) {
-  const TableReader table(node, "[detection]", {"tree", "lagged", "margin", "narrow_test"});
-  if (analysis == Scenario::Analysis::Static)
-    table.refuse({"lagged"}, "a static analysis looks wherever its iteration has come to");
+void read_detection(const Node& node, Detection& detection) {
+  const TableReader table(node, "[detection]", {"tree"});
   table.may("tree", detection.tree, [](const Node& n) {
     return read_choice<Detection::Tree>(
         n, {{"blocks", Detection::Tree::Blocks}, {"buckets", Detection::Tree::Buckets}});
-  });
-  table.may("lagged", detection.lagged, read_boolean);
-  table.may("margin", detection.margin, as_quantity(kLength, kPositive));
-  table.may("narrow_test", detection.narrow_test, [](const Node& n) {
-    return read_choice<collision::NarrowTest>(
-        n, {{"separating-axes", collision::NarrowTest::SeparatingAxes},
-            {"gjk", collision::NarrowTest::Gjk}});
   });
 }
 
@@ -89,11 +73,9 @@ nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
   auto pairs = nlohmann::ordered_json::array();
   for (const ContactPair& pair : scenario.contacts) {
     nlohmann::ordered_json entry{{"bodies", {pair.a, pair.b}}};
-    if (pair.stiffness) entry["stiffness_Pa_per_m"] = *pair.stiffness;
     if (pair.friction > 0) entry["friction"] = pair.friction;
     if (pair.slip_velocity) entry["slip_velocity_m_per_s"] = *pair.slip_velocity;
     if (pair.damping > 0) entry["damping_Pa_s_per_m"] = pair.damping;
-    if (pair.max_penetration) entry["max_penetration_m"] = *pair.max_penetration;
     pairs.push_back(std::move(entry));
   }
   return pairs;
@@ -101,10 +83,8 @@ nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
 
 /// What other programs leave to trial and we choose: how many of it the scenario sets all the same.
 int contact_parameters_set(const Scenario& scenario) {
-  int count = scenario.detection.margin ? 1 : 0;
-  for (const ContactPair& pair : scenario.contacts)
-    count +=
-        (pair.stiffness ? 1 : 0) + (pair.max_penetration ? 1 : 0) + (pair.slip_velocity ? 1 : 0);
+  int count = 0;
+  for (const ContactPair& pair : scenario.contacts) count += pair.slip_velocity ? 1 : 0;
   return count;
 }
 
@@ -144,7 +124,6 @@ void read_settings(const TableReader& document, Scenario& scenario) {
   scenario.contact_response = chosen.contact_response;
   document.may("contact_response", scenario.contact_response, [](const Node& n) {
     return read_choice<Scenario::Response>(n, {{"pointwise", Scenario::Response::Pointwise},
-                                               {"sampled", Scenario::Response::Sampled},
                                                {"averaged", Scenario::Response::Averaged}});
   });
   scenario.contact_stiffness_factor = chosen.contact_stiffness_factor;
@@ -154,8 +133,7 @@ void read_settings(const TableReader& document, Scenario& scenario) {
   scenario.integrator = chosen.integrator;
   if (const Node* node = document.find("integrator"))
     read_integrator(*node, scenario.analysis, scenario.integrator);
-  if (const Node* node = document.find("detection"))
-    read_detection(*node, scenario.analysis, scenario.detection);
+  if (const Node* node = document.find("detection")) read_detection(*node, scenario.detection);
   if (const Node* node = document.find("output")) read_output(*node, scenario.output);
 }
 
@@ -181,19 +159,13 @@ std::string settings_as_json(const Scenario& scenario) {
   json["integrator"] = {{"scheme", kSchemes[static_cast<int>(integrator.scheme)].first},
                         {"step_s", integrator.step},
                         {"solver", kSolvers[static_cast<int>(integrator.solver)]},
-                        {"max_iterations", integrator.max_iterations},
-                        {"min_step_s", integrator.min_step}};
+                        {"max_iterations", integrator.max_iterations}};
   if (integrator.position_tolerance)
     json["integrator"]["position_tolerance_m"] = *integrator.position_tolerance;
   else
     json["integrator"]["position_tolerance_of_element"] = integrator.element_tolerance;
   json["detection"] = {
-      {"tree", scenario.detection.tree == Detection::Tree::Buckets ? "buckets" : "blocks"},
-      {"lagged", scenario.detection.lagged},
-      {"margin_m", nullptr},  // chosen by the elements
-      {"narrow_test",
-       scenario.detection.narrow_test == collision::NarrowTest::Gjk ? "gjk" : "separating-axes"}};
-  if (scenario.detection.margin) json["detection"]["margin_m"] = *scenario.detection.margin;
+      {"tree", scenario.detection.tree == Detection::Tree::Buckets ? "buckets" : "blocks"}};
   json["output"] = {{"interval_s", output.interval},
                     {"length_unit", output.length_unit.name},
                     {"contact_surfaces", output.contact_surfaces}};

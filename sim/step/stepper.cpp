@@ -15,12 +15,9 @@
 namespace articular::sim {
 namespace {
 
-/// Some contact of a dynamic analysis may not penetrate farther than the scenario says.
-bool has_bounds_in_time(const Model& model) {
-  return !model.is_static &&
-         std::any_of(model.contacts.begin(), model.contacts.end(),
-                     [](const ContactModel& contact) { return contact.is_bounded; });
-}
+/// [s] A step is halved no further: a millisecond has been halved thirteen times by then, and what
+/// fails all the same does not fail for the length of the step.
+constexpr double kLeastStep = 1e-7;
 
 const char* words_for(Rejection why) {
   switch (why) {
@@ -59,7 +56,6 @@ State Stepper::initial() {
   state.y = initial_state(model_);
   state.next_step = settings_.step;
   state.next_margin = model_.detection_margin;
-  state.stiffening = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(model_.contacts.size()));
   restart(state);
   state.energy.start = stored_energy().total();
   note_extrema(model_, *dynamics_, state);
@@ -76,29 +72,18 @@ void Stepper::set_stop(std::function<bool()> is_to_stop) {
 
 void Stepper::restart(const State& state) {
   dynamics_->forget();
-  dynamics_->set_stiffening(state.stiffening);
   if (integrator_) integrator_->restart(state.next_step);
   if (equilibrium_) equilibrium_->restart();
   Configuration now;
   read_state(model_, state.y.data(), state.t, now);
   find_contacts(now, state.next_margin);
-  found_in_step_ = false;
   dynamics_->evaluate(state.y.data(), state.t);
 }
 
 void Stepper::find_contacts(const Configuration& where, double margin) {
   if (!search_) return;
   search_->find(where, margin);
-  found_in_step_ = true;
   dynamics_->set_candidates(search_->candidates());
-}
-
-/// What the last step's detection found will do for one that ends about here.
-bool Stepper::is_still_found(const Configuration& end) const {
-  if (!settings_.detection.lagged || !search_ || !found_in_step_) return false;
-  constexpr double kPartOfMargin = 0.25;  // half of it covers a step, which may end elsewhere
-  const double most = kPartOfMargin * search_->margin();
-  return search_->motion_since(start_) <= most && search_->motion_since(end) <= most;
 }
 
 void Stepper::step(State& state, double t_target) {
@@ -120,7 +105,7 @@ void Stepper::step(State& state, double t_target) {
   for (;;) {
     if (try_step(state, tried)) break;
     tried *= 0.5;
-    if (tried < settings_.min_step) fail(state, tried);
+    if (tried < kLeastStep) fail(state, tried);
   }
   if (last && state.t - t_start >= remaining * (1 - 1e-12)) state.t = t_target;
   if (free_steps)
@@ -161,11 +146,6 @@ void Stepper::remember_start(const State& state) {
   for (std::size_t t = 0; t < model_.tissues.size(); ++t)
     if (model_.tissues[t].muscle >= 0)
       fibre_energy_before_[t] = dynamics_->energy_per_activation(t);
-  if (has_bounds_in_time(model_)) {
-    contact_energy_before_.assign(model_.contacts.size(), 0);
-    for (const ContactSummary& contact : dynamics_->contacts())
-      contact_energy_before_[static_cast<std::size_t>(contact.contact)] = contact.energy;
-  }
   reactions_before_.assign(model_.rigid_bodies.size(), Vec6::Zero());
   for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b)
     if (model_.rigid_bodies[b].motion && model_.rigid_bodies[b].unknown)
@@ -182,12 +162,10 @@ bool Stepper::try_step(State& state, double h) {
 }
 
 bool Stepper::try_time_step(State& state, double h) {
-  // Implicit Euler and BDF need contacts where the step ends: they are looked for where everything
-  // will be if it moves on as now. A scheme with stages between needs them on the whole way, and
-  // looks from its middle.
-  const Integrator::Scheme scheme = settings_.scheme;
-  const bool only_end =
-      scheme == Integrator::Scheme::ImplicitEuler || scheme == Integrator::Scheme::Bdf;
+  // Implicit Euler needs contacts where the step ends: they are looked for where everything will be
+  // if it moves on as now. A scheme with stages between needs them on the whole way, and looks from
+  // its middle.
+  const bool only_end = settings_.scheme == Integrator::Scheme::ImplicitEuler;
   const Configuration end = predicted(model_, start_, h);
   if (search_ && search_->passes_unseen(start_, end)) {
     ++state.counts.rejected_motion;
@@ -195,10 +173,8 @@ bool Stepper::try_time_step(State& state, double h) {
     return false;
   }
   const Configuration where = only_end ? end : predicted(model_, start_, 0.5 * h);
-  bool is_lagged = is_still_found(end);
-  state.counts.lagged_steps += is_lagged ? 1 : 0;
   for (;;) {
-    if (!is_lagged) find_contacts(where, state.next_margin);
+    find_contacts(where, state.next_margin);
     y_ = state.y;
     const std::optional<double> reached =
         y_.size() == 0 ? std::optional(state.t + h)  // only driven bones move
@@ -212,7 +188,6 @@ bool Stepper::try_time_step(State& state, double h) {
       why_ = Rejection::NotFinite;
       return false;
     }
-    bool covered = true;
     if (search_) {
       double stray = search_->motion_since(dynamics_->configuration());
       if (!only_end) stray = std::max(stray, search_->motion_since(start_));
@@ -221,38 +196,17 @@ bool Stepper::try_time_step(State& state, double h) {
         why_ = Rejection::TooFast;
         return false;
       }
-      covered = stray <= 0.5 * search_->margin();
-      if (!is_lagged) state.next_margin = margin_for(model_, stray);
-      is_lagged = is_lagged && covered;
+      const bool covered = stray <= 0.5 * search_->margin();
+      state.next_margin = margin_for(model_, stray);
+      if (!covered) {
+        ++state.counts.rejected_motion;
+        continue;
+      }
     }
-    if (covered && !stiffen(state)) {
-      state.y = y_;
-      state.t = *reached;
-      return true;
-    }
-    state.counts.rejected_motion += covered ? 0 : 1;
+    state.y = y_;
+    state.t = *reached;
+    return true;
   }
-}
-
-/// Doubles the stiffness of contacts that penetrate by more than they may. What that adds to the
-/// energy stored at the start of the step is a loss below zero.
-bool Stepper::stiffen(State& state) const {
-  if (!has_bounds_in_time(model_)) return false;
-  constexpr double kMostStiffening =
-      128;  // beyond, Newton's tolerance would be all of the pressure
-  bool any = false;
-  for (const ContactSummary& contact : dynamics_->contacts()) {
-    const auto c = static_cast<std::size_t>(contact.contact);
-    double& factor = state.stiffening[static_cast<Eigen::Index>(c)];
-    if (!model_.contacts[c].is_bounded || factor >= kMostStiffening) continue;
-    if (contact.max_depth <= model_.contacts[c].max_penetration) continue;
-    factor *= 2;
-    state.energy.contact_loss -= contact_energy_before_[c];
-    any = true;
-  }
-  state.counts.stiffened += any ? 1 : 0;
-  if (any) dynamics_->set_stiffening(state.stiffening);
-  return any;
 }
 
 bool Stepper::try_load_step(State& state, double h) {

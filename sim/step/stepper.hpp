@@ -38,7 +38,7 @@ class Stepper {
   /// One step of Listing 1.5.1 towards t_target: find contacts, advance (or, in a static analysis,
   /// find equilibrium under the loads of its end), check, account. Halves the step as often as
   /// needed.
-  /// @throws SimulationError when the step would get smaller than the settings' least one
+  /// @throws SimulationError when the step would get shorter than 0.1 µs
   void step(State& state, double t_target);
 
   /// Of a static analysis: told of each iteration, see Equilibrium. step() then throws Interruption
@@ -66,12 +66,10 @@ class Stepper {
 
  private:
   void find_contacts(const Configuration& where, double margin);
-  bool is_still_found(const Configuration& end) const;
   void remember_start(const State& state);
   bool try_step(State& state, double h);
   bool try_time_step(State& state, double h);
   bool try_load_step(State& state, double h);
-  bool stiffen(State& state) const;
   SolverCounts solver_counts() const;
   void account(State& after);
   void stop_where_energy_is_made(const State& state) const;
@@ -86,7 +84,6 @@ class Stepper {
   std::vector<ConvergenceRow> convergence_;
   std::optional<RigidBodyMode> loose_;  // in the last load step: what nothing holds
   std::vector<RigidBodyMode> indifferent_;
-  bool found_in_step_ = false;                // the candidates, not by restart()
   Eigen::VectorXd y_;                         // being tried
   Rejection why_ = Rejection::NoConvergence;  // the last step that was not taken
 
@@ -96,7 +93,6 @@ class Stepper {
   std::vector<Vec3> loads_before_;
   std::vector<Vec6> reactions_before_;  // of held bones that are driven, by bone
   Eigen::VectorXd forces_before_;
-  std::vector<double> contact_energy_before_;  // [J] of each contact
   double t_before_ = 0;
   double damping_before_ = 0;                // [W]
   double contact_power_before_ = 0;          // [W]

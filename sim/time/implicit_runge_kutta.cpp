@@ -9,6 +9,7 @@
 #include "sim/model/angular_momentum.hpp"
 #include "sim/model/newton_weights.hpp"
 #include "sim/time/arkode.hpp"
+#include "sim/time/newton_system.hpp"
 #include "sim/time/rate_callback.hpp"
 #include "sim/time/runge_kutta.hpp"
 
@@ -86,6 +87,10 @@ int ImplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data)
   return sundials::evaluate_rate(self, self.dynamics_, self.counts_, self.error_, t, y, y_dot);
 }
 
+SUNLinearSolver_Type matrix_embedded(SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; }
+
+/// x: Newton's correction at the stage's state, where the rate was evaluated last (the residual
+/// comes first). @return 0, or 1 where there is none
 int ImplicitRungeKutta::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
   auto& self = *static_cast<ImplicitRungeKutta*>(solver->content);
   return guarded(self.error_, [&] {
@@ -93,7 +98,10 @@ int ImplicitRungeKutta::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_V
     N_Vector y = nullptr;
     check(ARKStepGetCurrentGamma(self.arkode_.get(), &gamma), "ARKStepGetCurrentGamma");
     check(ARKStepGetCurrentState(self.arkode_.get(), &y), "ARKStepGetCurrentState");
-    return sundials::correct(self.newton_, self.counts_, gamma, y, x, b);
+    ++self.counts_.newton_iterations;
+    const bool solved = self.newton_.solve(N_VGetArrayPointer(y), gamma, N_VGetArrayPointer(b),
+                                           N_VGetArrayPointer(x), self.counts_);
+    return solved ? 0 : 1;
   });
 }
 
@@ -171,7 +179,7 @@ ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics,
       acceleration_(Eigen::VectorXd::Zero(3 * model.layout.num_unknown_blocks())),
       context_(sundials::make_context()),
       y_(sundials::make_vector(model.layout.size(), context_)),
-      solver_(sundials::make_solver(context_, this, sundials::matrix_embedded, solve)),
+      solver_(sundials::make_solver(context_, this, matrix_embedded, solve)),
       nonlinear_(SUNNonlinSol_Newton(y_.get(), context_.get())),
       arkode_(ARKStepCreate(nullptr, rate, 0, y_.get(), context_.get())) {
   if (!arkode_) throw std::runtime_error("ARKStepCreate failed");

@@ -52,13 +52,11 @@ void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
   iteration_ = 0;
   first_ = tangent;
   used_consistent_ = false;
-  may_accelerate_ = false;
   dynamics_.drop_friction_duals();
   if (!keep_matrix) gamma_ = 0;
 }
 
 void NewtonSystem::begin_iteration() {
-  may_accelerate_ = true;
   dynamics_.drop_friction_duals();
   correction_ = 0;
   anderson_.restart();
@@ -240,7 +238,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     own = (free_part(rigid, own) + given - free_part(rigid, given)).eval();
   }
   const bool searches = correction_++ >= searches_from_;
-  const bool accelerated = may_accelerate_ && !searches && accelerate(gamma);
+  const bool accelerated = !searches && accelerate(gamma);
 
   Eigen::Map<Eigen::VectorXd>(x, 3 * layout.num_free_nodes) =
       gamma * w_.head(3 * layout.num_free_nodes);
@@ -267,7 +265,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   dynamics_.correct_internal_variables(b, gamma, w_, x);
   double scale = step_fraction(gamma);
   if (searches) scale = searched_fraction(scale, y, gamma, x, counts);
-  if (may_accelerate_ && !searches) anderson_.took(scale, w_);
+  if (!searches) anderson_.took(scale, w_);
   changed_ = accelerated || scale < 1;
   if (scale < 1) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;
   return true;

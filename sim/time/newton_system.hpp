@@ -31,8 +31,8 @@ class NewtonSystem {
   /// search lets them (line_search.hpp). Near the solution that ends cycles of contacts that open
   /// and close; afar, it would creep from each contact that closes to the next.
   void search_lines(int from) { searches_from_ = from; }
-  /// An iteration begins, of a step or one of its stages, that may be accelerated (anderson.hpp)
-  /// where it is slow.
+  /// The iteration of one of the step's stages begins. Where it is slow it is accelerated
+  /// (anderson.hpp).
   void begin_iteration();
 
   /// Solves (I − γ ∂rate/∂y) x = b, reduced to block velocities.
@@ -84,7 +84,6 @@ class NewtonSystem {
   bool used_consistent_ = false;                         // in this step
   int iteration_ = 0;                                    // in this step
   bool changed_ = false;                                 // the last correction, see changed()
-  bool may_accelerate_ = false;                          // in this step
   int correction_ = 0;                                   // of this iteration
   int searches_from_ = std::numeric_limits<int>::max();  // see search_lines()
   Anderson anderson_;

@@ -12,7 +12,7 @@
 
 namespace articular::sim {
 
-/// Advances y' = rate(t, y) by SUNDIALS.
+/// Advances y' = rate(t, y) by ARKODE.
 class TimeIntegrator {
  public:
   virtual ~TimeIntegrator() = default;
@@ -43,8 +43,7 @@ class TimeIntegrator {
   std::function<bool()> is_to_stop_;
 };
 
-/// The scheme that the settings ask for: implicit Runge–Kutta at fixed step and explicit ones by
-/// ARKODE, BDF by CVODE.
+/// The scheme that the settings ask for.
 std::unique_ptr<TimeIntegrator> make_time_integrator(const Model& model, Dynamics& dynamics,
                                                      const StepSettings& settings);
 

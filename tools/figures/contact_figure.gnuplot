@@ -38,7 +38,7 @@ set ylabel '[N]'
 unset logscale y
 set xrange [7:1500]; set yrange [5.1:6.9]
 set xtics (10, 100, 1000)
-names = 'averaged pointwise seven-points corners'
-colours = '#1b9e77 #7570b3 #e7298a #888888'
-plot for [i = 1:4] file(word(names, i)) using 3:6 with linespoints pt 7 lw 2 lc rgb word(colours, i) title word(names, i)
+names = 'averaged pointwise'
+colours = '#1b9e77 #7570b3'
+plot for [i = 1:2] file(word(names, i)) using 3:6 with linespoints pt 7 lw 2 lc rgb word(colours, i) title word(names, i)
 unset multiplot

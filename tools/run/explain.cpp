@@ -234,7 +234,7 @@ void print(const Json& json) {
     fmt::print("Linear solver: {} ({})\n", solver["name"].get<std::string>(),
                solver["reason"].get<std::string>());
   fmt::print(
-      "Contact parameters set by the scenario (stiffness, max_penetration, slip_velocity, margin): "
+      "Contact parameters set by the scenario (slip_velocity): "
       "{}\n",
       json["settings"]["contact_parameters_set"].get<int>());
   fmt::print("Accuracy: {}\n", json["promise"].get<std::string>());

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -12,15 +11,14 @@
 
 #include "fem/material/any_material.hpp"
 #include "sim/build/build_model.hpp"
-#include "sim/gap/sample_points.hpp"
 #include "sim/output/history.hpp"
 #include "tests/sim/support/scene.hpp"
 
 namespace articular::sim {
 namespace {
 
-/// A load step that has to be cut into more than so many is given up.
-constexpr double kMostCuts = 64;
+/// A load step that has to be cut into shorter ones than this is given up [unit of time].
+constexpr double kLeastStep = 1.0 / 64;
 constexpr double kDensity = 1000;  // [kg/m³] of what is loose before contact: pseudo-time asks
 
 /// Distances from 0 to `end`: h up to `fine`, then growing; the last one is `end` itself.
@@ -37,39 +35,11 @@ std::vector<double> graded(double end, double fine, double h, double growth) {
   return lines;
 }
 
-/// Three points, each on the line from a corner to the centre, with this coordinate.
-std::array<SamplePoint, 3> three_points(double at_corner) {
-  std::array<SamplePoint, 3> points;
-  for (std::size_t i = 0; i < 3; ++i) {
-    Vec3 N = Vec3::Constant(0.5 * (1 - at_corner));
-    N[static_cast<Eigen::Index>(i)] = at_corner;
-    points[i] = {N, 1.0 / 3};
-  }
-  return points;
-}
-
-std::span<const SamplePoint> samples_of(DepthRule rule) {
-  // Beside the corners: on meshes that match, a face's edge would run through them.
-  static const std::array<SamplePoint, 3> inner = three_points(2.0 / 3),
-                                          corners = three_points(1 - 1e-6);
-  switch (rule) {
-    case DepthRule::SevenPoints:
-      return triangle_samples();
-    case DepthRule::ThreePoints:
-      return inner;
-    case DepthRule::Corners:
-      return corners;
-    default:
-      return {};
-  }
-}
-
 Model model_of(const Scene& scene, const StudyOptions& options) {
   Model model = build_model(scene.scenario());
   for (ContactModel& contact : model.contacts) {
     if (options.rule != DepthRule::Averaged) {
       contact.averaged = contact.is_bounded = false;
-      contact.samples = samples_of(options.rule);
       contact.stiffness.setConstant(contact.mean_stiffness);
     }
     contact.stiffness *= options.stiffness;
@@ -150,7 +120,6 @@ Scene::Scene(const StudyOptions& options) : scenario_(scene(1)), element_(option
   scenario_.analysis = Scenario::Analysis::Static;
   scenario_.contact = true;
   scenario_.integrator.position_tolerance.reset();
-  scenario_.integrator.min_step = 1 / kMostCuts;
 }
 
 Body Scene::meshed(const std::string& name, const MeshData& mesh) {
@@ -199,7 +168,7 @@ void Scene::drive(const std::string& rigid, const std::vector<Vec3>& places) {
 }
 
 void Scene::touch(const std::string& a, const std::string& b) {
-  scenario_.contacts = {{a, b, {}, {}}};
+  scenario_.contacts = {{a, b, {}}};
   scenario_.probes = {{"contact", ContactProbe{a, b}}};
 }
 
@@ -210,7 +179,13 @@ ContactRun::ContactRun(const Scene& scene, const StudyOptions& options)
 
 void ContactRun::step(double t) {
   const auto start = std::chrono::steady_clock::now();
-  while (state_.t < t) stepper_.step(state_, t);
+  const double least = std::min(kLeastStep, 0.9 * (t - state_.t));
+  while (state_.t < t) {
+    const double before = state_.t;
+    stepper_.step(state_, t);
+    if (state_.t < t && state_.t - before < least)
+      throw std::runtime_error("a load step was cut too often");
+  }
   ++steps_;
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -12,12 +12,10 @@
 /// Scenes of tissue blocks and rigid indenters, and what is measured in them.
 namespace articular::sim {
 
-/// How depths count: as averages at nodes, which is what statics does; point by point, integrated
-/// exactly; or at samples of each triangle, seven, three or its corners: a nodal penalty.
-enum class DepthRule { Averaged, Pointwise, SevenPoints, ThreePoints, Corners };
+/// How depths count: as averages at nodes, which is what statics does, or point by point.
+enum class DepthRule { Averaged, Pointwise };
 /// As the command line names them, in this order.
-inline constexpr const char* kDepthRules[] = {"averaged", "pointwise", "seven-points",
-                                              "three-points", "corners"};
+inline constexpr const char* kDepthRules[] = {"averaged", "pointwise"};
 
 /// What every contact study takes from the command line.
 struct StudyOptions {

@@ -8,16 +8,15 @@
 //     hertz      a rigid sphere on a large block          cylinders  two of tissue, crossed
 //     layer      a thin layer on bone under a large rigid sphere
 //     lines      a punch with edges pushed across the mesh lines of a block
-//     responses  all rules at three stiffnesses, by three of these scenes
+//     responses  both rules at three stiffnesses, by three of these scenes
 //
 //     contact_study patch
 //     contact_study drag stiffness 10
 //     contact_study hertz layer element plain
 //
-// Without a study all of them. `rule` is how depths count: averaged, which is what statics does,
-// pointwise, or at the seven-points, three-points or corners of each triangle. `stiffness`
-// multiplies the contact stiffness that the model chooses; studies that refine stop at `finest`
-// (default 16) elements over their length.
+// Without a study all of them. `rule` is how depths count: averaged, which is what statics does, or
+// pointwise. `stiffness` multiplies the contact stiffness that the model chooses; studies that
+// refine stop at `finest` (default 16) elements over their length.
 
 #include <algorithm>
 #include <cstdio>

@@ -25,7 +25,7 @@ Scenario everything(double depth) {
               box_body("free", Body::Kind::Tissue, {0.7 * kSide, 0.7 * kSide, kSide}, {0, 0, depth},
                        {1, 1, 2}),
               stand("frame")};
-  s.contacts = {{"hung", "free", 1e8, {}}};
+  s.contacts = {{"hung", "free", {}}};
   s.attachments = {attach("hung", "bone", {-1, -1, 1.4 * kSide}, {1, 1, 1})};
   Muscle muscle;
   muscle.name = "muscle";
@@ -81,9 +81,16 @@ Eigen::VectorXd random_state(const Model& model, double amplitude, double speed,
   return y;
 }
 
+/// Contact is far stiffer than the tissue.
+Model model_of(Scenario scenario) {
+  Model model = build_model(std::move(scenario));
+  contact_stiffness_of(1e8)(model);
+  return model;
+}
+
 /// The scene's forces with the contact candidates of its start.
 struct Forces {
-  Forces(const Scenario& scenario, double margin) : model(build_model(scenario)), dynamics(model) {
+  Forces(const Scenario& scenario, double margin) : model(model_of(scenario)), dynamics(model) {
     if (model.contacts.empty()) return;
     search = std::make_unique<ContactSearch>(model, step_settings(scenario));
     Configuration start;

@@ -121,7 +121,7 @@ Scenario under_a_plate(double gap) {
   s.contact = true;
   s.bodies.push_back(
       box_body("plate", Body::Kind::Fixed, {0.04, 0.04, 0.01}, {0, 0, 0.025 + gap}, {4, 4, 1}));
-  s.contacts = {{"bar", "plate", {}, {}}};
+  s.contacts = {{"bar", "plate", {}}};
   return s;
 }
 
@@ -156,7 +156,7 @@ TEST(Terms, AFixedBodyIsPlacedOnce) {
 TEST(Terms, ABodyIsTestedAgainstItselfOnlyWhereTheSceneAsksForIt) {
   Scenario s = bar();
   s.contact = true;
-  s.contacts = {{"bar", "bar", {}, {}}};
+  s.contacts = {{"bar", "bar", {}}};
   const Names self = evaluated(s);
   EXPECT_EQ(self.count("self_query"), 1U);
   EXPECT_EQ(self.count("box_test"), 0U);

@@ -125,7 +125,7 @@ Eigen::VectorXd pressures_in_tray(double gap, const TemporaryFolder& folder) {
       stand("press")};
   s.bodies[1].material = linear(20e3, 0);
   s.attachments = {attach("block", "press", {-1, -1, kSide - 1e-6}, {1, 1, 1})};
-  s.contacts = {{"block", "tray", {}, {}}};
+  s.contacts = {{"block", "tray", {}}};
   s.loads = {shift("press", 0.1, {0, 0, -kSide / 100})};
   Simulation run(s);
   run.advance(0.1);

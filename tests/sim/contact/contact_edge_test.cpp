@@ -63,7 +63,7 @@ TEST(EdgesThatMeet, ACubeComesToRestOnTwoLedges) {
                          {kSide - kLedge, 0, 0}, {2, 2, 2})};
     // Else it would slide off sooner or later: nothing centres it.
     for (const char* ledge : {"left", "right"}) {
-      ContactPair pair{"cube", ledge, {}, {}};
+      ContactPair pair{"cube", ledge, {}};
       pair.friction = 0.3;
       s.contacts.push_back(pair);
     }

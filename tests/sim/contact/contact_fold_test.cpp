@@ -63,7 +63,7 @@ TEST(SelfContact, ASoftUFallsOntoTheFloorAndOntoItselfAndRests) {
   Scenario s = contact_scene(5e-3);
   s.bodies = {u_body(folder, 12e3), box_body("floor", Body::Kind::Fixed, {0.1, 0.1, 0.01},
                                              {0.02, 0.004, -0.01}, {10, 10, 1})};
-  s.contacts = {{"u", "u", {}, {}}, {"u", "floor", {}, {}}};
+  s.contacts = {{"u", "u", {}}, {"u", "floor", {}}};
   s.loads = {gravity({0, 0, -9.81})};
   Simulation run(s);
   double most_kinetic = 0, least_ratio = 1;
@@ -135,7 +135,7 @@ TEST(SelfContact, AUPressedFlatOntoItselfRecoversItsShape) {
               stand("holder")};
   s.attachments = {
       attach("u", "holder", {-1, -1, kHeight / 2 - 2.1e-3}, {1e-6, 1, kHeight / 2 + 2.1e-3})};
-  s.contacts = {{"u", "u", {}, {}}, {"u", "below", {}, {}}, {"u", "above", {}, {}}};
+  s.contacts = {{"u", "u", {}}, {"u", "below", {}}, {"u", "above", {}}};
   const double way = kGap / 2 + 0.5e-3;
   s.loads = {closing("below", {0, 0, way}), closing("above", {0, 0, -way})};
   expect_closed_and_recovered(s, 0.05);
@@ -148,7 +148,7 @@ TEST(SelfContact, AVClosedOnItselfRecoversItsShape) {
   v.geometry = VShapeGeometry{0.02, 0.004, 0.5, {10, 2}};
   v.material = neo_hookean(50e3, 0.3);
   s.bodies = {v, stand("left"), stand("right")};
-  s.contacts = {{"v", "v", {}, {}}};
+  s.contacts = {{"v", "v", {}}};
   s.attachments = {attach("v", "left", {-1, -1, 0}, {-0.0064, 1, 1}),
                    attach("v", "right", {0.0064, -1, 0}, {1, 1, 1})};
   struct Closing {

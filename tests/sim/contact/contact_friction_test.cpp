@@ -204,9 +204,16 @@ TEST(FrictionCoupling, IsSolvedForByAFewSolutionsOfTheSymmetricMatrix) {
 
 // --- forces
 
+/// Contact is far stiffer than tissue.
+Model stiff_model(const Scenario& s) {
+  Model model = build_model(s);
+  contact_stiffness_of(1e8)(model);
+  return model;
+}
+
 /// A block of tissue, tilted and spinning, pressed into a softer one; it also has a rigid one on
 /// it.
-Scenario stack(double friction, double damping) {
+Model stack(double friction, double damping) {
   Scenario s = contact_scene(1e-4);
   s.bodies = {box_body("lower", Body::Kind::Tissue, {0.03, 0.03, 0.01}, {0, 0, -0.005}, {3, 3, 1}),
               box_body("upper", Body::Kind::Tissue, {kWidth, kWidth, kHeight}, {1e-3, 0, 0.0049},
@@ -215,13 +222,13 @@ Scenario stack(double friction, double damping) {
   s.bodies[2].velocity = {0.02, -0.01, -0.02};
   s.bodies[2].angular_velocity = {0.3, -0.5, 4};
   s.bodies[1].velocity = {-0.03, 0.02, -0.01};
-  s.contacts = {{"lower", "upper", 1e8, {}}, {"upper", "bone", 1e8, {}}};
+  s.contacts = {{"lower", "upper", {}}, {"upper", "bone", {}}};
   for (ContactPair& pair : s.contacts) {
     pair.friction = friction;
     pair.slip_velocity = 0.03;
     pair.damping = damping;
   }
-  return s;
+  return stiff_model(s);
 }
 
 /// Forces of a scene at its start, with contacts found there.
@@ -244,7 +251,7 @@ struct Forces {
 };
 
 TEST(ContactDrag, ForcesAreEqualAndOppositeWithoutNetMoment) {
-  const Model model = build_model(stack(0.5, 1e3));
+  const Model model = stack(0.5, 1e3);
   Forces now(model);
   const std::vector<Positions> forces = nodal_contact_forces(model, now.dynamics.contact());
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
@@ -299,7 +306,7 @@ Eigen::VectorXd minus_derivative(Forces& now, int first, const Eigen::VectorXd& 
 
 // With both, friction also follows the damped pressure.
 TEST(ContactDrag, MatrixAndCouplingAreTheDerivativeOfTheForcesByVelocity) {
-  const Model model = build_model(stack(0.5, 1e3));
+  const Model model = stack(0.5, 1e3);
   Forces now(model);
   const int n = 3 * model.layout.num_unknown_blocks();
   Random random(3);
@@ -323,10 +330,10 @@ TEST(ContactDrag, CouplingIsTheDerivativeOfFrictionByTheDepth) {
                 box_body("upper", Body::Kind::Tissue, {kWidth, kWidth, kHeight}, {1e-3, 0, 0.0049},
                          {2, 2, 1})};
     s.bodies[1].velocity = {-0.03, 0.02, 0};
-    s.contacts = {{"lower", "upper", 1e8, {}}};
+    s.contacts = {{"lower", "upper", {}}};
     s.contacts[0].friction = 0.5;
     s.contacts[0].slip_velocity = 0.03;
-    const Model model = build_model(s);
+    const Model model = stiff_model(s);
     Forces now(model, 0);
     const int n = 3 * model.layout.num_unknown_blocks();
     const Eigen::VectorXd down = Vec3(0, 0, -1).replicate(n / 3, 1);
@@ -346,7 +353,7 @@ TEST(ContactDrag, CouplingIsTheDerivativeOfFrictionByTheDepth) {
 
 TEST(ContactDrag, MatrixAndProductAreTheDerivativeOfTheForcesByVelocity) {
   for (const auto& [friction, damping] : {std::pair(0.5, 0.0), std::pair(0.0, 1e3)}) {
-    const Model model = build_model(stack(friction, damping));
+    const Model model = stack(friction, damping);
     Forces now(model);
     const int n = 3 * model.layout.num_unknown_blocks();
     Random random(3);
@@ -375,14 +382,17 @@ Scenario incline(Body::Kind kind, double angle, double step) {
     s.bodies[1].material = neo_hookean(100e3, 0.3);
     s.bodies[1].material->stiffness_damping = 1e-3;
   }
-  s.contacts = {{"block", "table", {}, {}}};
-  // Of two bones the default presses them 1e-14 m into each other, beyond any tolerance.
-  if (kind == Body::Kind::Rigid) s.contacts[0].stiffness = 1e9;
+  s.contacts = {{"block", "table", {}}};
   s.integrator.position_tolerance = 1e-9;
   s.contacts[0].friction = kFriction;
   s.contacts[0].slip_velocity = kSlip;
   s.loads = {gravity(kGravity * Vec3(std::sin(angle), 0, -std::cos(angle)))};
   return s;
+}
+
+/// Of two bones the default presses them 1e-14 m into each other, beyond any tolerance.
+ModelChange contact_of(Body::Kind kind) {
+  return kind == Body::Kind::Rigid ? contact_stiffness_of(1e9) : ModelChange{};
 }
 
 double mass() { return 1000 * kWidth * kWidth * kHeight; }
@@ -397,7 +407,7 @@ class Incline : public testing::TestWithParam<Body::Kind> {};
 
 TEST_P(Incline, BelowTheAngleOfFrictionTheBlockCreepsAndNoMore) {
   const double angle = 10 * kDegree;
-  Simulation run(incline(GetParam(), angle, 1e-3));
+  Simulation run(incline(GetParam(), angle, 1e-3), contact_of(GetParam()));
   run.advance(0.2);
   const double ratio = std::tan(angle) / kFriction;
   const double creep = kSlip * ratio / std::sqrt(1 - ratio * ratio);
@@ -411,7 +421,7 @@ TEST_P(Incline, BelowTheAngleOfFrictionTheBlockCreepsAndNoMore) {
 
 TEST_P(Incline, AboveItTheBlockSlidesWithTheAccelerationThatFrictionLeaves) {
   const double angle = 30 * kDegree;
-  Simulation run(incline(GetParam(), angle, 1e-3));
+  Simulation run(incline(GetParam(), angle, 1e-3), contact_of(GetParam()));
   run.advance(0.05);
   const double before = speed(run);
   run.advance(0.15);
@@ -427,7 +437,7 @@ TEST_P(Incline, OnTheLevelABlockStopsAfterItsBrakingDistanceAndFrictionTakesItsE
   const double v = 0.3, h = 5e-4;
   Scenario s = incline(GetParam(), 0, h);
   s.bodies[1].velocity = {v, 0, 0};
-  Simulation run(s);
+  Simulation run(s, contact_of(GetParam()));
   double distance = 0;
   run.advance(0.15, [&] { distance += h * speed(run); });
   const double expected = v * v / (2 * kFriction * kGravity);
@@ -469,7 +479,7 @@ TEST(Friction, ADrivenTableTakesABlockAlongAsFarAsFrictionCan) {
       load.motion.translation.push_back({0.5e-6 * acceleration * k * k, 0, 0});
     }
     s.loads.push_back(load);
-    Simulation run(s);
+    Simulation run(s, contact_of(Body::Kind::Rigid));
     run.advance(0.1);
     const double expected = 0.1 * std::min(acceleration, kFriction * kGravity);
     EXPECT_NEAR(speed(run), expected, 0.02 * expected);
@@ -480,7 +490,7 @@ TEST(Friction, OfZeroChangesNoBitAndLosesNothing) {
   Scenario with = incline(Body::Kind::Tissue, 10 * kDegree, 1e-3);
   with.contacts[0].friction = 0;
   Scenario without = with;
-  without.contacts[0] = {"block", "table", {}, {}};
+  without.contacts[0] = {"block", "table", {}};
   Simulation a(with), b(without);
   a.advance(0.02);
   b.advance(0.02);
@@ -504,9 +514,9 @@ Bounce bounce(double damping) {
                        {0, 0, 0.5 * kHeight + 1e-5}, {2, 2, 1})};
   const double v = 0.1;
   s.bodies[1].velocity = {0, 0, -v};
-  s.contacts = {{"block", "table", 1e7, {}}};
+  s.contacts = {{"block", "table", {}}};
   s.contacts[0].damping = damping;
-  Simulation run(s);
+  Simulation run(s, contact_stiffness_of(1e7));
   Bounce result{0, std::numeric_limits<double>::infinity(), 0, 0};
   run.advance(8e-3, [&] {
     result.least_force =

@@ -34,7 +34,6 @@ MeshData set(MeshData mesh, const Setting& setting) {
 /// A soft block that falls onto a floor, tilted a little so that nothing is symmetric.
 Scenario falling_block(const Setting& setting, Floor floor, const TemporaryFolder& folder) {
   Scenario s = contact_scene(kStep * setting.length);
-  s.integrator.min_step *= setting.length;
   const Mat3 tilt = rotation({0.02, -0.03, 0.01});
   const MeshData block =
       bent({Vec3::Constant(kSide), {3, 4, 3}, Vec3::Zero()},

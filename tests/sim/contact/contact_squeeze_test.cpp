@@ -133,7 +133,7 @@ TEST(Squeeze, ADiscBetweenCondyleAndFossaCarries500N) {
   press.force = {0, 0, -kForce};
   press.profile = {{0, 0.05}, {0, 1}};
   s.loads = {press};
-  s.contacts = {{"sheet", "dish", {}, {}}, {"sheet", "condyle", {}, {}}};
+  s.contacts = {{"sheet", "dish", {}}, {"sheet", "condyle", {}}};
   for (const bool averaged : {false, true}) {
     s.contact_response = averaged ? Scenario::Response::Averaged : Scenario::Response::Pointwise;
     for (ContactPair& pair : s.contacts) pair.friction = averaged ? 0.02 : 0;

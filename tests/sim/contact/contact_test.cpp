@@ -27,7 +27,7 @@ Scenario press() {
       stand("wall")};
   s.bodies[0].material = linear(kYoung, 0);
   s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, -0.49 * kSide})};
-  s.contacts = {{"plate", "block", kStiffness, {}}};
+  s.contacts = {{"plate", "block", {}}};
   s.loads = {shift("plate", 0.2, {0, 0, -kPress})};
   s.probes = {{"pressed", ContactProbe{"block", "plate"}}, {"plate", ReactionProbe{"plate"}}};
   return s;
@@ -43,7 +43,7 @@ void press_to_rest(Simulation& run) {
 }
 
 TEST(Contact, AUniformlyPressedBlockHasTheUniformPressureOfSpringsInSeries) {
-  Simulation run(press());
+  Simulation run(press(), contact_stiffness_of(kStiffness));
   press_to_rest(run);
   const Probes probes(run);
   const double area = kSide * kSide, p = kPressure, force = p * area;
@@ -70,7 +70,7 @@ TEST(Contact, AUniformlyPressedBlockHasTheUniformPressureOfSpringsInSeries) {
 // At nodes on the block's top and on the plate's bottom, though the plate reaches farther, and no
 // other nodes; what goes through the faces is the force on the body.
 TEST(Contact, UniformPressureIsUniformOnTheSurfacesOfBothBodies) {
-  Simulation run(press());
+  Simulation run(press(), contact_stiffness_of(kStiffness));
   press_to_rest(run);
   const double p = kPressure, force = p * kSide * kSide;
   const std::vector<SurfaceContact> surfaces =
@@ -116,7 +116,7 @@ TEST(Contact, TheCentreOfPressureOfATiltedPlateIsWhereTheMomentVanishes) {
   motion.rotation = {Vec3::Zero(), tilt * Vec3::UnitY()};
   motion.about = {0, 0, kSide / 2};
   s.contact_response = Scenario::Response::Pointwise;  // linear from edge to edge
-  Simulation run(s);
+  Simulation run(s, contact_stiffness_of(kStiffness));
   press_to_rest(run);
   const Probes probes(run);
   const Vec3 force = probes.vec3("pressed.force", "N"),
@@ -139,7 +139,7 @@ TEST(Contact, TheCentreOfPressureOfATiltedPlateIsWhereTheMomentVanishes) {
 TEST(Contact, AProbeOfBodiesThatDoNotTouchHasNoPlace) {
   Scenario s = press();
   s.loads[0] = shift("plate", 0.2, {0, 0, kPress});
-  Simulation run(s);
+  Simulation run(s, contact_stiffness_of(kStiffness));
   run.advance(0.2);
   const Probes probes(run);
   EXPECT_TRUE(probes.vec3("pressed.center", "mm").array().isNaN().all());
@@ -149,7 +149,7 @@ TEST(Contact, AProbeOfBodiesThatDoNotTouchHasNoPlace) {
 }
 
 TEST(Contact, NodalContactForcesOfBothBodiesBalanceTheProbe) {
-  Simulation run(press());
+  Simulation run(press(), contact_stiffness_of(kStiffness));
   run.advance(0.2);
   const std::vector<Positions> forces = run.stepper.contact_forces();
   const Vec3 on_block = forces[0].rowwise().sum(), on_plate = forces[1].rowwise().sum();
@@ -224,7 +224,7 @@ TEST(Contact, TheLegsOfAClosingVMeetAndDoNotPassThroughEachOther) {
   v.density = 1000;
   v.material = neo_hookean(50e3, 0.3);
   s.bodies = {v, stand("left"), stand("right")};
-  s.contacts = {{"v", "v", {}, {}}};
+  s.contacts = {{"v", "v", {}}};
   s.attachments = {attach("v", "left", {-1, -1, 0}, {-0.0064, 1, 1}),
                    attach("v", "right", {0.0064, -1, 0}, {1, 1, 1})};
   s.integrator.position_tolerance = 1e-7;
@@ -262,11 +262,10 @@ TEST(Contact, WithoutContactThereAreNoTrees) {
 TEST(Contact, AFixedBodyIsMappedOnceForAMargin) {
   Scenario s = scene(1e-3);
   s.contact = true;
-  s.detection.margin = 1e-3;
   s.bodies = {box_body("table", Body::Kind::Fixed, {kSide, kSide, kSide}, {0, 0, -kSide}),
               box_body("block", Body::Kind::Tissue, {kSide, kSide, kSide}, {0, 0, 0.1 * kSide})};
   s.loads = {gravity({0, 0, -1})};
-  Simulation run(s);
+  Simulation run(s, detection_margin_of(1e-3));
   run.advance(0.02);
   EXPECT_EQ(run.state.counts.steps, 20);
   EXPECT_EQ(run.state.counts.tree_updates, 20);

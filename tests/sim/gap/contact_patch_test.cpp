@@ -255,7 +255,7 @@ struct PartialSum {
     f.rim_height = rim_height;
     for (int nearest = 0; nearest <= ContactPatch::kFace; ++nearest) {
       ContactPatch patch;
-      if (!contact_patch(flat_triangle(pair.s), f, kRestArea, kNear, patch, {}, nearest)) continue;
+      if (!contact_patch(flat_triangle(pair.s), f, kRestArea, kNear, patch, nearest)) continue;
       for (PatchEdge& edge : patch.edge) edge.is_end = true;
       found.push_back(patch);
     }

@@ -44,7 +44,7 @@ double path_acceleration(double t) { return 6 - 12 * t; }
 class DrivenBoneInTime : public ::testing::TestWithParam<Scheme> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, DrivenBoneInTime,
                          ::testing::Values(Scheme::ImplicitEuler, Scheme::TrBdf2, Scheme::Dirk3,
-                                           Scheme::Bdf, Scheme::Explicit));
+                                           Scheme::Explicit));
 
 TEST_P(DrivenBoneInTime, OneThatIsDrivenAlongXFallsFreelyAlongZ) {
   constexpr double kMass = 2, kWay = 0.4, kGravity = 9.81;

@@ -131,7 +131,6 @@ TEST(Tissue, MotionDoesNotDependOnTheUnit) {
       material.relaxation = {{.weight = 0.3, .time = 20e-3 * scale}};
       Scenario s = scene(1e-3 * scale, Integrator::Scheme::TrBdf2);
       s.integrator.position_tolerance.reset();
-      s.integrator.min_step *= scale;
       s.duration = scale;
       s.bodies = {box_body("bar", Body::Kind::Tissue, scale * Vec3(0.01, 0.01, 0.06),
                            scale * Vec3(0, 0, 0.03), {2, 2, 6}),

@@ -31,7 +31,7 @@ Scenario press(Scenario::Analysis analysis, double turn) {
       stand("wall")};
   s.bodies[0].material = linear(20e3, 0);
   s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, -0.49 * kSide})};
-  s.contacts = {{"plate", "block", kStiffness, {}}};
+  s.contacts = {{"plate", "block", {}}};
   MotionLoad down = shift("plate", 0.2, {0, 0, -2e-4});
   down.motion.rotation = {Vec3::Zero(), Vec3(0, turn, 0)};
   down.motion.about = Vec3(0, 0, kSide / 2);
@@ -64,7 +64,7 @@ Carried carried(const Probes& probes, const std::string& name) {
 
 TEST(ContactProbe, CompartmentsAddUpToTheWholeOfEitherBodyInStaticsAndInTime) {
   for (const auto analysis : {Scenario::Analysis::Static, Scenario::Analysis::Dynamic}) {
-    Simulation run(press(analysis, 0.004));
+    Simulation run(press(analysis, 0.004), contact_stiffness_of(kStiffness));
     run.advance(analysis == Scenario::Analysis::Static ? 1 : 0.3);
     const Probes probes(run);
     for (const std::string name : {"block", "plate"}) {
@@ -94,7 +94,7 @@ TEST(ContactProbe, CompartmentsAddUpToTheWholeOfEitherBodyInStaticsAndInTime) {
 
 // Uniform pressure: each half has half of the force, in the middle of its half, on half the area.
 TEST(ContactProbe, HalfOfAUniformlyPressedBlockCarriesHalf) {
-  Simulation run(press(Scenario::Analysis::Static, 0));
+  Simulation run(press(Scenario::Analysis::Static, 0), contact_stiffness_of(kStiffness));
   run.advance(1);
   const Probes probes(run);
   const double p = 2e-4 / (kSide / 20e3 + 1 / kStiffness), area = kSide * kSide;
@@ -108,7 +108,7 @@ TEST(ContactProbe, HalfOfAUniformlyPressedBlockCarriesHalf) {
 }
 
 TEST(ContactProbe, ApartThereIsNoMeanPressureAndNoShare) {
-  Simulation run(press(Scenario::Analysis::Dynamic, 0));
+  Simulation run(press(Scenario::Analysis::Dynamic, 0), contact_stiffness_of(kStiffness));
   const Probes probes(run);
   EXPECT_EQ(probes("block_low.mean_pressure [Pa]"), 0);
   EXPECT_TRUE(std::isnan(probes("block_low.center.x [mm]")));
@@ -125,7 +125,7 @@ TEST(AttachmentProbe, CountsContactOnTheTiedNodesToo) {
   s.probes.back().what = ShareProbe{{"tied"}, {"block"}, Vec3::UnitZ()};
   s.probes.push_back({"tied", AttachmentProbe{"block", "wall"}});
   s.probes.push_back({"wall", ReactionProbe{"wall"}});
-  Simulation run(s);
+  Simulation run(s, contact_stiffness_of(kStiffness));
   run.advance(1);
   const Probes probes(run);
   const Carried plate = carried(probes, "block"), tied_half = carried(probes, "block_low");

@@ -36,7 +36,7 @@ TEST(Quantity, ReadsTheUnitsOfTheFormat) {
   EXPECT_EQ(parse_quantity("10 1/s", kRate), 10);
   EXPECT_EQ(parse_quantity("10 /s", kRate), 10);
   EXPECT_EQ(parse_quantity("10 Hz", kRate), 10);
-  EXPECT_EQ(parse_quantity("1e11 Pa/m", kContactStiffness), 1e11);
+  EXPECT_EQ(parse_quantity("1e4 Pa s/m", kContactDamping), 1e4);
   EXPECT_EQ(parse_quantity("2 min", kTime), 120);
   EXPECT_DOUBLE_EQ(parse_quantity("30 deg", kAngle), std::numbers::pi / 6);
   EXPECT_EQ(parse_vector("0 0 -9.81 m/s^2", kAcceleration), Eigen::Vector3d(0, 0, -9.81));

@@ -73,18 +73,12 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"UnknownKeyInAnEntry", tissue("@densitty = \"1 g/cm^3\"\n"),
                 "body `extra`: unknown key `densitty`; did you mean `density`?"},
         Mistake{"UnknownKeyFarFromAny", "duration = \"1 s\"\n[detection]\n@colour = 1\n" + kBodies,
-                "[detection]: unknown key `colour`; expected one of "
-                "`tree`, `lagged`, `margin`, `narrow_test`"},
+                "[detection]: unknown key `colour`; expected `tree`"},
         Mistake{
             "ResponseOfStatics",
-            "analysis = \"static\"\nduration = \"1 s\"\n@contact_response = \"sampled\"\n" +
+            "analysis = \"static\"\nduration = \"1 s\"\n@contact_response = \"pointwise\"\n" +
                 kBodies,
             "scenario: `contact_response` does not belong here: a static analysis averages depths"},
-        Mistake{
-            "LaggedStatics",
-            "analysis = \"static\"\nduration = \"1 s\"\n[detection]\n@lagged = true\n" + kBodies,
-            "[detection]: `lagged` does not belong here: a static analysis looks wherever its "
-            "iteration has come to"},
         Mistake{"MissingKey", "@title = \"x\"\n" + kBodies, "scenario: `duration` is missing"},
         Mistake{"MissingKeyInAnEntry", kStart + "@[[body]]\nname = \"extra\"\n",
                 "body `extra`: `kind` is missing"},
@@ -222,10 +216,6 @@ INSTANTIATE_TEST_SUITE_P(
                 geometry("v_shape = { leg_length = \"1 m\", width = \"1 m\", angle = @\"180 deg\", "
                          "cells = [1, 1] }"),
                 "`angle` must lie between 0 and 180 deg, found \"180 deg\""},
-        Mistake{
-            "IntegratorStep",
-            "duration = \"1 s\"\n@[integrator]\nstep = \"1 us\"\nmin_step = \"1 ms\"\n" + kBodies,
-            "[integrator]: `min_step` (0.001 s) must not exceed `step` (1e-06 s)"},
         Mistake{"Variable",
                 body("kind = \"fixed\"\nmesh = { file = @\"${ARTICULAR_NOT_SET}/a.vtp\" }\n"),
                 "`file`: ${ARTICULAR_NOT_SET} is not set in the environment; set ARTICULAR_NOT_SET "

@@ -48,7 +48,7 @@ Scenario bar_beside_a_falling_block(const Vec3& way) {
       box_body("block", Body::Kind::Tissue, {0.01, 0.01, 0.01}, {0.5, 0, 0.007}, {3, 3, 3}));
   s.bodies.push_back(
       box_body("ground", Body::Kind::Fixed, {0.04, 0.04, 0.004}, {0.5, 0, -0.002}, {3, 3, 1}));
-  s.contacts = {{"block", "ground", {}, {}}};
+  s.contacts = {{"block", "ground", {}}};
   s.loads.push_back(gravity({0, 0, -9.81}));
   return s;
 }

@@ -314,11 +314,10 @@ TEST(Stepper, AStretchedBarPullsItsDrivenAndItsFixedEndAlikeAndStoresTheWork) {
 std::int64_t searches_done_again(double part_of_margin) {
   const double h = 1e-3, margin = 1e-3, size = 0.02;
   Scenario s = contact_scene(h);
-  s.detection.margin = margin;
   s.bodies = {box_body("box", Body::Kind::Rigid, Vec3::Constant(size)),
               box_body("floor", Body::Kind::Fixed, Vec3::Constant(size), {0, 0, -1})};
   s.loads = {gravity({0, 0, -part_of_margin * margin / (h * h)})};
-  Simulation run(s);
+  Simulation run(s, detection_margin_of(margin));
   run.advance(h);
   return run.state.counts.rejected_motion;
 }

@@ -81,12 +81,26 @@ MotionLoad shift(const std::string& body, double duration, const Vec3& translati
   return load;
 }
 
-Simulation::Simulation(const Scenario& scenario)
-    : model(build_model(scenario)),
-      stepper(model, step_settings(scenario)),
-      state(stepper.initial()) {}
+ModelChange detection_margin_of(double margin) {
+  return [margin](Model& model) { model.detection_margin = margin; };
+}
+
+ModelChange contact_stiffness_of(double stiffness) {
+  return [stiffness](Model& model) {
+    for (ContactModel& contact : model.contacts) {
+      contact.mean_stiffness = stiffness;
+      contact.stiffness.setConstant(contact.share * stiffness);
+      contact.soft = contact.stiffness;
+    }
+  };
+}
 
 namespace {
+
+Model changed(Model model, const ModelChange& change) {
+  if (change) change(model);
+  return model;
+}
 
 Vec6 force_and_moment(const Simulation& simulation, int rigid) {
   const int block = simulation.model.rigid_bodies[static_cast<std::size_t>(rigid)].block;
@@ -94,6 +108,11 @@ Vec6 force_and_moment(const Simulation& simulation, int rigid) {
 }
 
 }  // namespace
+
+Simulation::Simulation(const Scenario& scenario, const ModelChange& change)
+    : model(changed(build_model(scenario), change)),
+      stepper(model, step_settings(scenario)),
+      state(stepper.initial()) {}
 
 Vec3 Simulation::force_on(int rigid) const { return force_and_moment(*this, rigid).head<3>(); }
 

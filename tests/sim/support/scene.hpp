@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <random>
 #include <string>
 
@@ -32,9 +33,14 @@ GravityLoad gravity(const Vec3& acceleration);
 /// A fixed body shifted along a straight line, at constant speed.
 MotionLoad shift(const std::string& body, double duration, const Vec3& translation);
 
+/// Sets numbers of a model that no scenario sets.
+using ModelChange = std::function<void(Model&)>;
+ModelChange detection_margin_of(double margin);      // [m]
+ModelChange contact_stiffness_of(double stiffness);  // [Pa/m], of all contacts, at all nodes
+
 /// A scene's model with what advances it.
 struct Simulation {
-  explicit Simulation(const Scenario& scenario);
+  explicit Simulation(const Scenario& scenario, const ModelChange& change = {});
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
