@@ -15,8 +15,8 @@ constexpr double kPartOfContact = 1e-3, kPartOfTolerance = 1e-3;
 
 double contact_imbalance(const Model& model, const Dynamics& dynamics,
                          const Eigen::VectorXd& residual, double gamma) {
-  if (!dynamics.touches()) return 0;
-  const std::vector<double>& contact = dynamics.contact().force_on_bodies();
+  if (!dynamics.now().contact.has_patches()) return 0;
+  const std::vector<double>& contact = dynamics.now().contact.force_on_bodies();
   const auto ratio = [&](double left, int body, double mass) {
     const double touching = contact[static_cast<std::size_t>(body)];
     if (touching == 0) return 0.0;

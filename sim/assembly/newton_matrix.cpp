@@ -56,10 +56,6 @@ fem::BlockMatrix matrix_of(const Model& model, Stencils stencils, const Stencils
 
 }  // namespace
 
-double activation_of(const Tissue& tissue, const Configuration& now) {
-  return tissue.muscle < 0 ? 0 : now.activation[tissue.muscle];
-}
-
 NewtonMatrix::NewtonMatrix(const Model& model)
     : model_(model),
       for_multigrid_(model.linear_solver.kind == fem::SolverKind::Multigrid),

@@ -5,22 +5,11 @@
 #include <vector>
 
 #include "fem/solver/linear_solver.hpp"
-#include "sim/contact/contact_response.hpp"
+#include "sim/assembly/moment.hpp"
 #include "sim/contact/contact_stiffness.hpp"
-#include "sim/lines/line_force.hpp"
 #include "sim/model/system_matrix.hpp"
 
 namespace articular::sim {
-
-/// A tissue at one moment.
-struct TissueMoment {
-  Positions x;                                 // its nodes [m]
-  Eigen::VectorXd pressure;                    // of smoothed elements [Pa]
-  Eigen::VectorXd stress, internal_variables;  // of relaxing tissue, see fem::Relaxation [Pa]
-};
-
-/// Of a tissue's fibres, in [0, 1]; 0 where no muscle activates them.
-double activation_of(const Tissue& tissue, const Configuration& now);
 
 /// The matrix of Newton's iteration over the unknown blocks: mass, damping and stiffness of
 /// everything in the scene.
@@ -34,13 +23,6 @@ class NewtonMatrix {
   void forget();
   std::uint64_t pattern_id() const { return A_.pattern_id(); }
 
-  /// What the matrix is taken at.
-  struct Moment {
-    const Configuration& configuration;
-    const std::vector<LineState>& lines;
-    const std::vector<TissueMoment>& tissues;
-    const ContactResponse& contact;
-  };
   const fem::BlockMatrix& assemble(const Moment& now, const SystemScale& scale,
                                    fem::Tangent tangent);
   /// Of stiffness and inertia.

@@ -107,10 +107,10 @@ std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& 
   std::vector<BodyMotions> bodies;
   std::vector<Eigen::VectorXd> columns;
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
-    append_motions(model, dynamics.configuration(), b, bodies, columns);
+    append_motions(model, dynamics.now().configuration, b, bodies, columns);
   if (columns.empty()) return std::nullopt;
 
-  const fem::BlockMatrix& K = dynamics.matrix({0, 0, 1}, fem::Tangent::Consistent);
+  const fem::BlockMatrix& K = dynamics.assemble({0, 0, 1}, fem::Tangent::Consistent).A;
   const auto n = static_cast<Eigen::Index>(columns.size());
   Eigen::MatrixXd projected(n, n);
   Eigen::VectorXd product, drive(n);
@@ -120,7 +120,7 @@ std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& 
     K.multiply(column, product);
     for (Eigen::Index i = 0; i < n; ++i)
       projected(i, j) = columns[static_cast<std::size_t>(i)].dot(product);
-    drive[j] = column.dot(dynamics.forces().head(column.size()));
+    drive[j] = column.dot(dynamics.now().forces.head(column.size()));
     if (column.isZero(0)) projected(j, j) = stiffest;  // held
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 *
@@ -132,7 +132,7 @@ std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& 
 
   const auto null_space = eigen.eigenvectors().leftCols(num_free);
   Eigen::VectorXd motion = null_space * (null_space.transpose() * drive);
-  if (!(motion.norm() > kDriven * dynamics.largest_force())) motion = null_space.col(0);
+  if (!(motion.norm() > kDriven * dynamics.now().largest_force)) motion = null_space.col(0);
   const auto part = [&](std::size_t b) -> Eigen::Matrix<double, 6, 1> {
     return motion.segment<6>(6 * static_cast<Eigen::Index>(b));
   };

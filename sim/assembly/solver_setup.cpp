@@ -31,10 +31,12 @@ std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model) {
                                  model.pool);
 }
 
-bool prepare_linear(fem::LinearSolver& solver, const fem::BlockMatrix& A, const Positions& x,
-                    const fem::PressurePart& pressure) {
+bool prepare_linear(fem::LinearSolver& solver, const NewtonEquations& equations,
+                    const Positions& x) {
   const fem::FactorStatus status =
-      pressure.terms.empty() ? solver.prepare(A, x) : solver.prepare_with_pressure(A, x, pressure);
+      equations.pressure.terms.empty()
+          ? solver.prepare(equations.A, x)
+          : solver.prepare_with_pressure(equations.A, x, equations.pressure);
   return status == fem::FactorStatus::Ready;
 }
 

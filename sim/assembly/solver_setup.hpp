@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem/solver/solver_choice.hpp"
+#include "sim/assembly/dynamics.hpp"
 #include "sim/model/model.hpp"
 
 namespace articular::sim {
@@ -13,9 +14,9 @@ std::string name_of(fem::SolverKind kind);
 
 std::unique_ptr<fem::LinearSolver> make_linear_solver(const Model& model);
 
-/// Takes a matrix, where its free nodes are, and what couples all nodes through pressures.
+/// Takes a matrix with what couples all nodes through pressures, and where its free nodes are [m].
 /// @return whether it can be solved
-bool prepare_linear(fem::LinearSolver& solver, const fem::BlockMatrix& A, const Positions& x,
-                    const fem::PressurePart& pressure);
+bool prepare_linear(fem::LinearSolver& solver, const NewtonEquations& equations,
+                    const Positions& x);
 
 }  // namespace articular::sim

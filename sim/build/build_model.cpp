@@ -15,6 +15,7 @@
 #include "sim/lines/muscle_law.hpp"
 #include "sim/mesh/flat_elements.hpp"
 #include "sim/model/newton_weights.hpp"
+#include "sim/model/tissue.hpp"
 
 namespace articular::sim {
 namespace {
@@ -22,6 +23,14 @@ namespace {
 /// A muscle that gives less than this part of its maximal force at rest and full activation is
 /// probably a table applied to another subject.
 constexpr double kLeastForceAtRest = 0.1;
+
+double trusted_motion(const Model& model) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Tissue& tissue : model.tissues) least = std::min(least, element_size(tissue));
+  for (const BodyModel& body : model.bodies)
+    if (body.collider) least = std::min(least, body.collider->reach);
+  return least;
+}
 
 class Builder {
  public:
@@ -43,6 +52,7 @@ class Builder {
     model_.probes = make_probes(scenario_, model_, geometry_, surface_);
     model_.position_tolerance = position_tolerance(scenario_.integrator, model_);
     model_.detection_margin = detection_margin(model_);
+    model_.trusted_motion = trusted_motion(model_);
     model_.linear_solver = choose_linear_solver(scenario_, model_);
     return std::move(model_);
   }
@@ -153,6 +163,12 @@ class Builder {
       for (NodeRef& node : tissue.nodes)
         if (node.rigid < 0) node.block = block++;
     model_.layout.num_free_nodes = block;
+    model_.node_mass.resize(block);
+    for (const Tissue& tissue : model_.tissues)
+      for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+        if (tissue.nodes[i].rigid < 0)
+          model_.node_mass[tissue.nodes[i].block] =
+              tissue.lumped_mass[static_cast<Eigen::Index>(i)];
     for (RigidBody& rigid : model_.rigid_bodies) {
       rigid.block = block;
       block += 2;

@@ -31,22 +31,26 @@ void ContactResponse::clear(ContactPairState& pair_state) const {
 }
 
 void ContactResponse::evaluate(const Configuration& configuration,
-                               std::span<const CandidateList> candidates) {
+                               std::span<const CandidateList> candidates,
+                               const ContactConditions& conditions) {
   near_.clear();
   for (const CandidateList& list : candidates) {
     ContactPairState& pair_state = pair_state_of(list);
     near_.push_back(&pair_state);
     clear(pair_state);
-    find_patches(list, configuration, pair_state);
-    find_pressures(configuration, pair_state);
+    const double allowance = conditions.allowances.empty()
+                                 ? 0
+                                 : conditions.allowances[static_cast<std::size_t>(list.contact)];
+    find_patches(list, configuration, allowance, pair_state);
+    find_pressures(configuration, conditions.soft, pair_state);
   }
 }
 
-void ContactResponse::find_pressures(const Configuration& configuration,
+void ContactResponse::find_pressures(const Configuration& configuration, bool soft,
                                      ContactPairState& pair_state) {
   ++evaluations_[Term::ContactForce];
   const ContactModel& contact = model_.contacts[static_cast<std::size_t>(pair_state.contact)];
-  pair_state.model_stiffness = soft_ ? &contact.soft : &contact.stiffness;
+  pair_state.model_stiffness = soft ? &contact.soft : &contact.stiffness;
   pair_state.point_stiffness = contact.averaged ? 0 : pair_state.stiffness(0);
   for (const int group : pair_state.groups) {
     pair_state.depth[group] /= pair_state.measure[group];
@@ -113,7 +117,7 @@ void end_at_edges(std::span<ContactPairState::Patch> patches) {
 
 /// Patches of a contact pair, and what they sum to at groups: W, A and (in place of g) G.
 void ContactResponse::find_patches(const CandidateList& list, const Configuration& configuration,
-                                   ContactPairState& pair_state) {
+                                   double allowance, ContactPairState& pair_state) {
   const ContactSides side = sides_of(model_, pair_state);
   pair_state.num_patches = 0;
   ++now_;
@@ -124,7 +128,7 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
   const auto contact = static_cast<std::size_t>(pair_state.contact);
   const bool averaged = model_.contacts[contact].averaged;
   DepthRange range = depth_range(side.triangles, side.faces, averaged);
-  if (!allowances_.empty()) range.allowance = allowances_[contact];
+  range.allowance = allowance;
   const std::vector<ContactCandidate>& pairs = list.pairs;
   for (std::size_t first = 0; first < pairs.size();) {  // they come sorted by triangle
     const int triangle = pairs[first].triangle;

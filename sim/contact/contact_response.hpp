@@ -31,13 +31,16 @@
 /// solid mechanics. Comput Methods Appl Mech Eng 193:601.
 namespace articular::sim {
 
+struct ContactConditions {
+  bool soft = false;                        // with the soft stiffness of the ContactModel
+  std::span<const double> allowances = {};  // depth that each contact may have [m]; empty: none
+};
+
 class ContactResponse {
  public:
   explicit ContactResponse(const Model& model);
   ContactResponse(const ContactResponse&) = delete;
   ContactResponse& operator=(const ContactResponse&) = delete;
-  /// From the next evaluate() on, with the soft stiffness of the ContactModel.
-  void set_soft(bool soft) { soft_ = soft; }
   /// Where averaged depths exceed a bounded contact's max_penetration: from the next evaluate() on,
   /// λ = p. @return whether any does
   bool augment();
@@ -48,11 +51,10 @@ class ContactResponse {
   void update_friction_duals(const Configuration& configuration, const Eigen::VectorXd& change);
   /// From the next evaluate() on, there are none.
   void drop_friction_duals();
-  /// From the next evaluate() on, this part of each contact's depth is allowed [m]; empty: none.
-  void set_allowances(std::vector<double> allowances) { allowances_ = std::move(allowances); }
 
   /// Depths and pressures of the candidates in a configuration; what follows is about it.
-  void evaluate(const Configuration& configuration, std::span<const CandidateList> candidates);
+  void evaluate(const Configuration& configuration, std::span<const CandidateList> candidates,
+                const ContactConditions& conditions);
 
   /// Those that have candidates, in the order of the contacts.
   std::span<const ContactPairState* const> pair_states() const { return near_; }
@@ -83,14 +85,12 @@ class ContactResponse {
   ContactPairState& pair_state_of(const CandidateList& list);
   /// Sets what belongs to the last configuration to nothing.
   void clear(ContactPairState& pair_state) const;
-  void find_patches(const CandidateList& list, const Configuration& configuration,
+  void find_patches(const CandidateList& list, const Configuration& configuration, double allowance,
                     ContactPairState& pair_state);
-  void find_pressures(const Configuration& configuration, ContactPairState& pair_state);
+  void find_pressures(const Configuration& configuration, bool soft, ContactPairState& pair_state);
   const FlatTriangle& face_now(const Configuration& configuration, const Collider& faces, int face);
 
   const Model& model_;
-  bool soft_ = false;
-  std::vector<double> allowances_;
   std::deque<ContactPairState> pair_states_;   // all that have had candidates so far
   std::vector<ContactPairState*> of_contact_;  // by contact; none yet: null
   std::vector<ContactPairState*> near_;        // those that have some now

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -231,7 +232,12 @@ struct Model {
   Layout layout;
   double position_tolerance = 0;  // [m], of the Newton iteration
   double detection_margin = 0;    // [m], least one
-  int num_blocks = 0;             // with the blocks of fixed and driven bones
+  /// [m] How far anything may move in one correction of Newton's iteration, or stray from its path
+  /// in one step: the smallest mean element size. Beyond, neither linearisation nor contact search
+  /// holds.
+  double trusted_motion = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd node_mass;  // [kg] of each free tissue node, by block
+  int num_blocks = 0;         // with the blocks of fixed and driven bones
   /// Of the whole run: elements, linear solver and contact search share it, one after the other.
   std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1);
   fem::SolverChoice linear_solver;

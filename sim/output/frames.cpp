@@ -113,14 +113,14 @@ void write_contact_surface(const Model& model, const Configuration& now, int bod
 
 void write_lines(const Model& model, const Stepper& stepper, int index, double time,
                  FrameWriter& writer) {
-  const Configuration& now = stepper.dynamics().configuration();
+  const Configuration& now = stepper.now().configuration;
   const auto count = static_cast<Eigen::Index>(model.lines.size());
   LinesFrame frame;
   Eigen::MatrixXd activation = Eigen::MatrixXd::Zero(1, count), force = activation,
                   length = activation, kind = activation;
   for (Eigen::Index l = 0; l < count; ++l) {
     const Line& line = model.lines[static_cast<std::size_t>(l)];
-    const LineState& state = stepper.dynamics().lines()[static_cast<std::size_t>(l)];
+    const LineState& state = stepper.now().lines[static_cast<std::size_t>(l)];
     Positions path(3, static_cast<Eigen::Index>(line.path.size()));
     for (std::size_t i = 0; i < line.path.size(); ++i)
       path.col(static_cast<Eigen::Index>(i)) = now.position(line.path[i]);
@@ -142,8 +142,8 @@ void write_lines(const Model& model, const Stepper& stepper, int index, double t
 
 void write_frame(const Model& model, const Stepper& stepper, bool contact_surfaces, int index,
                  double time, FrameWriter& writer) {
-  const Configuration& now = stepper.dynamics().configuration();
-  const ContactResponse& contact = stepper.dynamics().contact();
+  const Configuration& now = stepper.now().configuration;
+  const ContactResponse& contact = stepper.now().contact;
   const Contacts contacts{nodal_contact_forces(model, contact),
                           surface_contacts(model, contact, now)};
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -156,7 +156,8 @@ void write_frame(const Model& model, const Stepper& stepper, bool contact_surfac
       writer.write_tissue(
           {body.name, x, tissue.elements.tets(),
            tissue_point_fields(model, tissue, now, x, contacts),
-           tissue_cell_fields(tissue, x, now, stepper.dynamics().internal_variables(body.tissue))},
+           tissue_cell_fields(tissue, x, now,
+                              stepper.now().tissues[body.tissue].internal_variables)},
           index, time);
     } else if (body.X.cols() > 0) {
       write_rigid_body(model, now, body_index, contacts, index, time, writer);

@@ -79,14 +79,12 @@ struct Now {
   const State& state;
   const Stepper& stepper;
 
-  const Dynamics& dynamics() const { return stepper.dynamics(); }
-  const Configuration& configuration() const { return dynamics().configuration(); }
+  const Moment& moment() const { return stepper.now(); }
+  const Configuration& configuration() const { return moment().configuration; }
   const Pose& pose(int rigid) const {
     return configuration().poses[static_cast<std::size_t>(rigid)];
   }
-  const LineState& line(int index) const {
-    return dynamics().lines()[static_cast<std::size_t>(index)];
-  }
+  const LineState& line(int index) const { return moment().lines[static_cast<std::size_t>(index)]; }
 };
 
 struct Position {
@@ -112,8 +110,8 @@ void list(const Turn& turn, Columns& columns) { columns.number("angle", "deg", t
 
 ContactSummary measure(const ObservedContact& observed, const Now& now) {
   if (observed.contact < 0) return {};
-  ContactSummary sum =
-      now.dynamics().contact_through(observed.contact, observed.body, observed.faces);
+  ContactSummary sum = summary_through(now.model, now.moment().contact, now.configuration(),
+                                       observed.contact, observed.body, observed.faces);
   if (now.model.contacts[static_cast<std::size_t>(observed.contact)].a != observed.body) {
     sum.force *= -1;
     sum.moment *= -1;
@@ -207,12 +205,12 @@ struct ForceAndMoment {
 };
 
 ForceAndMoment measure(const ObservedReaction& reaction, const Now& now) {
-  const Vec6 both = now.dynamics().reaction(reaction.rigid);
+  const Vec6 both = reaction_of(now.moment(), reaction.rigid);
   return {both.head<3>(), both.tail<3>()};
 }
 
 ForceAndMoment measure(const ObservedAttachment& attachment, const Now& now) {
-  const auto [force, moment] = now.dynamics().attachment_force(attachment.tissue, attachment.rigid);
+  const auto [force, moment] = attachment_force(now.moment(), attachment.tissue, attachment.rigid);
   return {force, moment};
 }
 

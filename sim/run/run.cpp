@@ -109,11 +109,11 @@ class Run {
 
   /// A law that can't be turned inside out, a start that is: nothing to begin from.
   void check_start() const {
-    const Dynamics& now = stepper_.dynamics();
-    if (now.forces().allFinite() && std::isfinite(stepper_.stored_energy().total())) return;
+    const Moment& now = stepper_.now();
+    if (now.forces.allFinite() && std::isfinite(stepper_.stored_energy().total())) return;
     throw InputError({scenario_.file.string()},
                      "forces at the start are not finite" +
-                         failure_diagnosis(model_, now.configuration(), now.configuration()));
+                         failure_diagnosis(model_, now.configuration, now.configuration));
   }
 
   void begin() {
@@ -147,7 +147,7 @@ class Run {
     stepper_.restart(state_);
     state_.extrema = {};  // overlaps before the start are told as their resolution
     state_.max_penetration = 0;
-    note_extrema(model_, stepper_.dynamics(), state_);
+    note_extrema(stepper_.now(), state_);
     state_.energy.start = stepper_.stored_energy().total();
     if (options_.after_overlap_resolution)
       options_.after_overlap_resolution(state_.overlap_resolution);

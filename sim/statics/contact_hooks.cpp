@@ -20,9 +20,9 @@ ContactHooks contact_hooks(const Model& model, ContactSearch& search, Dynamics& 
     dynamics.set_candidates(search.candidates());
   };
   hooks.covered = [&] {
-    const double stray = search.motion_since(dynamics.configuration());
+    const double stray = search.motion_since(dynamics.now().configuration);
     const bool covered = stray <= 0.5 * margin;
-    margin = std::min(margin_for(model, stray), dynamics.trusted_motion());
+    margin = std::min(margin_for(model, stray), model.trusted_motion);
     if (!covered) ++rejected;
     return covered;
   };

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "sim/assembly/line_search.hpp"
@@ -58,12 +57,12 @@ Mat3 inverse_tangent_map(const Vec3& theta) {
 class Equilibrium::Solver {
  public:
   Solver(const Model& model, Dynamics& dynamics, const StepSettings& settings);
-  bool solve(Eigen::VectorXd& y, double t, double damping);
+  bool solve(Eigen::VectorXd& y, double t, double damping, const Conditions& conditions);
   bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
   void restart() { linear_ = make_linear_solver(model_); }
   /// The largest force, or moment by the bone's size, of a vector of block forces [N].
   double largest(const Eigen::VectorXd& f) const;
-  double residual() const { return largest(dynamics_.forces()); }
+  double residual() const { return largest(dynamics_.now().forces); }
   double largest_acceleration() const;
 
   std::vector<NewtonIteration> iterations;
@@ -88,7 +87,7 @@ class Equilibrium::Solver {
   bool solve_linear();
   /// How far things move [m].
   double motion_scale() const {
-    return std::isfinite(dynamics_.trusted_motion()) ? dynamics_.trusted_motion() : 1;
+    return std::isfinite(model_.trusted_motion) ? model_.trusted_motion : 1;
   }
   double largest_displacement(const Eigen::VectorXd& u) const;
   const Eigen::VectorXd& searched_residual(double part);
@@ -104,7 +103,9 @@ class Equilibrium::Solver {
   bool known_ = false;                               // r_ belongs to u_
   bool from_afar_ = false;                           // contact is stiff, and things may be far off
   int short_in_a_row_ = 0;                           // corrections of which little was taken
-  std::optional<double> predicted_part_;  // of the pressures that the last correction took
+  PressurePrediction prediction_;
+  PredictedPressures taken_;  // by the last correction
+  Conditions conditions_;
   std::exception_ptr error_;
   sundials::Context context_;
   sundials::Vector solution_, u_scale_, r_scale_;
@@ -160,8 +161,8 @@ const Eigen::VectorXd& Equilibrium::Solver::residual_at(const Eigen::VectorXd& u
   ++counts.force_evaluations;
   u_ = u;
   move(u, y_);
-  dynamics_.evaluate(y_.data(), t_);
-  r_ = -dynamics_.forces().head(u.size());
+  dynamics_.evaluate(y_.data(), t_, conditions_);
+  r_ = -dynamics_.now().forces.head(u.size());
   if (damping_ > 0) {
     dynamics_.multiply_mass(u, inertia_);
     r_ += damping_ * inertia_;
@@ -182,22 +183,21 @@ int Equilibrium::Solver::residual(N_Vector u, N_Vector r, void* data) {
 /// are unknowns of Newton's method. Those of the positions alone are steep where ν is near 0.5, and
 /// would stop every search.
 const Eigen::VectorXd& Equilibrium::Solver::searched_residual(double part) {
-  if (!dynamics_.has_pressures()) return residual_at(trial_);
-  dynamics_.take_prediction(part);
+  if (!dynamics_.matrix().has_pressures()) return residual_at(trial_);
+  conditions_.pressures = {&prediction_, part};
   const Eigen::VectorXd& r = residual_at(trial_);
-  dynamics_.drop_prediction();
+  conditions_.pressures = {};
   known_ = false;
   return r;
 }
 
 bool Equilibrium::Solver::prepare(fem::Tangent tangent) {
-  if (predicted_part_) dynamics_.predict_for_matrix(*predicted_part_);
-  const fem::BlockMatrix& A = dynamics_.matrix({damping_, 0, 1}, tangent);
+  const NewtonEquations equations = dynamics_.assemble({damping_, 0, 1}, tangent, taken_);
   const Stopwatch watch(seconds);
   ++counts.factorizations;
   tangent_ = tangent;
   if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
-  return prepare_linear(*linear_, A, dynamics_.configuration().x, dynamics_.pressure_part());
+  return prepare_linear(*linear_, equations, dynamics_.now().configuration.x);
 }
 
 bool Equilibrium::Solver::solve_linear() {
@@ -234,7 +234,7 @@ double Equilibrium::Solver::largest_displacement(const Eigen::VectorXd& u) const
 /// The part of a correction from before_ to take.
 double Equilibrium::Solver::line_search(const Eigen::VectorXd& direction) {
   const double motion = largest_displacement(direction);
-  const double most = motion > dynamics_.trusted_motion() ? dynamics_.trusted_motion() / motion : 1;
+  const double most = motion > model_.trusted_motion ? model_.trusted_motion / motion : 1;
   return searched_part(most, direction.dot(r_before_), [&](double part) {
     trial_ = before_ + part * direction;
     return direction.dot(searched_residual(part));
@@ -253,7 +253,7 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
                                 self.prepare(fem::Tangent::Projected) && self.solve_linear());
     if (!solved) return 1;
     keep_free_part(self.model_, self.correction_);  // round-off out of what is held
-    self.dynamics_.predict_pressures(self.correction_);
+    self.prediction_.predict(self.dynamics_.now(), self.dynamics_.matrix(), self.correction_);
     // A bone's correction is a rotation on top of where it is.
     for (int r = 0; r < self.model_.layout.num_rigid; ++r) {
       const int row = 3 * self.model_.rigid_bodies[static_cast<std::size_t>(r)].block + 3;
@@ -262,9 +262,9 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
     }
     self.before_ = self.u_;
     self.r_before_ = self.r_;
-    const double residual = self.largest(self.r_) / self.dynamics_.largest_force();
+    const double residual = self.largest(self.r_) / self.dynamics_.now().largest_force;
     const double s = self.line_search(self.correction_);
-    self.predicted_part_ = s;
+    self.taken_ = {&self.prediction_, s};
     view(x) = s * self.correction_;
     self.short_in_a_row_ = s <= kShort ? self.short_in_a_row_ + 1 : 0;
     if (self.from_afar_ && self.short_in_a_row_ == kMostShort) return 1;
@@ -287,10 +287,10 @@ double Equilibrium::Solver::largest(const Eigen::VectorXd& f) const {
 }
 
 double Equilibrium::Solver::largest_acceleration() const {
-  const Eigen::VectorXd& f = dynamics_.forces();
+  const Eigen::VectorXd& f = dynamics_.now().forces;
   double largest = 0;
   for (int block = 0; block < model_.layout.num_free_nodes; ++block)
-    largest = std::max(largest, f.segment<3>(3 * block).norm() / dynamics_.mass_of(block));
+    largest = std::max(largest, f.segment<3>(3 * block).norm() / model_.node_mass[block]);
   for (int r = 0; r < model_.layout.num_rigid; ++r) {
     const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(r)];
     const double moment = f.segment<3>(3 * rigid.block + 3).norm() / turning_radius(rigid);
@@ -318,23 +318,23 @@ int Equilibrium::Solver::run(double tolerance) {
 bool Equilibrium::Solver::balance(bool soft) {
   constexpr double kAboutBalanced = 1e-3;
   const double tolerance = soft ? kAboutBalanced : kBalanced;
-  dynamics_.set_soft_contact(soft);
+  conditions_.contact.soft = soft;
   known_ = false;
-  predicted_part_.reset();
+  taken_ = {};
   residual_at(view(solution_));
   for (int round = 0; round < kMostRounds; ++round) {
-    if (!(dynamics_.largest_force() > 0)) break;  // nothing acts
-    const int flag = run(tolerance * dynamics_.largest_force());
+    if (!(dynamics_.now().largest_force > 0)) break;  // nothing acts
+    const int flag = run(tolerance * dynamics_.now().largest_force);
     const bool stuck = flag == KIN_STEP_LT_STPTOL && iterations.back().fraction < 1;
     if (flag < 0 || stuck || !r_.allFinite()) {
-      dynamics_.set_soft_contact(false);
+      conditions_.contact.soft = false;
       return false;
     }
     residual_at(view(solution_));
     if (flag == KIN_STEP_LT_STPTOL) break;
-    if (largest(r_) <= 2 * tolerance * dynamics_.largest_force()) break;
+    if (largest(r_) <= 2 * tolerance * dynamics_.now().largest_force) break;
   }
-  dynamics_.set_soft_contact(false);
+  conditions_.contact.soft = false;
   return true;
 }
 
@@ -342,13 +342,15 @@ bool Equilibrium::Solver::balance(bool soft) {
 bool Equilibrium::Solver::balance_within_bounds() {
   constexpr int kMostUpdates = 20;
   if (!balance(false)) return false;
-  for (int update = 0; update < kMostUpdates && dynamics_.augment_contact(); ++update)
+  for (int update = 0; update < kMostUpdates && dynamics_.contact().augment(); ++update)
     if (!balance(false)) return false;
   return true;
 }
 
-bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
-  predicted_part_.reset();
+bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping,
+                                const Conditions& conditions) {
+  conditions_ = conditions;
+  taken_ = {};
   start_ = y;
   t_ = t;
   damping_ = damping;
@@ -356,14 +358,14 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
   iterations.clear();
   view(solution_).setZero();
   if (view(solution_).size() == 0) {  // only driven bones
-    dynamics_.evaluate(y.data(), t);
+    dynamics_.evaluate(y.data(), t, conditions);
     ++counts.steps;
     return true;
   }
-  dynamics_.drop_multipliers();
+  dynamics_.contact().drop_multipliers();
   residual_at(view(solution_));
   // From afar, contact that is as stiff as it should be throws iterations back and forth.
-  const bool touches = dynamics_.touches();
+  const bool touches = dynamics_.now().contact.has_patches();
   from_afar_ = touches;
   short_in_a_row_ = 0;
   set_most_iterations(touches ? std::min(max_iterations_, kMostFromAfar) : max_iterations_);
@@ -373,7 +375,7 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
   if (!balanced && touches) {
     view(solution_).setZero();
     if (!balance(true)) view(solution_).setZero();
-    dynamics_.drop_multipliers();
+    dynamics_.contact().drop_multipliers();
     balanced = balance_within_bounds();
   }
   if (!balanced) {
@@ -388,7 +390,7 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping) {
 }
 
 bool Equilibrium::Solver::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y) {
-  predicted_part_.reset();
+  taken_ = {};
   damping_ = damping;
   if (!prepare(fem::Tangent::Consistent) && !prepare(fem::Tangent::Projected)) return false;
   rhs_ = f.head(view(solution_).size());
@@ -402,8 +404,9 @@ Equilibrium::Equilibrium(const Model& model, Dynamics& dynamics, const StepSetti
     : solver_(std::make_unique<Solver>(model, dynamics, settings)) {}
 Equilibrium::~Equilibrium() = default;
 
-bool Equilibrium::solve(Eigen::VectorXd& y, double t, double damping) {
-  return solver_->solve(y, t, damping);
+bool Equilibrium::solve(Eigen::VectorXd& y, double t, double damping,
+                        const Conditions& conditions) {
+  return solver_->solve(y, t, damping, conditions);
 }
 bool Equilibrium::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y) {
   return solver_->yield(f, damping, y);

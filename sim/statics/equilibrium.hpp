@@ -41,8 +41,10 @@ class Equilibrium {
   /// @param y        where to begin on entry, the solution on exit; velocities are not touched
   /// @param t        [s] of loads and motions
   /// @param damping  d [1/s²]
+  /// @param conditions  but for soft contact and pressures, which the iteration chooses
   /// @return false when the iteration did not converge; y is as before
-  [[nodiscard]] bool solve(Eigen::VectorXd& y, double t, double damping);
+  [[nodiscard]] bool solve(Eigen::VectorXd& y, double t, double damping,
+                           const Conditions& conditions = {});
   /// Moves y by (K + d M)⁻¹ f, where the last Dynamics::evaluate() was.
   /// @param f        block forces [N]
   /// @param damping  d [1/s²]

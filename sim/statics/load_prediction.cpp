@@ -93,21 +93,25 @@ class DrivenWay {
 /// touches without pressure at s = 0 resists there.
 Eigen::VectorXd force_rate(const DrivenWay& way, double part, double t, const Eigen::VectorXd& y,
                            Dynamics& dynamics) {
-  dynamics.evaluate(y.data(), t, way.poses(0));
-  const Eigen::VectorXd before = dynamics.forces();
+  std::vector<Pose> poses = way.poses(0);
+  // Stiff contact holds to a plane what follows a round surface, which then stands off it.
+  const Conditions conditions{.contact = {.soft = true}, .driven = &poses};
+  dynamics.evaluate(y.data(), t, conditions);
+  const Eigen::VectorXd before = dynamics.now().forces;
   Eigen::VectorXd carried = y;
   way.carry(part, carried);
-  dynamics.evaluate(carried.data(), t, way.poses(part));
-  return (dynamics.forces() - before) / part;
+  poses = way.poses(part);
+  dynamics.evaluate(carried.data(), t, conditions);
+  return (dynamics.now().forces - before) / part;
 }
 
 /// [1/s²]
 double holding_damping(const Model& model, Dynamics& dynamics) {
-  const fem::BlockMatrix& K = dynamics.matrix({0, 0, 1}, fem::Tangent::Consistent);
+  const fem::BlockMatrix& K = dynamics.assemble({0, 0, 1}, fem::Tangent::Consistent).A;
   double fastest = 0;
   for (int block = 0; block < model.layout.num_free_nodes; ++block)
     fastest = std::max(
-        fastest, K.block(K.slot(block, block)).diagonal().maxCoeff() / dynamics.mass_of(block));
+        fastest, K.block(K.slot(block, block)).diagonal().maxCoeff() / model.node_mass[block]);
   return kLeastSpeed * fastest;
 }
 
@@ -119,16 +123,13 @@ std::optional<Eigen::VectorXd> predict_load_step(const Model& model, Dynamics& d
   const DrivenWay way(model, t_before, t, y);
   const double motion = way.motion();
   if (!(motion > 0)) return std::nullopt;
-  const double trusted = dynamics.trusted_motion();
+  const double trusted = model.trusted_motion;
   const double part = std::isfinite(trusted) ? std::min(1.0, kSmallMotion * trusted / motion) : 1;
-  // Stiff contact holds to a plane what follows a round surface, which then stands off it.
-  dynamics.set_soft_contact(true);
   const Eigen::VectorXd rate = force_rate(way, part, t, y, dynamics);
   const double damping =
       find_rigid_body_mode(model, dynamics) ? holding_damping(model, dynamics) : 0;
   std::optional<Eigen::VectorXd> predicted = y;
   if (!equilibrium.yield(rate, damping, *predicted)) predicted.reset();
-  dynamics.set_soft_contact(false);
   way.carry(1, y);
   if (predicted) way.carry(1, *predicted);
   return predicted;

@@ -31,8 +31,7 @@ class LoadStep {
         t_before_(t_before),
         t_(t),
         convergence_(convergence),
-        reach_(std::isfinite(dynamics.trusted_motion()) ? dynamics.trusted_motion()
-                                                        : kLooseMotion) {}
+        reach_(std::isfinite(model.trusted_motion) ? model.trusted_motion : kLooseMotion) {}
 
   LoadStepResult take(Eigen::VectorXd& y) {
     begin(y);
@@ -50,7 +49,7 @@ class LoadStep {
   /// round surface is curved: there it is.
   void begin(Eigen::VectorXd& y) {
     dynamics_.evaluate(y.data(), t_before_);
-    if (contacts_.find) contacts_.find(dynamics_.configuration(), 0);
+    if (contacts_.find) contacts_.find(dynamics_.now().configuration, 0);
     const std::optional<Eigen::VectorXd> predicted =
         predict_load_step(model_, dynamics_, equilibrium_, t_before_, t_, y);
     if (predicted && soft_residual(*predicted) < soft_residual(y)) y = *predicted;
@@ -59,19 +58,17 @@ class LoadStep {
 
   /// The largest unbalanced force with soft contact [N]: stiff contact would hide what else is.
   double soft_residual(const Eigen::VectorXd& y) {
-    dynamics_.set_soft_contact(true);
-    look(y, 0);
-    dynamics_.set_soft_contact(false);
+    look(y, 0, {.contact = {.soft = true}});
     const double residual = equilibrium_.residual();
     return std::isfinite(residual) ? residual : std::numeric_limits<double>::infinity();
   }
 
   /// Finds contacts at y, for things that will move so far [m], and evaluates there.
-  void look(const Eigen::VectorXd& y, double motion) {
-    dynamics_.evaluate(y.data(), t_);
+  void look(const Eigen::VectorXd& y, double motion, const Conditions& conditions = {}) {
+    dynamics_.evaluate(y.data(), t_, conditions);
     if (!contacts_.find) return;
-    contacts_.find(dynamics_.configuration(), motion);
-    dynamics_.evaluate(y.data(), t_);
+    contacts_.find(dynamics_.now().configuration, motion);
+    dynamics_.evaluate(y.data(), t_, conditions);
   }
 
   bool solve(Eigen::VectorXd& y, double damping) {
@@ -101,15 +98,15 @@ class LoadStep {
   PseudoStep settle(double motion, Eigen::VectorXd& y, LoadStepResult& result) {
     look(y, motion);
     const double damping = equilibrium_.largest_acceleration() / motion;
-    const Eigen::VectorXd before = dynamics_.forces();
+    const Eigen::VectorXd before = dynamics_.now().forces;
     Eigen::VectorXd trial = y;
     if (!solve(trial, damping) || (contacts_.covered && !contacts_.covered()))
       return PseudoStep::Failed;
-    if (result.loose) result.settling_loss += work(y, before, trial, dynamics_.forces());
+    if (result.loose) result.settling_loss += work(y, before, trial, dynamics_.now().forces);
     y = trial;
     look(y, 0);
     result.loose = find_rigid_body_mode(model_, dynamics_);
-    const bool reached = equilibrium_.residual() <= 2 * kBalanced * dynamics_.largest_force() ||
+    const bool reached = equilibrium_.residual() <= 2 * kBalanced * dynamics_.now().largest_force ||
                          (!result.loose && balance(y));
     return reached ? PseudoStep::Arrived : PseudoStep::Moved;
   }

@@ -71,7 +71,6 @@ class OverlapResolver {
         search_(model, settings),
         equilibrium_(model, dynamics_, settings),
         margin_(model.detection_margin) {
-    dynamics_.set_unloaded(true);
     equilibrium_.set_watch(watch);
     hooks_ = contact_hooks(model, search_, dynamics_, margin_, rejected_);
   }
@@ -80,7 +79,7 @@ class OverlapResolver {
   std::vector<ResolvedOverlap> overlaps(const Eigen::VectorXd& y) {
     const std::vector<double> depth = depths(at_rest(model_, y));
     // Where depths are averaged, facets of a round surface may cut into another and carry nothing.
-    refuse_lost_bodies(model_, dynamics_.contact().point_depths());
+    refuse_lost_bodies(model_, dynamics_.now().contact.point_depths());
     std::vector<ResolvedOverlap> overlaps;
     for (std::size_t c = 0; c < depth.size(); ++c)
       if (depth[c] > model_.contacts[c].max_penetration)
@@ -110,8 +109,12 @@ class OverlapResolver {
   }
 
  private:
+  Conditions conditions() const {
+    return {.unloaded = true, .contact = {.allowances = allowances_}};
+  }
+
   std::vector<double> depths(const Eigen::VectorXd& y) {
-    dynamics_.set_allowances({});
+    allowances_.clear();
     look(y, 0);
     std::vector<double> depths(model_.contacts.size(), 0);
     for (const ContactSummary& contact : dynamics_.contacts())
@@ -135,11 +138,10 @@ class OverlapResolver {
   /// Moves bodies on from rest in pseudo-time, each solution by no more than an element, until what
   /// is deeper than this part of the overlaps is gone, or held by bodies that can't give way.
   bool relax(double allowed, Eigen::VectorXd& y) {
-    std::vector<double> allowances(model_.contacts.size(), 0);
+    allowances_.assign(model_.contacts.size(), 0);
     for (const ResolvedOverlap& overlap : resolution_.overlaps)
-      allowances[static_cast<std::size_t>(overlap.contact)] = allowed * overlap.before;
-    dynamics_.set_allowances(std::move(allowances));
-    return approach_in_pseudo_time(dynamics_.trusted_motion(), kMostEquilibria,
+      allowances_[static_cast<std::size_t>(overlap.contact)] = allowed * overlap.before;
+    return approach_in_pseudo_time(model_.trusted_motion, kMostEquilibria,
                                    [&](double motion) { return move_on(motion, y); });
   }
 
@@ -147,9 +149,10 @@ class OverlapResolver {
     look(y, motion);
     if (is_settled()) return PseudoStep::Arrived;
     Eigen::VectorXd trial = y;
-    const bool solved = equilibrium_.solve(trial, 0, equilibrium_.largest_acceleration() / motion);
+    const bool solved =
+        equilibrium_.solve(trial, 0, equilibrium_.largest_acceleration() / motion, conditions());
     ++resolution_.solutions;
-    if (solved) dynamics_.evaluate(trial.data(), 0);
+    if (solved) dynamics_.evaluate(trial.data(), 0, conditions());
     if (!solved || !hooks_.covered()) return PseudoStep::Failed;
     y = trial;
     return PseudoStep::Moved;
@@ -162,14 +165,14 @@ class OverlapResolver {
           const auto c = static_cast<std::size_t>(contact.contact);
           return contact.max_point_depth <= model_.contacts[c].max_penetration;
         });
-    return apart || equilibrium_.residual() <= kMostUnbalanced * dynamics_.largest_force();
+    return apart || equilibrium_.residual() <= kMostUnbalanced * dynamics_.now().largest_force;
   }
 
   /// Finds contacts at y, for things that will move so far [m], and evaluates there.
   void look(const Eigen::VectorXd& y, double motion) {
-    dynamics_.evaluate(y.data(), 0);
-    hooks_.find(dynamics_.configuration(), motion);
-    dynamics_.evaluate(y.data(), 0);
+    dynamics_.evaluate(y.data(), 0, conditions());
+    hooks_.find(dynamics_.now().configuration, motion);
+    dynamics_.evaluate(y.data(), 0, conditions());
   }
 
   void finish(const Eigen::VectorXd& start, const Eigen::VectorXd& y) {
@@ -182,9 +185,9 @@ class OverlapResolver {
     for (const BodyModel& body : model_.bodies)
       if (body.collider)
         for (const NodeRef& node : body.collider->nodes)
-          resolution_.largest_motion =
-              std::max(resolution_.largest_motion,
-                       (dynamics_.configuration().position(node) - before.position(node)).norm());
+          resolution_.largest_motion = std::max(
+              resolution_.largest_motion,
+              (dynamics_.now().configuration.position(node) - before.position(node)).norm());
   }
 
   /// A surface that has been turned inside out touches nothing: it only looks as if it were apart.
@@ -196,7 +199,7 @@ class OverlapResolver {
         positions_of(configuration, tissue.nodes, x);
         return tissue.elements.volume_ratio(x).minCoeff(&element);
       };
-      if (least(before) > 0 && !(least(dynamics_.configuration()) > 0))
+      if (least(before) > 0 && !(least(dynamics_.now().configuration) > 0))
         fail(fmt::format("would turn tetrahedron {} of `{}` inside out", element,
                          model_.bodies[static_cast<std::size_t>(tissue.body)].name));
     }
@@ -223,6 +226,7 @@ class OverlapResolver {
   ContactHooks hooks_;
   double margin_;
   std::int64_t rejected_ = 0;
+  std::vector<double> allowances_;  // by contact [m]; empty: none
   OverlapResolution resolution_;
 };
 

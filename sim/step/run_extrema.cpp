@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/assembly/energies.hpp"
 #include "sim/contact/contact_search.hpp"
+#include "sim/contact/contact_summary.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
@@ -27,11 +29,12 @@ void note_balance(double numerical_loss, State& state) {
   state.extrema.made = std::max(state.extrema.made, -numerical_loss);
 }
 
-void note_extrema(const Model& model, const Dynamics& dynamics, State& state) {
+void note_extrema(const Moment& now, State& state) {
+  const Model& model = now.model;
   RunExtrema& extrema = state.extrema;
   Positions x;
   for (std::size_t t = 0; t < model.tissues.size(); ++t) {
-    positions_of(dynamics.configuration(), model.tissues[t].nodes, x);
+    positions_of(now.configuration, model.tissues[t].nodes, x);
     Eigen::Index element = 0;
     const double least = model.tissues[t].elements.volume_ratio(x).minCoeff(&element);
     if (!(least < extrema.volume_ratio)) continue;
@@ -40,7 +43,7 @@ void note_extrema(const Model& model, const Dynamics& dynamics, State& state) {
     extrema.element = element;
     extrema.squeezed_at = state.t;
   }
-  for (const ContactSummary& contact : dynamics.contacts()) {
+  for (const ContactSummary& contact : contact_summaries(model, now.contact, now.configuration)) {
     if (!(contact.max_depth > 0)) continue;
     state.max_penetration = std::max(state.max_penetration, contact.max_depth);
     const ContactModel& pair = model.contacts[static_cast<std::size_t>(contact.contact)];
@@ -50,9 +53,9 @@ void note_extrema(const Model& model, const Dynamics& dynamics, State& state) {
     extrema.contact = contact.contact;
     extrema.overlap_at = state.t;
   }
-  extrema.kinetic = std::max(extrema.kinetic, dynamics.kinetic_energy());
+  extrema.kinetic = std::max(extrema.kinetic, kinetic_energy(now));
   extrema.work = std::max(extrema.work, work_done(state.energy));
-  const double gravity = dynamics.gravity_energy();
+  const double gravity = gravity_energy(now);
   extrema.gravity_low = std::min(extrema.gravity_low, gravity);
   extrema.gravity_high = std::max(extrema.gravity_high, gravity);
 }

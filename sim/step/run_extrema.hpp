@@ -1,13 +1,13 @@
 #pragma once
 
-#include "sim/assembly/dynamics.hpp"
+#include "sim/assembly/moment.hpp"
 #include "sim/model/state.hpp"
 
 namespace articular::sim {
 
 /// Notes in state.extrema, and max_penetration, what is worse than it has been, at the last
 /// evaluate().
-void note_extrema(const Model& model, const Dynamics& dynamics, State& state);
+void note_extrema(const Moment& now, State& state);
 
 /// Notes what the balance of energy lacks: what numerical_loss() is below zero [J].
 void note_balance(double numerical_loss, State& state);

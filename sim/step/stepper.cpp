@@ -58,7 +58,7 @@ State Stepper::initial() {
   state.next_margin = model_.detection_margin;
   restart(state);
   state.energy.start = stored_energy().total();
-  note_extrema(model_, *dynamics_, state);
+  note_extrema(dynamics_->now(), state);
   return state;
 }
 
@@ -97,7 +97,6 @@ void Stepper::step(State& state, double t_target) {
   const SearchCounts search_before = search_ ? search_->counts() : SearchCounts{};
   const SolverCounts solver_before = solver_counts();
   const EvaluationCounts evaluations_before = evaluations();
-  dynamics_->set_step_start(state.t);
   remember_start(state);
 
   double tried = h;
@@ -136,20 +135,20 @@ SolverCounts Stepper::solver_counts() const {
 }
 
 void Stepper::remember_start(const State& state) {
-  lines_before_ = dynamics_->lines();
-  forces_before_ = dynamics_->forces();
-  start_ = dynamics_->configuration();
+  lines_before_ = dynamics_->now().lines;
+  forces_before_ = dynamics_->now().forces;
+  start_ = dynamics_->now().configuration;
   t_before_ = state.t;
-  damping_before_ = dynamics_->damping_power();
-  contact_power_before_ = dynamics_->contact_power();
+  damping_before_ = damping_.power(dynamics_->now());
+  contact_power_before_ = dynamics_->now().contact.damping_power();
   fibre_energy_before_.assign(model_.tissues.size(), 0);
   for (std::size_t t = 0; t < model_.tissues.size(); ++t)
     if (model_.tissues[t].muscle >= 0)
-      fibre_energy_before_[t] = dynamics_->energy_per_activation(t);
+      fibre_energy_before_[t] = energy_per_activation(dynamics_->now(), t);
   reactions_before_.assign(model_.rigid_bodies.size(), Vec6::Zero());
   for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b)
     if (model_.rigid_bodies[b].motion && model_.rigid_bodies[b].unknown)
-      reactions_before_[b] = dynamics_->reaction(static_cast<int>(b));
+      reactions_before_[b] = reaction_as_step_begins(dynamics_->now(), static_cast<int>(b));
   loads_before_.clear();
   for (const ForceModel& force : model_.forces)
     loads_before_.push_back(start_.position(force.point));
@@ -183,15 +182,15 @@ bool Stepper::try_time_step(State& state, double h) {
       why_ = Rejection::NoConvergence;
       return false;
     }
-    dynamics_->evaluate(y_.data(), *reached);
-    if (!dynamics_->forces().allFinite()) {
+    dynamics_->evaluate(y_.data(), *reached, {.step_start = state.t});
+    if (!dynamics_->now().forces.allFinite()) {
       why_ = Rejection::NotFinite;
       return false;
     }
     if (search_) {
-      double stray = search_->motion_since(dynamics_->configuration());
+      double stray = search_->motion_since(dynamics_->now().configuration);
       if (!only_end) stray = std::max(stray, search_->motion_since(start_));
-      if (stray > dynamics_->trusted_motion()) {
+      if (stray > model_.trusted_motion) {
         ++state.counts.rejected_motion;
         why_ = Rejection::TooFast;
         return false;
@@ -236,10 +235,10 @@ bool Stepper::try_load_step(State& state, double h) {
 }
 
 void Stepper::account(State& after) {
-  const Configuration& now = dynamics_->configuration();
+  const Configuration& now = dynamics_->now().configuration;
   EnergyLedger& ledger = after.energy;
   for (std::size_t l = 0; l < model_.lines.size(); ++l) {
-    const LineState &a = lines_before_[l], &b = dynamics_->lines()[l];
+    const LineState &a = lines_before_[l], &b = dynamics_->now().lines[l];
     const double stretch = b.length - a.length;
     ledger.muscle_work -= 0.5 * (a.active + b.active) * stretch;
     ledger.ligament_loss += 0.5 * (a.damping + b.damping) * stretch;
@@ -249,12 +248,12 @@ void Stepper::account(State& after) {
     if (muscle < 0) continue;
     const double rise = now.activation[muscle] - start_.activation[muscle];
     ledger.muscle_work +=
-        0.5 * (fibre_energy_before_[t] + dynamics_->energy_per_activation(t)) * rise;
+        0.5 * (fibre_energy_before_[t] + energy_per_activation(dynamics_->now(), t)) * rise;
   }
   ledger.tissue_loss +=
-      0.5 * (damping_before_ + dynamics_->damping_power()) * (after.t - t_before_);
-  ledger.contact_loss +=
-      0.5 * (contact_power_before_ + dynamics_->contact_power()) * (after.t - t_before_);
+      0.5 * (damping_before_ + damping_.power(dynamics_->now())) * (after.t - t_before_);
+  ledger.contact_loss += 0.5 * (contact_power_before_ + dynamics_->now().contact.damping_power()) *
+                         (after.t - t_before_);
   for (std::size_t i = 0; i < model_.forces.size(); ++i) {
     const ForceModel& force = model_.forces[i];
     const double factor =
@@ -265,7 +264,7 @@ void Stepper::account(State& after) {
     const RigidBody& rigid = model_.rigid_bodies[b];
     if (!rigid.motion) continue;
     if (rigid.unknown) {
-      const Vec6 reaction = dynamics_->reaction(static_cast<int>(b));
+      const Vec6 reaction = reaction_of(dynamics_->now(), static_cast<int>(b));
       ledger.motion_work -=
           0.5 * (reactions_before_[b].dot(
                      driven_way(rigid, t_before_, after.t, start_.poses[b].R, t_before_)) +
@@ -273,7 +272,7 @@ void Stepper::account(State& after) {
       continue;
     }
     const Eigen::AngleAxisd turn(now.poses[b].R * start_.poses[b].R.transpose());
-    const Eigen::VectorXd& f = dynamics_->forces();
+    const Eigen::VectorXd& f = dynamics_->now().forces;
     const Vec3 force =
         0.5 * (forces_before_.segment<3>(3 * rigid.block) + f.segment<3>(3 * rigid.block));
     const Vec3 moment =
@@ -281,7 +280,7 @@ void Stepper::account(State& after) {
     ledger.motion_work -=
         force.dot(now.poses[b].p - start_.poses[b].p) + moment.dot(turn.angle() * turn.axis());
   }
-  note_extrema(model_, *dynamics_, after);
+  note_extrema(dynamics_->now(), after);
 }
 
 /// What moves has had its energy at the start, from gravity or from what drives it. Where it is
@@ -292,9 +291,10 @@ void Stepper::stop_where_energy_is_made(const State& state) const {
   constexpr double kOfLedger = 0.01;         // each known to about this part
   constexpr double kFarFromTolerance = 1e4;  // a hundred times its velocity
   const EnergyLedger& ledger = state.energy;
-  const double kinetic = dynamics_->kinetic_energy();
-  const double given = ledger.start - dynamics_->gravity_energy() + std::abs(ledger.muscle_work) +
-                       std::abs(ledger.load_work) + std::abs(ledger.motion_work);
+  const double kinetic = kinetic_energy(dynamics_->now());
+  const double given = ledger.start - gravity_energy(dynamics_->now()) +
+                       std::abs(ledger.muscle_work) + std::abs(ledger.load_work) +
+                       std::abs(ledger.motion_work);
   const double floor = kFarFromTolerance * energy_of_tolerance(model_, settings_.step) +
                        kOfLedger * turned_over(state);
   const double source = std::max(given, 0.0);
@@ -313,14 +313,14 @@ void Stepper::stop_where_energy_is_made(const State& state) const {
       fmt::format("the simulation cannot go on at t = {:.6g} s: {}{}{}; results are valid until "
                   "shortly before",
                   state.t, what, deepest_contact(model_, dynamics_->contacts()),
-                  failure_diagnosis(model_, start_, dynamics_->configuration())));
+                  failure_diagnosis(model_, start_, dynamics_->now().configuration)));
 }
 
 void Stepper::fail(const State& state, double h) {
   // Of a load step nothing has a speed: what is loose says more.
   const std::string cause =
       loose_ ? fmt::format("; {}: a support is missing, or contact is not made", loose_->words)
-             : failure_diagnosis(model_, start_, dynamics_->configuration());
+             : failure_diagnosis(model_, start_, dynamics_->now().configuration);
   // Back to the last state, for what the summary says of it.
   find_contacts(start_, state.next_margin);
   dynamics_->evaluate(state.y.data(), state.t);
@@ -331,11 +331,11 @@ void Stepper::fail(const State& state, double h) {
 
 StoredEnergy Stepper::stored_energy() const {
   StoredEnergy energy;
-  energy.kinetic = dynamics_->kinetic_energy();
-  energy.elastic = dynamics_->elastic_energy();
-  energy.gravity = dynamics_->gravity_energy();
+  energy.kinetic = kinetic_energy(dynamics_->now());
+  energy.elastic = elastic_energy(dynamics_->now());
+  energy.gravity = gravity_energy(dynamics_->now());
   for (const ContactSummary& contact : dynamics_->contacts()) energy.contact += contact.energy;
-  for (const LineState& line : dynamics_->lines()) energy.lines += line.stored;
+  for (const LineState& line : dynamics_->now().lines) energy.lines += line.stored;
   return energy;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
 #include "sim/assembly/dynamics.hpp"
+#include "sim/assembly/energies.hpp"
+#include "sim/assembly/reactions.hpp"
+#include "sim/assembly/tissue_damping.hpp"
 #include "sim/contact/contact_search.hpp"
 #include "sim/model/state.hpp"
 #include "sim/statics/load_step.hpp"
@@ -53,6 +56,7 @@ class Stepper {
   const StepSettings& settings() const { return settings_; }
   /// Forces, lines and contacts at the state of the last step() or restart().
   const Dynamics& dynamics() const { return *dynamics_; }
+  const Moment& now() const { return dynamics_->now(); }
   StoredEnergy stored_energy() const;
   std::vector<Positions> contact_forces() const;  // at colliders' nodes, by body [N]
   PhaseTimes times();
@@ -79,6 +83,7 @@ class Stepper {
   const StepSettings settings_;
   std::unique_ptr<ContactSearch> search_;
   std::unique_ptr<Dynamics> dynamics_;
+  TissueDamping damping_;
   std::unique_ptr<TimeIntegrator> integrator_;  // dynamic analysis
   std::unique_ptr<Equilibrium> equilibrium_;    // static analysis
   std::vector<ConvergenceRow> convergence_;

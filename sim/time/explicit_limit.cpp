@@ -16,8 +16,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// The smallest length that the forces know [m]: a part of it is moved to see how they change.
-double least_length(const Model& model, const Dynamics& dynamics) {
-  double length = dynamics.trusted_motion();
+double least_length(const Model& model) {
+  double length = model.trusted_motion;
   if (!std::isfinite(length))
     for (int r = 0; r < model.layout.num_rigid; ++r)
       length = std::min(length, turning_radius(model.rigid_bodies[static_cast<std::size_t>(r)]));
@@ -33,10 +33,10 @@ class ScaledRate {
         layout_(model.layout),
         y_(y),
         t_(t),
-        motion_(kMoved * least_length(model, dynamics)),
+        motion_(kMoved * least_length(model)),
         scale_(VectorXd::Zero(layout_.activations())) {
     for (int block = 0; block < layout_.num_free_nodes; ++block)
-      set_scale(layout_.node_x(block), 3, block, std::sqrt(dynamics.mass_of(block)));
+      set_scale(layout_.node_x(block), 3, block, std::sqrt(model.node_mass[block]));
     for (int r = 0; r < layout_.num_rigid; ++r) {
       const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(r)];
       const double root = std::sqrt(rigid.mass.mass), turned = root * turning_radius(rigid);

@@ -37,7 +37,8 @@ class ExplicitRungeKutta final : public TimeIntegrator {
   const double longest_step_;  // [s]
   const bool fixed_;
   SolverCounts counts_;
-  double next_step_ = 0;  // [s]
+  double next_step_ = 0;   // [s]
+  Conditions conditions_;  // of the step
   std::exception_ptr error_;
   sundials::Context context_;
   sundials::Vector y_;
@@ -46,7 +47,8 @@ class ExplicitRungeKutta final : public TimeIntegrator {
 
 int ExplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
   auto& self = *static_cast<ExplicitRungeKutta*>(data);
-  return sundials::evaluate_rate(self, self.dynamics_, self.counts_, self.error_, t, y, y_dot);
+  return sundials::evaluate_rate(self, self.dynamics_, self.conditions_, self.counts_, self.error_,
+                                 t, y, y_dot);
 }
 
 /// Velocities against what moves the tolerance in the longest step: what steps are shorter for is
@@ -79,6 +81,7 @@ ExplicitRungeKutta::ExplicitRungeKutta(const Model& model, Dynamics& dynamics,
 
 std::optional<double> ExplicitRungeKutta::advance(Eigen::VectorXd& y, double t, double h) {
   view(y_) = y;
+  conditions_.step_start = t;
   void* arkode = arkode_.get();
   check(ARKStepReset(arkode, t, y_.get()), "ARKStepReset");
   if (fixed_)

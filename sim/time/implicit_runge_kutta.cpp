@@ -66,8 +66,8 @@ class ImplicitRungeKutta final : public TimeIntegrator {
   const Integrator::Scheme scheme_;
   NewtonSystem newton_;
   SolverCounts counts_;
-  double step_ = 0;     // [s] being tried
-  double t_start_ = 0;  // [s] of that step
+  double step_ = 0;        // [s] being tried
+  Conditions conditions_;  // of that step
   bool keep_matrix_ = false;
   const bool has_stiff_contact_;
   std::optional<double> t_landing_;  // [s] a step from there is known to need soft contact first
@@ -84,7 +84,8 @@ class ImplicitRungeKutta final : public TimeIntegrator {
 
 int ImplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
   auto& self = *static_cast<ImplicitRungeKutta*>(data);
-  return sundials::evaluate_rate(self, self.dynamics_, self.counts_, self.error_, t, y, y_dot);
+  return sundials::evaluate_rate(self, self.dynamics_, self.conditions_, self.counts_, self.error_,
+                                 t, y, y_dot);
 }
 
 SUNLinearSolver_Type matrix_embedded(SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; }
@@ -100,7 +101,7 @@ int ImplicitRungeKutta::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_V
     check(ARKStepGetCurrentState(self.arkode_.get(), &y), "ARKStepGetCurrentState");
     ++self.counts_.newton_iterations;
     const bool solved = self.newton_.solve(N_VGetArrayPointer(y), gamma, N_VGetArrayPointer(b),
-                                           N_VGetArrayPointer(x), self.counts_);
+                                           N_VGetArrayPointer(x), self.conditions_, self.counts_);
     return solved ? 0 : 1;
   });
 }
@@ -138,7 +139,7 @@ int ImplicitRungeKutta::predict_stage(realtype t, N_Vector z, void* data) {
   self.newton_.begin_iteration();
   const Layout& layout = self.model_.layout;
   double* y = N_VGetArrayPointer(z);
-  const double h = t - self.t_start_;
+  const double h = t - self.conditions_.step_start;
   Eigen::Map<Eigen::VectorXd> vector(y, layout.size());
   vector.segment(layout.velocities(), self.acceleration_.size()) += h * self.acceleration_;
   vector.head(3 * layout.num_free_nodes) +=
@@ -253,9 +254,9 @@ bool ImplicitRungeKutta::evolve_by_either_tangent(const Eigen::VectorXd& start, 
 /// step leads with soft contact, as statics does.
 bool ImplicitRungeKutta::evolve_from_soft_contact(const Eigen::VectorXd& start, double t,
                                                   double h) {
-  dynamics_.set_soft_contact(true);
+  conditions_.contact.soft = true;
   const bool landed = evolve_by_either_tangent(start, t, h);
-  dynamics_.set_soft_contact(false);
+  conditions_.contact.soft = false;
   if (!landed) return false;
   acceleration_ = mean_acceleration(start, view(y_), h);
   return evolve_by_either_tangent(start, t, h, true);
@@ -268,7 +269,7 @@ Eigen::VectorXd ImplicitRungeKutta::mean_acceleration(const Eigen::VectorXd& sta
 
 std::optional<double> ImplicitRungeKutta::advance(Eigen::VectorXd& y, double t, double h) {
   step_ = h;
-  t_start_ = t;
+  conditions_.step_start = t;
   bool done = t_landing_ != t && evolve_by_either_tangent(y, t, h);
   if (!done && has_stiff_contact_) {
     t_landing_ = t;

@@ -52,38 +52,38 @@ void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
   iteration_ = 0;
   first_ = tangent;
   used_consistent_ = false;
-  dynamics_.drop_friction_duals();
+  dynamics_.contact().drop_friction_duals();
   if (!keep_matrix) gamma_ = 0;
 }
 
 void NewtonSystem::begin_iteration() {
-  dynamics_.drop_friction_duals();
+  dynamics_.contact().drop_friction_duals();
   correction_ = 0;
   anderson_.restart();
 }
 
 bool NewtonSystem::needs_matrix(double gamma) const {
-  if (gamma != gamma_ || pattern_ != dynamics_.pattern_id() || has_parted()) return true;
+  if (gamma != gamma_ || pattern_ != dynamics_.matrix().pattern_id() || has_parted()) return true;
   return iteration_ > 0 && residual_ > kSlowFall * last_residual_;
 }
 
 bool NewtonSystem::has_parted() const {
-  const std::vector<double>& now = dynamics_.contact().force_on_bodies();
+  const std::vector<double>& now = dynamics_.now().contact.force_on_bodies();
   for (std::size_t b = 0; b < touching_.size(); ++b)
     if (touching_[b] > 0 && now[b] == 0) return true;
   return false;
 }
 
 bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, SolverCounts& counts) {
-  const fem::BlockMatrix& A = dynamics_.matrix({1, gamma, gamma * gamma, gamma}, tangent);
+  const NewtonEquations equations = dynamics_.assemble({1, gamma, gamma * gamma, gamma}, tangent);
   const Stopwatch watch(solve_seconds_);
   ++counts.factorizations;
   if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
-  const bool ready =
-      prepare_linear(*solver_, A, dynamics_.configuration().x, dynamics_.pressure_part());
+  const bool ready = prepare_linear(*solver_, equations, dynamics_.now().configuration.x);
+  friction_ = &equations.friction;
   gamma_ = ready ? gamma : 0;
-  pattern_ = A.pattern_id();
-  touching_ = dynamics_.contact().force_on_bodies();
+  pattern_ = equations.A.pattern_id();
+  touching_ = dynamics_.now().contact.force_on_bodies();
   tangent_ = tangent;
   return ready;
 }
@@ -103,7 +103,7 @@ bool NewtonSystem::solve_linear(SolverCounts& counts) {
     keep_free_part(model_, r);
     return solve_symmetric(r, w, counts);
   };
-  const FrictionCoupling& coupling = dynamics_.friction_coupling();
+  const FrictionCoupling& coupling = *friction_;
   const bool solved =
       solve_symmetric(mass_rhs_, w_, counts) &&
       (coupling.num_groups() == 0 || solve_with_friction(coupling, solve, mass_rhs_, w_));
@@ -143,13 +143,13 @@ bool NewtonSystem::is_at_end(double gamma) const {
 
 double NewtonSystem::step_fraction(double gamma) const {
   const double motion = largest_motion(gamma);
-  return motion > dynamics_.trusted_motion() ? dynamics_.trusted_motion() / motion : 1;
+  return motion > model_.trusted_motion ? model_.trusted_motion / motion : 1;
 }
 
 bool NewtonSystem::accelerate(double gamma) {
   // Tissue alone is left to Newton's method: a block that was inside out was accelerated into an
   // equilibrium that is none to stay in.
-  if (!dynamics_.touches()) {
+  if (!dynamics_.now().contact.has_patches()) {
     anderson_.restart();
     return false;
   }
@@ -165,24 +165,25 @@ bool NewtonSystem::accelerate(double gamma) {
 /// right hand side r of solve(), which along w changes by γ times the forces' change less part * M
 /// w.
 double NewtonSystem::searched_fraction(double most, const double* y, double gamma, const double* x,
-                                       SolverCounts& counts) {
-  if (!dynamics_.touches() || is_at_end(gamma)) return most;
+                                       const Conditions& conditions, SolverCounts& counts) {
+  if (!dynamics_.now().contact.has_patches() || is_at_end(gamma)) return most;
   const Eigen::Map<const Eigen::VectorXd> start(y, model_.layout.size());
   const Eigen::Map<const Eigen::VectorXd> way(x, model_.layout.size());
-  const double t = dynamics_.configuration().t;
+  const double t = dynamics_.now().configuration.t;
   dynamics_.multiply_mass(w_, weighted_);
   const double slope = -w_.dot(mass_rhs_), inertia = w_.dot(weighted_);
-  forces_ = dynamics_.forces().head(w_.size());
+  forces_ = dynamics_.now().forces.head(w_.size());
   return searched_part(most, slope, [&](double part) {
     ++counts.force_evaluations;
     trial_ = start + part * way;
-    dynamics_.evaluate(trial_.data(), t);
-    return slope + part * inertia - gamma * w_.dot(dynamics_.forces().head(w_.size()) - forces_);
+    dynamics_.evaluate(trial_.data(), t, conditions);
+    return slope + part * inertia -
+           gamma * w_.dot(dynamics_.now().forces.head(w_.size()) - forces_);
   });
 }
 
 bool NewtonSystem::solve(const double* y, double gamma, const double* b, double* x,
-                         SolverCounts& counts) {
+                         const Conditions& conditions, SolverCounts& counts) {
   const Layout& layout = model_.layout;
   const int num_velocities = 3 * layout.num_unknown_blocks();
   // b_x by blocks, a bone's as a rotation vector; then b_v + b_x/γ.
@@ -204,23 +205,24 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   pull_.setZero(3 * model_.num_blocks);
   for (int m = 0; m < layout.num_muscles; ++m) {
     const int i = layout.activations() + m;
-    const double tau = dynamics_.activation_time(y, dynamics_.configuration().t, m);
+    const double tau = activation_time(model_, y, dynamics_.now().configuration.t, m);
     x[i] = b[i] / (1 + gamma / tau);
     // What fibres in tissue pull more is left to the next iteration.
     const int index = model_.muscles[static_cast<std::size_t>(m)].line;
     const auto line = static_cast<std::size_t>(index);
     if (x[i] != 0 && index >= 0)
-      add_line_force(model_.lines[line], dynamics_.configuration(),
-                     dynamics_.lines()[line].tension_per_activation * x[i], pull_);
+      add_line_force(model_.lines[line], dynamics_.now().configuration,
+                     dynamics_.now().lines[line].tension_per_activation * x[i], pull_);
   }
   // D b_x: dampers depend on δv = w − b_x/γ.
-  const Configuration& now = dynamics_.configuration();
+  const Configuration& now = dynamics_.now().configuration;
   for (std::size_t l = 0; l < model_.lines.size(); ++l)
-    if (const double viscosity = dynamics_.lines()[l].viscosity; viscosity != 0)
+    if (const double viscosity = dynamics_.now().lines[l].viscosity; viscosity != 0)
       add_line_force(model_.lines[l], now,
                      -viscosity / gamma * lengthening(model_.lines[l], now, shift_), pull_);
-  dynamics_.add_damping_product(shift_, 1 / gamma, pull_);
-  dynamics_.add_internal_variable_force(b, gamma, pull_);
+  damping_.add_product(dynamics_.now(), shift_, 1 / gamma, pull_);
+  dynamics_.now().contact.add_damping_product(now, shift_, 1 / gamma, pull_);
+  relaxation_.add_known_force(dynamics_.now(), b, gamma, pull_);
   mass_rhs_ += gamma * pull_.head(num_velocities);
   keep_free_part(model_, mass_rhs_);
 
@@ -261,10 +263,10 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   }
   velocity_change_.setZero(3 * model_.num_blocks);
   velocity_change_.head(num_velocities) = velocity_change;
-  dynamics_.update_friction_duals(velocity_change_);
-  dynamics_.correct_internal_variables(b, gamma, w_, x);
+  dynamics_.contact().update_friction_duals(dynamics_.now().configuration, velocity_change_);
+  relaxation_.correct(dynamics_.now(), b, gamma, w_, x);
   double scale = step_fraction(gamma);
-  if (searches) scale = searched_fraction(scale, y, gamma, x, counts);
+  if (searches) scale = searched_fraction(scale, y, gamma, x, conditions, counts);
   if (!searches) anderson_.took(scale, w_);
   changed_ = accelerated || scale < 1;
   if (scale < 1) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;

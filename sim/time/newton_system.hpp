@@ -3,7 +3,9 @@
 #include <limits>
 
 #include "sim/assembly/dynamics.hpp"
+#include "sim/assembly/relaxation_rows.hpp"
 #include "sim/assembly/solver_setup.hpp"
+#include "sim/assembly/tissue_damping.hpp"
 #include "sim/model/state.hpp"
 #include "sim/time/anderson.hpp"
 
@@ -36,9 +38,10 @@ class NewtonSystem {
   void begin_iteration();
 
   /// Solves (I − γ ∂rate/∂y) x = b, reduced to block velocities.
+  /// @param conditions  of the step, for trials of a line search
   /// @return false when the matrix can't be made positive definite or the solver fails
   [[nodiscard]] bool solve(const double* y, double gamma, const double* b, double* x,
-                           SolverCounts& counts);
+                           const Conditions& conditions, SolverCounts& counts);
 
   /// This step did without a consistent matrix: with the projected one it would go the same way.
   bool used_projected_only() const { return !used_consistent_; }
@@ -52,13 +55,13 @@ class NewtonSystem {
   bool needs_matrix(double gamma) const;
   /// A body that was touched where the matrix was taken, whose contact would hold it now, is not.
   bool has_parted() const;
-  /// Part of the correction w that stays within Dynamics::trusted_motion().
+  /// Part of the correction w that stays within Model::trusted_motion.
   double step_fraction(double gamma) const;
   /// w is far below the tolerance, and what touches in balance.
   bool is_at_end(double gamma) const;
   /// Part of the correction w to take, which is x for the whole state y; at most the given one.
   double searched_fraction(double most, const double* y, double gamma, const double* x,
-                           SolverCounts& counts);
+                           const Conditions& conditions, SolverCounts& counts);
   /// Makes w better where the iteration is slow. @return whether it did
   bool accelerate(double gamma);
   /// How far w moves a node or bone at most [m].
@@ -74,6 +77,9 @@ class NewtonSystem {
   const Model& model_;
   Dynamics& dynamics_;
   std::unique_ptr<fem::LinearSolver> solver_;
+  const FrictionCoupling* friction_ = nullptr;  // of the matrix that is factored
+  TissueDamping damping_;
+  RelaxationRows relaxation_;
   Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_, velocity_change_;
   Eigen::VectorXd weighted_, forces_, trial_;            // of the line search
   double gamma_ = 0;                                     // of the matrix that is factored; 0: none

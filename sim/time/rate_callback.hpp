@@ -8,14 +8,15 @@ namespace articular::sim::sundials {
 
 /// y_dot = rate(t, y), unless the integrator is asked to stop. @return 0, or 1 where a force is not
 /// finite
-inline int evaluate_rate(const TimeIntegrator& integrator, Dynamics& dynamics, SolverCounts& counts,
+inline int evaluate_rate(const TimeIntegrator& integrator, Dynamics& dynamics,
+                         const Conditions& conditions, SolverCounts& counts,
                          std::exception_ptr& error, double t, N_Vector y, N_Vector y_dot) {
   return guarded(error, [&] {
     integrator.stop_if_asked();
     ++counts.force_evaluations;
-    dynamics.evaluate(N_VGetArrayPointer(y), t);
+    dynamics.evaluate(N_VGetArrayPointer(y), t, conditions);
     dynamics.rate(N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot));
-    return dynamics.forces().allFinite() ? 0 : 1;
+    return dynamics.now().forces.allFinite() ? 0 : 1;
   });
 }
 

@@ -234,20 +234,21 @@ class Measurement {
     const double h = settings_.step;
     // In statics what nothing holds yet would make it singular: masses stand in for contact.
     const sim::SystemScale scale{1, h, h * h, h};
-    costs_.assembly_seconds = seconds_of([&] { dynamics.matrix(scale, fem::Tangent::Projected); });
-    const fem::BlockMatrix& A = dynamics.matrix(scale, fem::Tangent::Projected);
+    costs_.assembly_seconds =
+        seconds_of([&] { dynamics.assemble(scale, fem::Tangent::Projected); });
+    const sim::NewtonEquations equations = dynamics.assemble(scale, fem::Tangent::Projected);
     const double with_matrix = heap_in_use();
     const auto solver = sim::make_linear_solver(model_);
     bool ready = false;
     // The first time finds an order of the unknowns too, which serves as long as the pattern stays.
     for (int k = 0; k < 2; ++k) {
       const auto start = Clock::now();
-      ready = sim::prepare_linear(*solver, A, dynamics.configuration().x, dynamics.pressure_part());
+      ready = sim::prepare_linear(*solver, equations, dynamics.now().configuration.x);
       costs_.factor_seconds = seconds_since(start);
     }
     costs_.solver_bytes = heap_in_use() - with_matrix;
     if (!ready) return;
-    Eigen::VectorXd w = Eigen::VectorXd::Zero(A.num_blocks() * 3);
+    Eigen::VectorXd w = Eigen::VectorXd::Zero(equations.A.num_blocks() * 3);
     const Eigen::VectorXd b = Eigen::VectorXd::Ones(w.size());
     costs_.solve_seconds = seconds_of([&] {
       w.setZero();

@@ -247,7 +247,7 @@ std::vector<NodalContact> ContactRun::nodal_contacts(const std::string& name,
 Eigen::VectorXd ContactRun::axial_stress(std::size_t tissue) const {
   const Tissue& t = model_.tissues[tissue];
   Positions x;
-  positions_of(stepper_.dynamics().configuration(), t.nodes, x);
+  positions_of(stepper_.now().configuration, t.nodes, x);
   return t.elements.cauchy_stress(x, 0).row(2);
 }
 

@@ -100,7 +100,7 @@ struct Forces {
   }
   const Eigen::VectorXd& at(const Eigen::VectorXd& y) {
     dynamics.evaluate(y.data(), 0);
-    return dynamics.forces();
+    return dynamics.now().forces;
   }
   const Model model;
   Dynamics dynamics;
@@ -113,9 +113,9 @@ TEST(Dynamics, InternalContactAndLineForcesHaveNoNetForceOrMoment) {
   for (int n = 0; n < 20; ++n) {
     const Eigen::VectorXd f = scene.at(random_state(scene.model, 0.05, 0.1, random));
     EXPECT_GT(scene.dynamics.contact_summary(0).force.norm(), 1e-3);
-    EXPECT_GT(scene.dynamics.lines()[0].tension, 0);
-    EXPECT_GT(scene.dynamics.lines()[1].tension, 0);
-    const Configuration& now = scene.dynamics.configuration();
+    EXPECT_GT(scene.dynamics.now().lines[0].tension, 0);
+    EXPECT_GT(scene.dynamics.now().lines[1].tension, 0);
+    const Configuration& now = scene.dynamics.now().configuration;
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
     double sum = 0;  // of all forces
     for (int b = 0; b < scene.model.layout.num_free_nodes; ++b) {
@@ -167,7 +167,7 @@ double matrix_error(Forces& scene, const Eigen::VectorXd& y, double step, bool s
       if (position_scale(model, block) != 1) turning.segment<3>(3 * block).setZero();
     scene.at(y);
     const fem::BlockMatrix& A =
-        scene.dynamics.matrix({1, gamma, gamma * gamma}, fem::Tangent::Consistent);
+        scene.dynamics.assemble({1, gamma, gamma * gamma}, fem::Tangent::Consistent).A;
     Eigen::VectorXd mass;
     scene.dynamics.multiply_mass(w, mass);
     Eigen::VectorXd K = dense_product(A, w) - mass;
@@ -204,9 +204,9 @@ TEST(Dynamics, TheNewtonMatrixIsTheDerivativeOfTheForcesButForTurningLevers) {
   const Eigen::VectorXd y = random_state(scene.model, 0.02, 0, random);
   scene.at(y);
   // The muscle is on the rising side of force-length: falling parts count as zero in the matrix.
-  ASSERT_GT(scene.dynamics.lines()[0].stiffness, 0);
-  ASSERT_GT(scene.dynamics.lines()[0].viscosity, 0);
-  ASSERT_GT(scene.dynamics.lines()[1].tension, 0);
+  ASSERT_GT(scene.dynamics.now().lines[0].stiffness, 0);
+  ASSERT_GT(scene.dynamics.now().lines[0].viscosity, 0);
+  ASSERT_GT(scene.dynamics.now().lines[1].tension, 0);
   // Hill's curve changes its curvature at rest: differences are of first order there.
   EXPECT_LT(matrix_error(scene, y, 1e-6, true), 1e-5);
 }
@@ -219,17 +219,17 @@ TEST(Dynamics, TheNewtonMatrixsDampingIsTheDerivativeByTheVelocities) {
   Eigen::VectorXd y = random_state(model, 0.02, 0.1, random);
   const int begin = model.layout.velocities(), count = 3 * model.layout.num_unknown_blocks();
   scene.at(y);
-  if (scene.dynamics.lines()[1].rate < 0) y.segment(begin, count) *= -1;
+  if (scene.dynamics.now().lines[1].rate < 0) y.segment(begin, count) *= -1;
   scene.at(y);
-  ASSERT_GT(scene.dynamics.lines()[1].damping, 0);  // stretching: the damper works
+  ASSERT_GT(scene.dynamics.now().lines[1].damping, 0);  // stretching: the damper works
   const double gamma = 1e-3, e = 1e-4;
   const Eigen::VectorXd w = random.vector(count);
   const Eigen::VectorXd D =
       0.5 / gamma *
-      (dense_product(scene.dynamics.matrix({1, gamma, gamma * gamma}, fem::Tangent::Consistent),
+      (dense_product(scene.dynamics.assemble({1, gamma, gamma * gamma}, fem::Tangent::Consistent).A,
                      w) -
-       dense_product(scene.dynamics.matrix({1, -gamma, gamma * gamma}, fem::Tangent::Consistent),
-                     w));
+       dense_product(
+           scene.dynamics.assemble({1, -gamma, gamma * gamma}, fem::Tangent::Consistent).A, w));
   const auto at = [&](double by) -> Eigen::VectorXd {
     Eigen::VectorXd there = y;
     there.segment(begin, count) += by * w;
@@ -296,10 +296,10 @@ TEST(Dynamics, TheNewtonSystemSolvesWithTheJacobianOfTheRate) {
   const Eigen::VectorXd b = x - gamma / (2 * e) * (rate(y + e * x) - rate(y - e * x));
 
   scene.at(y);
-  NewtonSystem newton(model, scene.dynamics, 1);
+  NewtonSystem newton(model, scene.dynamics);
   SolverCounts counts;
   Eigen::VectorXd solved(y.size());
-  ASSERT_TRUE(newton.solve(y.data(), gamma, b.data(), solved.data(), counts));
+  ASSERT_TRUE(newton.solve(y.data(), gamma, b.data(), solved.data(), {}, counts));
   EXPECT_EQ(counts.projected_tangents, 0);
   const auto split = model.layout.velocities();
   // Hill's curve changes its curvature at rest: differences are of first order there.

@@ -85,7 +85,7 @@ TEST(Model, AForceOnARegionIsSharedEquallyByItsNodes) {
   load.profile = {{0, 1}, {0.5, 1}};
   s.loads = {load};
   Simulation run(s);
-  const Eigen::VectorXd& f = run.stepper.dynamics().forces();
+  const Eigen::VectorXd& f = run.stepper.now().forces;
   int loaded = 0;
   for (Eigen::Index i = 0; i < f.size() / 3; ++i) {
     if (f.segment<3>(3 * i).norm() < 1e-9) continue;  // round-off of the undeformed tissue

@@ -129,7 +129,7 @@ Eigen::VectorXd pressures_in_tray(double gap, const TemporaryFolder& folder) {
   s.loads = {shift("press", 0.1, {0, 0, -kSide / 100})};
   Simulation run(s);
   run.advance(0.1);
-  const auto surfaces = surface_contacts(run.model, run.stepper.dynamics().contact(), run.now());
+  const auto surfaces = surface_contacts(run.model, run.stepper.now().contact, run.now());
   std::vector<double> below;
   for (Eigen::Index i = 0; i < surfaces[1].node_pressure.size(); ++i)
     if (run.model.bodies[1].collider->X(2, i) < 1e-9) below.push_back(surfaces[1].node_pressure[i]);

@@ -27,7 +27,7 @@ ContactSummary passed_edges(double across, double down, int finer) {
   ContactSearch search(model, {});
   search.find(now, 0.01 * kSide);
   ContactResponse response(model);
-  response.evaluate(now, search.candidates());
+  response.evaluate(now, search.candidates(), {});
   return contact_summaries(model, response, now).at(0);
 }
 
@@ -74,7 +74,7 @@ TEST(EdgesThatMeet, ACubeComesToRestOnTwoLedges) {
     EXPECT_LT(kinetic_energy(run), 1e-6 * weight * kSide);
     double carried = 0;
     for (const ContactSummary& sum :
-         contact_summaries(run.model, run.stepper.dynamics().contact(), run.now())) {
+         contact_summaries(run.model, run.stepper.now().contact, run.now())) {
       carried += std::abs(sum.force.z());
       EXPECT_LT(sum.max_point_depth, 0.1 * kLedge);
     }

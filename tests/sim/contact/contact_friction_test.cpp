@@ -258,7 +258,7 @@ TEST(ContactDrag, ForcesAreEqualAndOppositeWithoutNetMoment) {
   double sum = 0, sideways = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     Positions x;
-    positions_of(now.dynamics.configuration(), model.bodies[b].collider->nodes, x);
+    positions_of(now.dynamics.now().configuration, model.bodies[b].collider->nodes, x);
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
       const Vec3 f = forces[b].col(i);
       force += f;
@@ -284,7 +284,7 @@ Eigen::VectorXd times(const fem::BlockMatrix& A, const Eigen::VectorXd& w) {
 
 /// What friction adds to a product with the last matrix.
 Eigen::VectorXd coupled(const Dynamics& dynamics, const Eigen::VectorXd& w) {
-  const FrictionCoupling& coupling = dynamics.friction_coupling();
+  const FrictionCoupling& coupling = dynamics.matrix().friction_coupling();
   Eigen::VectorXd y = Eigen::VectorXd::Zero(w.size());
   coupling.add_drag(coupling.pressures(w), 1, y);
   return y;
@@ -299,7 +299,7 @@ Eigen::VectorXd minus_derivative(Forces& now, int first, const Eigen::VectorXd& 
     Eigen::VectorXd y = now.y;
     y.segment(first, w.size()) += sign * difference * w;
     now.dynamics.evaluate(y.data(), 0);
-    change -= sign / (2 * difference) * now.dynamics.forces().head(w.size());
+    change -= sign / (2 * difference) * now.dynamics.now().forces.head(w.size());
   }
   return change;
 }
@@ -312,7 +312,7 @@ TEST(ContactDrag, MatrixAndCouplingAreTheDerivativeOfTheForcesByVelocity) {
   Random random(3);
   const Eigen::VectorXd w = random.vector(n);
   const Eigen::VectorXd by_matrix =
-      times(now.dynamics.matrix({0, 1, 0}, fem::Tangent::Consistent), w);
+      times(now.dynamics.assemble({0, 1, 0}, fem::Tangent::Consistent).A, w);
   const Eigen::VectorXd by_both = by_matrix + coupled(now.dynamics, w);
   const Eigen::VectorXd change = minus_derivative(now, model.layout.velocities(), w, 1e-5);
   EXPECT_LT((change - by_both).norm(), 1e-6 * by_both.norm());
@@ -338,7 +338,7 @@ TEST(ContactDrag, CouplingIsTheDerivativeOfFrictionByTheDepth) {
     const int n = 3 * model.layout.num_unknown_blocks();
     const Eigen::VectorXd down = Vec3(0, 0, -1).replicate(n / 3, 1);
     const Eigen::VectorXd by_matrix =
-        times(now.dynamics.matrix({0, 0, 1}, fem::Tangent::Consistent), down);
+        times(now.dynamics.assemble({0, 0, 1}, fem::Tangent::Consistent).A, down);
     const Eigen::VectorXd friction = coupled(now.dynamics, down);
     const Eigen::VectorXd change = minus_derivative(now, 0, down, 1e-7);
     // Along the table; with the depth, friction also gets a longer lever.
@@ -358,11 +358,12 @@ TEST(ContactDrag, MatrixAndProductAreTheDerivativeOfTheForcesByVelocity) {
     const int n = 3 * model.layout.num_unknown_blocks();
     Random random(3);
     const Eigen::VectorXd w = random.vector(n);
-    const fem::BlockMatrix& A = now.dynamics.matrix({0, 1, 0}, fem::Tangent::Consistent);
+    const fem::BlockMatrix& A = now.dynamics.assemble({0, 1, 0}, fem::Tangent::Consistent).A;
     const Eigen::VectorXd by_matrix = times(A, w);
     Eigen::VectorXd all = Eigen::VectorXd::Zero(3 * model.num_blocks), product = all;
     all.head(n) = w;
-    now.dynamics.add_damping_product(all, 1, product);
+    const Moment& moment = now.dynamics.now();
+    moment.contact.add_damping_product(moment.configuration, all, 1, product);
     EXPECT_GT(by_matrix.norm(), 0);
     EXPECT_LT((product.head(n) - by_matrix).norm(), 1e-12 * by_matrix.norm());
 

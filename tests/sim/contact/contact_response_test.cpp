@@ -48,11 +48,11 @@ struct SunkBlock {
     return configuration;
   }
   double energy(const Eigen::VectorXd& state) {
-    response.evaluate(at(state), search.candidates());
+    response.evaluate(at(state), search.candidates(), {});
     return contact_summaries(model, response, configuration)[0].energy;
   }
   Eigen::VectorXd forces(const Eigen::VectorXd& state) {
-    response.evaluate(at(state), search.candidates());
+    response.evaluate(at(state), search.candidates(), {});
     Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * model.num_blocks);
     response.add_force(configuration, f);
     return f;
@@ -139,7 +139,7 @@ double error_of_tangent(SunkBlock& block) {
                           fem::BlockMatrix(block.model.num_blocks, none, offsets), stencils);
   fem::BlockMatrix K(block.model.num_blocks, stencils.blocks, stencils.offsets);
   K.set_zero();
-  block.response.evaluate(block.at(block.y), block.search.candidates());
+  block.response.evaluate(block.at(block.y), block.search.candidates(), {});
   SystemScale scale;
   scale.stiffness = 1;
   ContactStiffness stiffness(block.model);

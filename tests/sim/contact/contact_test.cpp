@@ -74,7 +74,7 @@ TEST(Contact, UniformPressureIsUniformOnTheSurfacesOfBothBodies) {
   press_to_rest(run);
   const double p = kPressure, force = p * kSide * kSide;
   const std::vector<SurfaceContact> surfaces =
-      surface_contacts(run.model, run.stepper.dynamics().contact(), run.now());
+      surface_contacts(run.model, run.stepper.now().contact, run.now());
   for (const std::size_t b : {0, 1}) {
     const Collider& collider = *run.model.bodies[b].collider;
     const double touching = kSide / 2, outward = b == 0 ? 1 : -1;

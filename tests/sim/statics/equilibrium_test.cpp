@@ -200,8 +200,8 @@ TEST(Equilibrium, AttachmentsShareTheWeight) {
   s.attachments.push_back(attach("bar", "floor", {-1, -1, -1e-6}, {1, 1, 1e-6}));
   Simulation run(s);
   run.advance(1);
-  const auto [wall, wall_moment] = run.stepper.dynamics().attachment_force(0, 0);
-  const auto [floor, floor_moment] = run.stepper.dynamics().attachment_force(0, 1);
+  const auto [wall, wall_moment] = attachment_force(run.stepper.now(), 0, 0);
+  const auto [floor, floor_moment] = attachment_force(run.stepper.now(), 0, 1);
   // The nodes that are tied hang on their bones by themselves: one of nine layers, two halves.
   const double weight = 1000 * 9.81 * 0.02 * 0.02 * 0.08;
   EXPECT_NEAR(wall.z() + floor.z(), -weight * 7 / 8, 0.02 * weight);

@@ -104,8 +104,6 @@ inline int bone_of(const Simulation& run, const std::string& name) {
   return body->rigid;
 }
 
-inline double kinetic_energy(const Simulation& run) {
-  return run.stepper.dynamics().kinetic_energy();
-}
+inline double kinetic_energy(const Simulation& run) { return kinetic_energy(run.stepper.now()); }
 
 }  // namespace articular::sim

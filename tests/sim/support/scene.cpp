@@ -104,7 +104,7 @@ Model changed(Model model, const ModelChange& change) {
 
 Vec6 force_and_moment(const Simulation& simulation, int rigid) {
   const int block = simulation.model.rigid_bodies[static_cast<std::size_t>(rigid)].block;
-  return simulation.stepper.dynamics().forces().segment<6>(3 * block);
+  return simulation.stepper.now().forces.segment<6>(3 * block);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ struct Simulation {
   void advance(double until) {
     advance(until, [] {});
   }
-  const Configuration& now() const { return stepper.dynamics().configuration(); }
+  const Configuration& now() const { return stepper.now().configuration; }
   /// Force [N] and moment [N m] on a bone.
   Vec3 force_on(int rigid) const;
   Vec3 moment_on(int rigid) const;

@@ -57,9 +57,10 @@ double largest_frequency(const Model& model) {
   Dynamics dynamics(model);
   const Eigen::VectorXd y = initial_state(model);
   dynamics.evaluate(y.data(), 0);
-  const fem::BlockMatrix& A = dynamics.matrix({0, 0, 1}, fem::Tangent::Consistent);
+  const NewtonEquations equations = dynamics.assemble({0, 0, 1}, fem::Tangent::Consistent);
+  const fem::BlockMatrix& A = equations.A;
   fem::PressureOperator pressure;
-  pressure.set(dynamics.pressure_part().terms);
+  pressure.set(equations.pressure.terms);
   const int size = 3 * A.num_blocks();
   Eigen::MatrixXd K(size, size);
   Eigen::VectorXd root(size);
@@ -68,7 +69,7 @@ double largest_frequency(const Model& model) {
     A.multiply(Eigen::VectorXd::Unit(size, i), column);
     pressure.add_product(Eigen::VectorXd::Unit(size, i), column);
     K.col(i) = column;
-    root[i] = 1 / std::sqrt(dynamics.mass_of(i / 3));
+    root[i] = 1 / std::sqrt(model.node_mass[i / 3]);
   }
   K = root.asDiagonal() * K * root.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (K + K.transpose()));

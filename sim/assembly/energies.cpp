@@ -1,0 +1,65 @@
+#include "sim/assembly/energies.hpp"
+
+namespace articular::sim {
+
+double kinetic_energy(const Moment& now) {
+  const Model& model = now.model;
+  double energy = 0;
+  for (int block = 0; block < model.layout.num_free_nodes; ++block) {
+    energy += 0.5 * model.node_mass[block] * now.configuration.v.col(block).squaredNorm();
+  }
+  for (int r = 0; r < model.layout.num_rigid; ++r) {
+    const auto b = static_cast<std::size_t>(r);
+    const RigidVelocity& velocity = now.configuration.velocities[b];
+    const RigidBody& rigid = model.rigid_bodies[b];
+    if (rigid.hold) {
+      Vec6 both;
+      both << velocity.linear, velocity.angular;
+      energy += 0.5 * both.dot(rigid_mass(rigid, now.configuration.poses[b]) * both);
+      continue;
+    }
+    energy += 0.5 * rigid.mass.mass * velocity.linear.squaredNorm();
+    energy +=
+        0.5 * velocity.angular.dot(world_inertia(model, now.configuration, r) * velocity.angular);
+  }
+  return energy;
+}
+
+double elastic_energy(const Moment& now) {
+  const Model& model = now.model;
+  const auto activation = [&](std::size_t t) {
+    return activation_of(model.tissues[t], now.configuration);
+  };
+  double energy = 0;
+  for (std::size_t t = 0; t < now.tissues.size(); ++t)
+    energy += model.tissues[t].elements.energy(now.tissues[t].x, activation(t));
+  if (model.is_static)
+    for (std::size_t t = 0; t < now.tissues.size(); ++t)
+      if (const auto& relaxation = model.tissues[t].relaxation)
+        energy += relaxation->settled_energy(now.tissues[t].x, activation(t));
+  return energy;
+}
+
+double gravity_energy(const Moment& now) {
+  const Model& model = now.model;
+  double energy = 0;
+  for (const Tissue& tissue : model.tissues)
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+      if (carries_own_weight(model, tissue.nodes[i]))
+        energy -= tissue.lumped_mass[static_cast<Eigen::Index>(i)] *
+                  model.gravity.dot(now.configuration.position(tissue.nodes[i]));
+  for (int r = 0; r < model.layout.num_rigid; ++r) {
+    const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(r)];
+    const Pose& pose = now.configuration.poses[static_cast<std::size_t>(r)];
+    const Vec3 center = pose.p + pose.R * (rigid.mass.center - rigid.rest.p);
+    energy -= rigid.mass.mass * model.gravity.dot(center);
+  }
+  return energy;
+}
+
+double energy_per_activation(const Moment& now, std::size_t tissue) {
+  const TissueElements& elements = now.model.tissues[tissue].elements;
+  return elements.energy(now.tissues[tissue].x, 1) - elements.energy(now.tissues[tissue].x, 0);
+}
+
+}  // namespace articular::sim

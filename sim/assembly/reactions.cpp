@@ -1,0 +1,44 @@
+#include "sim/assembly/reactions.hpp"
+
+#include <utility>
+
+#include "sim/contact/contact_summary.hpp"
+
+namespace articular::sim {
+namespace {
+
+Vec6 reaction_of(const Moment& now, int rigid, bool step_begins) {
+  const auto b = static_cast<std::size_t>(rigid);
+  const RigidBody& held = now.model.rigid_bodies[b];
+  if (!held.unknown) return now.forces.segment<6>(3 * held.block);
+  const Vec6& all = now.rigid_forces[b];
+  if (now.model.is_static) return all - free_part(held, all);
+  return force_on_hold(held, now.configuration.poses[b], now.configuration.velocities[b],
+                       {now.configuration.t, step_begins}, all);
+}
+
+}  // namespace
+
+Vec6 reaction_of(const Moment& now, int rigid) { return reaction_of(now, rigid, now.begins_step); }
+
+Vec6 reaction_as_step_begins(const Moment& now, int rigid) { return reaction_of(now, rigid, true); }
+
+std::pair<Vec3, Vec3> attachment_force(const Moment& now, int tissue, int rigid) {
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  const Tissue& given = now.model.tissues[static_cast<std::size_t>(tissue)];
+  // A collider of tissue has the nodes of its mesh, in their order.
+  const Positions contact =
+      std::move(nodal_contact_forces(now.model, now.contact)[static_cast<std::size_t>(given.body)]);
+  for (std::size_t i = 0; i < given.nodes.size(); ++i) {
+    const NodeRef& node = given.nodes[i];
+    if (node.rigid != rigid) continue;
+    const auto column = static_cast<Eigen::Index>(i);
+    Vec3 pull = -now.tissues[static_cast<std::size_t>(tissue)].force.col(column);
+    if (contact.cols() > 0) pull += contact.col(column);
+    force += pull;
+    moment += now.configuration.lever(node).cross(pull);
+  }
+  return {force, moment};
+}
+
+}  // namespace articular::sim

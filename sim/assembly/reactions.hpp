@@ -1,0 +1,20 @@
+#pragma once
+
+#include <utility>
+
+#include "sim/assembly/moment.hpp"
+
+/// Forces that bodies put on what holds them.
+namespace articular::sim {
+
+/// Force [N] and moment [N m], about its reference point, that a fixed, driven or held body puts on
+/// what holds it.
+Vec6 reaction_of(const Moment& now, int rigid);
+/// The same with the accelerations that a step from there begins with.
+Vec6 reaction_as_step_begins(const Moment& now, int rigid);
+
+/// Force [N] on a rigid body of the tissue that is tied to it, and its moment [N m] about the
+/// body's reference point: elasticity, with its dampers, and what contact puts on the tied nodes.
+std::pair<Vec3, Vec3> attachment_force(const Moment& now, int tissue, int rigid);
+
+}  // namespace articular::sim
