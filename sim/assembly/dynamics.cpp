@@ -54,7 +54,7 @@ void Dynamics::read_internal_variables(std::size_t t, const double* y) {
   tissue.relaxation->settle(now.stress, now.internal_variables);
 }
 
-void Dynamics::count(double force) {
+void Dynamics::note_force(double force) {
   moment_.largest_force = std::max(moment_.largest_force, force);
 }
 
@@ -77,7 +77,7 @@ const Moment& Dynamics::evaluate(const double* y, double t, const Conditions& co
     const Stopwatch watch(times_.contact_force);
     contact_.evaluate(configuration, candidates_, conditions.contact);
     contact_.add_force(configuration, moment_.forces);
-    count(contact_.largest_force());
+    note_force(contact_.largest_force());
   }
   for (std::size_t r = 0; r < moment_.rigid_forces.size(); ++r)
     moment_.rigid_forces[r] = moment_.forces.segment<6>(3 * model_.rigid_bodies[r].block);
@@ -115,10 +115,10 @@ void Dynamics::find_elastic_forces(const double* y, const Conditions& conditions
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       Vec3 force = -f.col(column);
-      count(force.norm());
+      note_force(force.norm());
       if (weighs && carries_own_weight(model_, tissue.nodes[i])) {
         const Vec3 weight = tissue.lumped_mass[column] * model_.gravity;
-        count(weight.norm());
+        note_force(weight.norm());
         force += weight;
       }
       if (tissue.mass_damping > 0 && tissue.nodes[i].rigid < 0)
@@ -141,13 +141,13 @@ void Dynamics::add_loads() {
           (moment_.configuration.poses[static_cast<std::size_t>(r)].R *
            (rigid.mass.center - rigid.rest.p))
               .cross(weight);
-    count(weight.norm());
+    note_force(weight.norm());
   }
   for (const ForceModel& force : model_.forces) {
     ++evaluations_[Term::Load];
     const Vec3 now = value_at(force.profile, moment_.configuration.t) * force.force;
     add_force(moment_.configuration, force.point, now, moment_.forces);
-    count(now.norm());
+    note_force(now.norm());
   }
 }
 
@@ -157,7 +157,7 @@ void Dynamics::add_lines() {
     moment_.lines[l] = line_state(model_, model_.lines[l], moment_.configuration);
     add_line_force(model_.lines[l], moment_.configuration, moment_.lines[l].tension,
                    moment_.forces);
-    count(moment_.lines[l].tension);
+    note_force(moment_.lines[l].tension);
   }
 }
 

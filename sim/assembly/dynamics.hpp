@@ -82,7 +82,8 @@ class Dynamics {
   void read_internal_variables(std::size_t t, const double* y);
   void add_loads();
   void add_lines();
-  void count(double force);
+  /// For Moment::largest_force.
+  void note_force(double force);
 
   const Model& model_;
   ContactResponse contact_;

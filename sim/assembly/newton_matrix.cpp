@@ -17,7 +17,7 @@ std::vector<int> free_block_of_node(const Tissue& tissue) {
   return blocks;
 }
 
-/// Where the blocks of a tissue's matrix go; -1: a bone is involved.
+/// Where the blocks of a tissue's matrix go; -1: a rigid body is involved.
 std::vector<int> slots_of_free_nodes(const fem::BlockMatrix& K, const Tissue& tissue,
                                      const fem::BlockMatrix& A) {
   std::vector<int> slots(static_cast<std::size_t>(K.num_nonzero_blocks()), -1);
@@ -75,8 +75,8 @@ NewtonMatrix::NewtonMatrix(const Model& model)
   build_pattern();
 }
 
-/// Dashpots and relaxation need a matrix of the tissue, and so do nodes whose bone is an unknown,
-/// which the tissue pushes by levers.
+/// Dashpots and relaxation need a matrix of the tissue, and so do nodes whose rigid body is an
+/// unknown, which the tissue pushes by levers.
 bool NewtonMatrix::adds_directly(const Tissue& tissue) const {
   if (tissue.elements.smoothed() != nullptr || tissue.dashpots || tissue.relaxation) return false;
   return std::none_of(tissue.nodes.begin(), tissue.nodes.end(), [this](const NodeRef& node) {
@@ -168,7 +168,7 @@ void NewtonMatrix::make_pressure_gradient(std::size_t t) {
       {corners.data(), static_cast<std::size_t>(corners.size())}, offsets);
 }
 
-/// A node that is tied to a bone pushes the bone, and turns it by its lever.
+/// A node that is tied to a rigid body pushes the rigid body, and turns it by its lever.
 void NewtonMatrix::set_pressure_gradient(std::size_t t, const Moment& now) {
   const Tissue& tissue = model_.tissues[t];
   TissueWork& work = tissues_[t];

@@ -43,7 +43,7 @@ class NewtonMatrix {
   /// A tissue's own matrix, and where its blocks go.
   struct TissueMatrix {
     fem::BlockMatrix K;
-    std::vector<int> slot;  // of each block of K; -1: a bone is involved
+    std::vector<int> slot;  // of each block of K; -1: a rigid body is involved
   };
   struct TissueWork {
     std::optional<fem::StiffnessSlots> direct;  // tissues that need no matrix of their own

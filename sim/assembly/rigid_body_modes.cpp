@@ -24,7 +24,7 @@ struct BodyMotions {
   double radius = 0;           // [m] farthest point from there
 };
 
-/// Free blocks of a body and where they are; a bone's own two blocks are added by the caller.
+/// Free blocks of a body and where they are; a rigid body's own two blocks are added by the caller.
 std::vector<std::pair<int, Vec3>> free_nodes(const Model& model, const Configuration& now,
                                              const BodyModel& body) {
   std::vector<std::pair<int, Vec3>> nodes;
@@ -89,7 +89,7 @@ std::string in_words(const Model& model, const BodyMotions& motions,
       name, axis.x(), axis.y(), axis.z(), mm.x(), mm.y(), mm.z());
 }
 
-/// The largest stiffness of a free node or of a bone's translation [N/m].
+/// The largest stiffness of a free node or of a rigid body's translation [N/m].
 double stiffest_node(const Model& model, const fem::BlockMatrix& K) {
   double stiffest = 0;
   const auto look_at = [&](int block) {

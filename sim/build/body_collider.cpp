@@ -18,8 +18,8 @@ constexpr double kOpenDepth = 0.1;
 /// far below it; what lies deeper is seen from beyond an edge, and was not entered through that
 /// face.
 constexpr double kTissueReach = 0.5;
-/// A bone's face counts as crossed up to this part of half its thickness, so that the faces of its
-/// other side are not.
+/// A rigid body's face counts as crossed up to this part of half its thickness, so that the faces
+/// of its other side are not.
 constexpr double kBoneReach = 0.9;
 /// Cortical bone, where a bone meets a bone without a layer between: E [Pa], nu.
 constexpr double kBoneModulus = 15e9, kBonePoisson = 0.3;
@@ -72,8 +72,8 @@ void report_dropped(const Body& body, Eigen::Index given, Eigen::Index kept, Mod
   model.warnings.push_back(prefix(body.where) + what + " and are left out of contact");
 }
 
-Collider bone_collider(const Body& body, const BodyGeometry& geometry, std::size_t b,
-                       Model& model) {
+Collider rigid_collider(const Body& body, const BodyGeometry& geometry, std::size_t b,
+                        Model& model) {
   const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(model.bodies[b].rigid)];
   const bool shell = geometry.contact.X.cols() > 0 || geometry.mesh.tets.cols() == 0;
   Collider collider;
@@ -120,7 +120,7 @@ void make_colliders(const Scenario& scenario, const std::vector<BodyGeometry>& g
       if (model.bodies[b].tissue >= 0)
         model.bodies[b].collider = tissue_collider(model, b);
       else if (geometry[b].mesh.X.cols() > 0 || geometry[b].contact.X.cols() > 0)
-        model.bodies[b].collider = bone_collider(body, geometry[b], b, model);
+        model.bodies[b].collider = rigid_collider(body, geometry[b], b, model);
     } catch (const std::exception& error) {
       throw InputError(mesh_place(body), fmt::format("body `{}`: {}", body.name, error.what()));
     }

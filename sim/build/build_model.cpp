@@ -41,7 +41,7 @@ class Builder {
   Model build() {
     model_.is_static = scenario_.analysis == Scenario::Analysis::Static;
     read_bodies();
-    make_bones();
+    make_rigid_bodies();
     make_tissues();
     number_blocks();
     carry_tissue_mass();
@@ -75,7 +75,7 @@ class Builder {
     }
   }
 
-  void make_bones() {
+  void make_rigid_bodies() {
     // Rigid ones first: their blocks are unknowns.
     for (const Body::Kind kind : {Body::Kind::Rigid, Body::Kind::Fixed})
       for (std::size_t b = 0; b < scenario_.bodies.size(); ++b) {
@@ -136,7 +136,8 @@ class Builder {
                     flat.count, mesh.tets.cols(), body.name, mm.x(), mm.y(), mm.z()));
   }
 
-  /// Attached nodes to their bones, the others to blocks of their own; then the bones' blocks.
+  /// Attached nodes to their rigid bodies, the others to blocks of their own; then the rigid
+  /// bodies' blocks.
   void number_blocks() {
     for (const Attachment& attachment : scenario_.attachments) {
       const auto b = static_cast<std::size_t>(body_index(attachment.body));
@@ -186,7 +187,7 @@ class Builder {
     }
   }
 
-  /// Tissue nodes attached to a rigid bone add their mass to it; its centre of mass moves.
+  /// Tissue nodes attached to a rigid body add their mass to it; its centre of mass moves.
   void carry_tissue_mass() {
     for (std::size_t r = 0; r < model_.rigid_bodies.size(); ++r) {
       RigidBody& rigid = model_.rigid_bodies[r];

@@ -17,7 +17,7 @@ namespace {
 /// afar a stiff iteration is thrown back and forth. In time, where that ends by how far things
 /// still move, it takes the accurate preset's tolerance, which asks for it: what is left of motion
 /// is noise of the forces; by other tolerances a tenth of it is enough. Explicit steps are as long
-/// as the stiffness lets them. Two bones, which give way nowhere, have nothing of it.
+/// as the stiffness lets them. Two rigid bodies, which give way nowhere, have nothing of it.
 constexpr double kSoftFactor = 10, kFirmFactor = 100, kStiffFactor = 1000;
 
 double stiffness_factor(const Scenario& scenario, bool averaged) {
@@ -40,9 +40,9 @@ double mean_face_area(const Collider& collider) {
 }
 
 /// Whose triangles look for the other's faces, and at whose nodes depths are averaged: of tissue
-/// where it meets bone, of the softer or, much alike, the finer of two tissues, of the finer of two
-/// bones. Both sides at once would hold the bodies apart at more nodes than the coarser one has to
-/// give way with, and cost twice as much.
+/// where it meets rigid body, of the softer or, much alike, the finer of two tissues, of the finer
+/// of two rigid bodies. Both sides at once would hold the bodies apart at more nodes than the
+/// coarser one has to give way with, and cost twice as much.
 bool is_nonmortar(const Model& model, int a, int b, const Collider& A, const Collider& B) {
   constexpr double kMuchSofter = 3;
   const auto modulus = [&](int body) {
@@ -66,8 +66,8 @@ void add_contact(const Scenario& scenario, int a, int b, const ContactPair& pair
   contact.b = b;
   const bool is_static = model.is_static;
   const Scenario::Response response = scenario.contact_response;
-  // In time two bones count depths point by point: there is no tissue whose facets averages let
-  // give way, and where edges slip off each other stiff contact would make energy.
+  // In time two rigid bodies count depths point by point: there is no tissue whose facets averages
+  // let give way, and where edges slip off each other stiff contact would make energy.
   const bool has_tissue = model.bodies[static_cast<std::size_t>(a)].tissue >= 0 ||
                           model.bodies[static_cast<std::size_t>(b)].tissue >= 0;
   contact.averaged = is_static || (has_tissue && response == Scenario::Response::Averaged);

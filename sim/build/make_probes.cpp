@@ -62,13 +62,13 @@ struct Resolver {
   }
 
   Observed operator()(const AttachmentProbe& attachment) const {
-    const int tissue = body(attachment.tissue).tissue, rigid = body(attachment.bone).rigid;
+    const int tissue = body(attachment.tissue).tissue, rigid = body(attachment.rigid).rigid;
     const auto& nodes = model.tissues[static_cast<std::size_t>(tissue)].nodes;
     const auto is_tied = [&](const NodeRef& node) { return node.rigid == rigid; };
     if (std::none_of(nodes.begin(), nodes.end(), is_tied))
       throw InputError(probe.where,
                        fmt::format("[[probe]] `{}`: no node of `{}` is attached to `{}`",
-                                   probe.name, attachment.tissue, attachment.bone));
+                                   probe.name, attachment.tissue, attachment.rigid));
     return ObservedAttachment{tissue, rigid};
   }
 

@@ -20,8 +20,8 @@ bool may_face(const FaceBounds& s, const FaceBounds& face) {
   return s.normal.dot(face.normal) <= -0.5 * kFacingNone;
 }
 
-/// A triangle and a face that move with the same bone, or share a node, do not touch: tissue tied
-/// to a bone, or neighbours in one tissue.
+/// A triangle and a face that move with the same rigid body, or share a node, do not touch: tissue
+/// tied to a rigid body, or neighbours in one tissue.
 bool tied(const Collider& a, int triangle, const Collider& b, int face) {
   for (const int i : a.surface.faces.col(triangle))
     for (const int j : b.surface.faces.col(face)) {
@@ -97,7 +97,7 @@ ContactSearch::ContactSearch(const Model& model, const StepSettings& settings) :
 }
 
 bool ContactSearch::needs_update(const Moving& moving, double margin) const {
-  // Fixed bones are mapped once (for a margin).
+  // Fixed rigid bodies are mapped once (for a margin).
   return moving.margin != margin || moves(moving);
 }
 
@@ -184,7 +184,7 @@ void ContactSearch::search(int contact, Moving& a, Moving& b, double margin,
   const ContactModel& pair = model_.contacts[static_cast<std::size_t>(contact)];
   collect(found_of_a_, found_of_b_, a, b, pair.averaged, margin, of_a_);
   collect(found_of_b_, found_of_a_, b, a, pair.averaged, margin, of_b_);
-  const Direction &own = pair.reversed ? of_b_ : of_a_, &other = pair.reversed ? of_a_ : of_b_;
+  const SideCandidates &own = pair.reversed ? of_b_ : of_a_, &other = pair.reversed ? of_a_ : of_b_;
   CandidateList& list = next_list(contact);
   list.pairs = own.near;
   merge(own.deep, list.pairs);
@@ -193,13 +193,13 @@ void ContactSearch::search(int contact, Moving& a, Moving& b, double margin,
 }
 
 void ContactSearch::collect(const Penetrations& found, const Penetrations& reverse, const Moving& a,
-                            const Moving& b, bool averaged, double margin, Direction& direction) {
+                            const Moving& b, bool averaged, double margin, SideCandidates& side) {
   const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
   const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
   const DepthRange range = depth_range(A, B, averaged);
-  std::vector<ContactCandidate>& pairs = direction.near;
+  std::vector<ContactCandidate>& pairs = side.near;
   pairs.clear();
-  direction.deep.clear();
+  side.deep.clear();
   deep_.clear();
   std::fill(seen_.begin(), seen_.end(), -1);
   for (std::size_t first = 0, end = 0; first < found.size(); first = end) {
@@ -223,7 +223,7 @@ void ContactSearch::collect(const Penetrations& found, const Penetrations& rever
     if (deep) deep_.push_back({first, end});
   }
   drop_far_faces(reverse, B.face_area.size(), pairs);
-  add_deep_pairs(found, a, b, range, margin, direction.deep);
+  add_deep_pairs(found, a, b, range, margin, side.deep);
 }
 
 /// For triangles that lie deeper below the other surface than the range reaches: the faces behind

@@ -79,7 +79,7 @@ class ContactSearch {
   bool needs_update(const Moving& moving, double margin) const;
   bool moves(const Moving& moving) const;
   /// Candidates among triangles of one body and faces of another.
-  struct Direction {
+  struct SideCandidates {
     std::vector<ContactCandidate> near, deep;
   };
   void search(int contact, Moving& a, Moving& b, double margin, PenetrationCost& cost);
@@ -88,7 +88,7 @@ class ContactSearch {
   /// @param found    triangles of a in tetrahedra of b
   /// @param reverse  of b in a
   void collect(const Penetrations& found, const Penetrations& reverse, const Moving& a,
-               const Moving& b, bool averaged, double margin, Direction& direction);
+               const Moving& b, bool averaged, double margin, SideCandidates& side);
   void add_deep_pairs(const Penetrations& found, const Moving& a, const Moving& b,
                       const DepthRange& range, double margin, std::vector<ContactCandidate>& pairs);
 
@@ -105,7 +105,7 @@ class ContactSearch {
   double margin_ = 0;      // [m]
   double open_depth_ = 0;  // [m] largest of all sides that are averaged over
   Penetrations found_of_a_, found_of_b_;
-  Direction of_a_, of_b_;
+  SideCandidates of_a_, of_b_;
   std::vector<int> seen_;  // per face: last triangle that it was paired with
   /// Triangles that may lie deeper in the other body than the range reaches, with what was found of
   /// each: found[begin .. end).

@@ -28,7 +28,7 @@ bool lacks(const fem::BlockMatrix& A, std::span<const int> rows, std::span<const
 }
 
 /// Pointwise, a candidate couples the triangle with the face; each is coupled in itself as part of
-/// an element or a bone.
+/// an element or a rigid body.
 void append_missing_pairs(const Model& model, const CandidateList& list, const Collider& triangles,
                           const Collider& faces, const fem::BlockMatrix& A, Stencils& stencils) {
   std::vector<int> of_triangle, of_face;

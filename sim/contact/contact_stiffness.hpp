@@ -42,8 +42,8 @@ class ContactStiffness {
                              double scale, fem::BlockMatrix& A);
 
   const Model& model_;
-  // Scratch: the patches of each group of the direction, those of a triangle, a gradient by blocks,
-  // and what couples one group.
+  // Scratch: the patches of each group of the pair state, those of a triangle, a gradient by
+  // blocks, and what couples one group.
   std::vector<int> patch_begin_, patch_of_group_, group_;
   Positions gradient_;
   std::vector<int> blocks_;

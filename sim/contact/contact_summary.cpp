@@ -103,13 +103,13 @@ ContactSummary finished(const Model& model, SummarySums sums, const Configuratio
 std::vector<ContactSummary> contact_summaries(const Model& model, const ContactResponse& response,
                                               const Configuration& configuration) {
   const auto all = [](const ContactPairState::Patch&) { return true; };
-  const auto directions = response.pair_states();  // those of a contact lie side by side
+  const auto pair_states = response.pair_states();  // those of a contact lie side by side
   std::vector<ContactSummary> result;
-  for (std::size_t d = 0; d < directions.size();) {
-    const int contact = directions[d]->contact;
+  for (std::size_t d = 0; d < pair_states.size();) {
+    const int contact = pair_states[d]->contact;
     SummarySums sums = no_summary(model, contact);
-    for (; d < directions.size() && directions[d]->contact == contact; ++d)
-      add_to_summary(model, *directions[d], configuration, all, sums);
+    for (; d < pair_states.size() && pair_states[d]->contact == contact; ++d)
+      add_to_summary(model, *pair_states[d], configuration, all, sums);
     result.push_back(finished(model, std::move(sums), configuration));
   }
   return result;

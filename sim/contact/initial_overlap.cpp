@@ -20,14 +20,14 @@ bool is_inside(const Vec3& x, const Collider& body, int tetrahedron) {
 
 /// The nodes of a surface that lie in another body, from the pairs that meet.
 void add_nodes_inside(const std::vector<collision::Penetration>& pairs, const Collider& surface,
-                      const Collider& body, int bone_of_body, InitialOverlap& overlap) {
+                      const Collider& body, int rigid_of_body, InitialOverlap& overlap) {
   if (pairs.empty()) return;
   const TriangleTree faces(body.X, body.surface.faces);
   std::vector<char> counted(static_cast<std::size_t>(surface.X.cols()), 0);
   for (const collision::Penetration& pair : pairs)
     for (const int i : surface.surface.faces.col(pair.face)) {
       const auto node = static_cast<std::size_t>(i);
-      const bool tied = bone_of_body >= 0 && surface.nodes[node].rigid == bone_of_body;
+      const bool tied = rigid_of_body >= 0 && surface.nodes[node].rigid == rigid_of_body;
       const Vec3 x = surface.X.col(i);
       if (tied || counted[node] != 0 || !is_inside(x, body, pair.tetrahedron)) continue;
       counted[node] = 1;

@@ -15,7 +15,7 @@ struct InitialOverlap {
 };
 
 /// Of every contact pair of two bodies. Nodes that are tied to the other body don't count; of a
-/// bone that is known by its surface alone, depths end at its shell.
+/// rigid body that is known by its surface alone, depths end at its shell.
 std::vector<InitialOverlap> initial_overlaps(const Model& model);
 
 }  // namespace articular::sim

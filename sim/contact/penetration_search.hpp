@@ -21,8 +21,8 @@ struct PenetrationCost {
 /// Positions of bodies in, sorted pairs out: which surface triangles enter which tetrahedra, by one
 /// of the trees of the collision module. The pairs are the same with either.
 ///
-/// move() and fit() are the halves of an update: a body that turns out to be near no other needs
-/// the first alone.
+/// move() and fit() are the halves of an update of blocks: a body that turns out to be near no
+/// other needs the first alone. Buckets are filled by move().
 class PenetrationSearch {
  public:
   virtual ~PenetrationSearch() = default;

@@ -27,7 +27,7 @@ RigidVelocity velocity_of_motion(const Model& model, const RigidBody& rigid, con
   return driven_velocity(*rigid.motion, rest, t);
 }
 
-/// From where its free freedoms took a held bone.
+/// From where its free freedoms took a held rigid body.
 void add_drive(const Model& model, const RigidBody& rigid, double t, Pose& pose,
                RigidVelocity& velocity) {
   const RigidVelocity drive = velocity_of_motion(model, rigid, Pose{}, t);

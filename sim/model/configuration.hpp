@@ -8,11 +8,11 @@ namespace articular::sim {
 struct Configuration {
   double t = 0;
   Positions x, v;                         // free nodes, by block
-  std::vector<Pose> poses;                // bones
-  std::vector<RigidVelocity> velocities;  // bones
+  std::vector<Pose> poses;                // rigid bodies
+  std::vector<RigidVelocity> velocities;  // rigid bodies
   Eigen::VectorXd activation;
 
-  /// From the bone's reference point to the node [m].
+  /// From the rigid body's reference point to the node [m].
   Vec3 lever(const NodeRef& node) const {
     return poses[static_cast<std::size_t>(node.rigid)].R * node.local;
   }
@@ -32,8 +32,8 @@ struct Configuration {
 /// @param y  in the order of Layout; quaternions need not be of unit length
 void read_state(const Model& model, const double* y, double t, Configuration& configuration);
 
-/// What a motion adds to a held bone at a time: a shift, and the turn that the bone makes before
-/// that of its free freedoms, whose axes stand in space.
+/// What a motion adds to a held rigid body at a time: a shift, and the turn that the rigid body
+/// makes before that of its free freedoms, whose axes stand in space.
 Pose drive_of(const RigidBody& rigid, double t);
 inline Pose with_drive(const Pose& free, const Pose& drive) {
   return {free.p + drive.p, free.R * drive.R};
@@ -52,8 +52,8 @@ Mat3 world_inertia(const Model& model, const Configuration& configuration, int r
 void velocities_of(const Configuration& configuration, const std::vector<NodeRef>& nodes,
                    Positions& v);
 
-/// Adds a force at a node to block forces: 3 entries a block, a bone's moment about its reference
-/// point.
+/// Adds a force at a node to block forces: 3 entries a block, a rigid body's moment about its
+/// reference point.
 inline void add_force(const Configuration& configuration, const NodeRef& node, const Vec3& force,
                       Eigen::VectorXd& f) {
   f.segment<3>(3 * node.block) += force;

@@ -19,7 +19,8 @@ Vec6 gyroscopic_force(const RigidBody& rigid, const Pose& pose, const Vec3& omeg
   return force;
 }
 
-/// Of the rates of a bone's velocities, what its drive gives them: s̈, ω_f × R_f ω_D + R_f ω̇_D.
+/// Of the rates of a rigid body's velocities, what its drive gives them: s̈, ω_f × R_f ω_D + R_f
+/// ω̇_D.
 Vec6 driven_part(const RigidBody& rigid, const Pose& pose, const RigidVelocity& velocity,
                  Instant at) {
   if (!rigid.motion) return Vec6::Zero();

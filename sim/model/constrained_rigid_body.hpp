@@ -5,9 +5,10 @@
 #include "sim/model/configuration.hpp"
 #include "sim/scenario/driven_motion.hpp"
 
-/// Rigid bones of which some freedoms are held: no velocity along axes that stand in space, of the
-/// point p of the bone's pose. Translations of that point and a rotation about one axis through it
-/// (two held) stay where they are to round-off, as their velocities are none in every stage.
+/// Rigid bodies of which some freedoms are held: no velocity along axes that stand in space, of the
+/// point p of the rigid body's pose. Translations of that point and a rotation about one axis
+/// through it (two held) stay where they are to round-off, as their velocities are none in every
+/// stage.
 ///
 /// The point need not be the centre of mass, which lies at c = R center from it:
 ///
@@ -26,25 +27,28 @@ namespace articular::sim {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/// Of block forces or velocities of a bone (translation, rotation): the part along its free ones.
+/// Of block forces or velocities of a rigid body (translation, rotation): the part along its free
+/// ones.
 Vec6 free_part(const RigidBody& rigid, const Vec6& value);
 
-/// The same for all bones, in a vector over blocks.
+/// The same for all rigid bodies, in a vector over blocks.
 void keep_free_part(const Model& model, Eigen::VectorXd& blocks);
 
-/// Mass matrix of a bone about the point of its pose [kg, kg m, kg m²].
+/// Mass matrix of a rigid body about the point of its pose [kg, kg m, kg m²].
 Mat6 rigid_mass(const RigidBody& rigid, const Pose& pose);
 
-/// Rates v̇_f, ω̇_f of a bone's free freedoms [m/s², rad/s²] under block forces about its point.
+/// Rates v̇_f, ω̇_f of a rigid body's free freedoms [m/s², rad/s²] under block forces about its
+/// point.
 Vec6 rigid_acceleration(const RigidBody& rigid, const Pose& pose, const RigidVelocity& velocity,
                         Instant at, const Vec6& force);
 
-/// Force and moment, about the bone's point, that it puts on what holds it.
+/// Force and moment, about the rigid body's point, that it puts on what holds it.
 Vec6 force_on_hold(const RigidBody& rigid, const Pose& pose, const RigidVelocity& velocity,
                    Instant at, const Vec6& force);
 
-/// Way of a bone's driven freedoms from one time to another [m, rad] in the world's axes: its shift
-/// and, as a rotation vector, its turn, with R_f as it is where the bone has the rotation R at t.
+/// Way of a rigid body's driven freedoms from one time to another [m, rad] in the world's axes: its
+/// shift and, as a rotation vector, its turn, with R_f as it is where the rigid body has the
+/// rotation R at t.
 Vec6 driven_way(const RigidBody& rigid, double t_from, double t_to, const Mat3& R, double t);
 
 /// Rows and columns of held freedoms out of a matrix over the unknown blocks, with something

@@ -25,7 +25,7 @@ struct JointFrame {
 
 /// The proximal body's lateral axis and the distal one's up axis stay as they are given; the other
 /// of the two is made square to it.
-/// @param rest  the bone's pose at the start, with no rotation
+/// @param rest  the rigid body's pose at the start, with no rotation
 /// @throws InputError  at `where` when the two are parallel
 JointFrame proximal_frame(const JointSide& side, bool is_right, int rigid, const Pose& rest,
                           const Location& where);

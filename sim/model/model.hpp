@@ -23,17 +23,17 @@
 /// The scene made ready to compute: immutable, holding only what the scene requires. How it is
 /// moved on is said by StepSettings, what is written of it by the scenario.
 ///
-/// Unknown velocities come in blocks of three: one block a free tissue node, then two a rigid bone
-/// (velocity of its centre of mass, angular velocity). Bones that are fixed or driven have two
-/// blocks too, after all unknown ones: forces on them are reactions.
+/// Unknown velocities come in blocks of three: one block a free tissue node, then two a rigid body
+/// (velocity of its centre of mass, angular velocity). Rigid bodies that are fixed or driven have
+/// two blocks too, after all unknown ones: forces on them are reactions.
 namespace articular::sim {
 
-/// A point of a body by what moves it: a free tissue node's block, or a bone's two blocks and the
-/// point's place in the bone's frame.
+/// A point of a body by what moves it: a free tissue node's block, or a rigid body's two blocks and
+/// the point's place in the rigid body's frame.
 struct NodeRef {
   int block = 0;              // first block
   int rigid = -1;             // index into Model::rigid_bodies, or -1 for a free node
-  Vec3 local = Vec3::Zero();  // in the bone's frame [m]
+  Vec3 local = Vec3::Zero();  // in the rigid body's frame [m]
 };
 
 struct RigidBody {
@@ -93,13 +93,13 @@ struct BodyModel {
   Body::Kind kind = Body::Kind::Fixed;
   int tissue = -1;  // index into Model::tissues
   int rigid = -1;   // index into Model::rigid_bodies
-  Positions X;      // bones: what is drawn, in the bone's frame [m]
+  Positions X;      // rigid bodies: what is drawn, in the rigid body's frame [m]
   Triangles triangles;
-  bool touches_as_drawn = true;  // a bone: not by surfaces of their own
+  bool touches_as_drawn = true;  // a rigid body: not by surfaces of their own
   std::optional<Collider> collider;
 };
 
-/// A point of a line or a load: a bone's point, or a mean over tissue nodes.
+/// A point of a line or a load: a rigid body's point, or a mean over tissue nodes.
 struct WeightedPoint {
   std::vector<NodeRef> nodes;
   std::vector<double> weights;  // sum 1
@@ -200,7 +200,7 @@ struct ProbeModel {
 };
 
 /// Where everything stands in the state vector y:
-/// [free tissue x | per rigid bone: p, quaternion (w x y z) | free tissue v | per rigid bone: v, ω
+/// [free tissue x | per rigid body: p, quaternion (w x y z) | free tissue v | per rigid body: v, ω
 /// | activations | internal variables of relaxing tissues]
 struct Layout {
   int num_free_nodes = 0, num_rigid = 0, num_muscles = 0, num_internal_variables = 0;
@@ -221,7 +221,8 @@ struct Model {
   bool is_static = false;  // equilibrium under loads over time; else motion in time
   std::vector<BodyModel> bodies;
   std::vector<Tissue> tissues;
-  std::vector<RigidBody> rigid_bodies;  // rigid ones first: bone r < layout.num_rigid is unknown
+  std::vector<RigidBody>
+      rigid_bodies;  // rigid ones first: rigid body r < layout.num_rigid is unknown
   std::vector<Line> lines;
   std::vector<MuscleModel> muscles;
   std::vector<LigamentModel> ligaments;
@@ -237,7 +238,7 @@ struct Model {
   /// holds.
   double trusted_motion = std::numeric_limits<double>::infinity();
   Eigen::VectorXd node_mass;  // [kg] of each free tissue node, by block
-  int num_blocks = 0;         // with the blocks of fixed and driven bones
+  int num_blocks = 0;         // with the blocks of fixed and driven rigid bodies
   /// Of the whole run: elements, linear solver and contact search share it, one after the other.
   std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1);
   fem::SolverChoice linear_solver;

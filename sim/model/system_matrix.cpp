@@ -6,7 +6,7 @@ namespace articular::sim {
 namespace {
 
 bool is_unknown(const Model& model, const NodeRef& node) {
-  return node.rigid < model.layout.num_rigid;  // free nodes: bone = -1
+  return node.rigid < model.layout.num_rigid;  // free nodes: rigid body = -1
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ void add_stiffness(const Model& model, const Configuration& configuration, const
                    const NodeRef& j, const Mat3& stiffness, fem::BlockMatrix& A) {
   if (!is_unknown(model, i) || !is_unknown(model, j)) return;
   const auto add = [&A](int row, int column, const Mat3& K) { A.block(A.slot(row, column)) += K; };
-  // A bone's point moves by δp − [r]× δθ, and its force turns the bone by [r]× f.
+  // A rigid body's point moves by δp − [r]× δθ, and its force turns the rigid body by [r]× f.
   add(i.block, j.block, stiffness);
   Mat3 turned = Mat3::Zero();
   if (j.rigid >= 0) {
@@ -37,7 +37,7 @@ void add_stiffness(const Model& model, const Configuration& configuration, const
 
 namespace {
 
-/// The blocks that six nodes move with, each once; a bone's two stand together.
+/// The blocks that six nodes move with, each once; a rigid body's two stand together.
 struct Gathered {
   static constexpr int kMost = 12;
   std::array<int, kMost> block{};
@@ -62,7 +62,7 @@ struct Gathered {
 
 using GatheredFactor = Eigen::Matrix<double, 3 * Gathered::kMost, 10>;
 
-/// A bone's node moves by δp − [r]× δθ, and so its force turns the bone by [r]× f.
+/// A rigid body's node moves by δp − [r]× δθ, and so its force turns the rigid body by [r]× f.
 GatheredFactor gathered_factor(const Configuration& configuration,
                                const std::array<const NodeRef*, 6>& nodes, const Gathered& gathered,
                                const SixNodeFactor& factor) {
@@ -116,7 +116,7 @@ void add_product(const Model& model, const Configuration& configuration,
     return add_gathered(gathered, left.bottomRows<9>(), right.bottomRows<9>(), A);
   const GatheredFactor l = gathered_factor(configuration, nodes, gathered, left),
                        r = gathered_factor(configuration, nodes, gathered, right);
-  if (gathered.count == 5)  // three free nodes and a bone
+  if (gathered.count == 5)  // three free nodes and a rigid body
     return add_gathered(gathered, l.topRows<15>(), r.topRows<15>(), A);
   add_gathered(gathered, l.topRows(3 * gathered.count), r.topRows(3 * gathered.count), A);
 }

@@ -15,7 +15,7 @@ struct SystemScale {
   double step = std::numeric_limits<double>::infinity();
 };
 
-/// Blocks of unknowns that a set of nodes moves with; fixed and driven bones have none.
+/// Blocks of unknowns that a set of nodes moves with; fixed and driven rigid bodies have none.
 void append_blocks(const Model& model, const NodeRef& node, std::vector<int>& blocks);
 
 /// Lists of blocks that are coupled, from which a pattern is built.
@@ -24,14 +24,14 @@ struct Stencils {
   void close() { offsets.push_back(static_cast<int>(blocks.size())); }
 };
 
-/// A += stiffness between two nodes, carried over to bones by their levers. Adds block (i, j) only:
-/// call it for (j, i) with the transpose too.
+/// A += stiffness between two nodes, carried over to rigid bodies by their levers. Adds block (i,
+/// j) only: call it for (j, i) with the transpose too.
 void add_stiffness(const Model& model, const Configuration& configuration, const NodeRef& i,
                    const NodeRef& j, const Mat3& stiffness, fem::BlockMatrix& A);
 
 using SixNodeFactor = Eigen::Matrix<double, 18, 10>;
 
-/// A += left·rightᵀ + right·leftᵀ, a stiffness of six nodes, carried over to bones.
+/// A += left·rightᵀ + right·leftᵀ, a stiffness of six nodes, carried over to rigid bodies.
 void add_product(const Model& model, const Configuration& configuration,
                  const std::array<const NodeRef*, 6>& nodes, const SixNodeFactor& left,
                  const SixNodeFactor& right, fem::BlockMatrix& A);

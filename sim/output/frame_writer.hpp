@@ -68,7 +68,7 @@ class FrameWriter {
 
   void write_tissue(const TissueFrame& frame, int index, double time);
   void write_rigid_body(const RigidBodyFrame& frame, int index, double time);
-  /// A bone that stands still since frame `first`: that frame's file again.
+  /// A rigid body that stands still since frame `first`: that frame's file again.
   void repeat_rigid_body(const std::string& body, int first, int index, double time);
   /// As BODY_contact_000123.vtp.
   void write_contact_surface(const ContactSurfaceFrame& frame, int index, double time);

@@ -67,7 +67,7 @@ bool can_touch(const Model& model, int body) {
       [&](const ContactModel& contact) { return contact.a == body || contact.b == body; });
 }
 
-/// The drawn mesh of a bone is also what touches: its nodes are the collider's first ones.
+/// The drawn mesh of a rigid body is also what touches: its nodes are the collider's first ones.
 bool draws_contact_surface(const Model& model, int body) {
   return can_touch(model, body) && model.bodies[static_cast<std::size_t>(body)].touches_as_drawn;
 }

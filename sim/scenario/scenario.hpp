@@ -132,8 +132,8 @@ struct Continuation {
   double easing = 0;               // [m], over which the slope at the cut fades out
 };
 
-/// A mesh file of a body. For contact of bones: only faces whose normal is within 80 degrees of
-/// `facing` (if given) take part.
+/// A mesh file of a body. For contact of rigid bodies: only faces whose normal is within 80 degrees
+/// of `facing` (if given) take part.
 struct MeshFile {
   std::filesystem::path path;  // as resolved against the scenario's folder, variables replaced
   double unit = 1e-3;          // [m] per unit of the file
@@ -163,7 +163,7 @@ struct Body {
       geometry;
   Placement placement;  // of a built-in geometry
 
-  std::vector<MeshFile> contact_meshes;  // bones: surfaces that touch, in place of the mesh
+  std::vector<MeshFile> contact_meshes;  // rigid bodies: surfaces that touch, in place of the mesh
   bool collides = true;
   std::optional<TissueMaterial> material;  // tissue: needed
   std::optional<double> density;           // [kg/m^3]; tissue: needed; rigid: or mass
@@ -173,14 +173,14 @@ struct Body {
       inertia;  // [kg m^2], rigid, about the centre of mass; default from the mesh
   std::optional<Layer> layer;
   std::optional<double>
-      shell_thickness;           // [m], depth of the collision elements under a bone's surface
-  Vec3 velocity = Vec3::Zero();  // [m/s] at the start
+      shell_thickness;  // [m], depth of the collision elements under a rigid body's surface
+  Vec3 velocity = Vec3::Zero();          // [m/s] at the start
   Vec3 angular_velocity = Vec3::Zero();  // [rad/s] at the start, rigid
   std::optional<Hold> hold;              // rigid
   Location where;
 };
 
-/// Tissue nodes of a region move with a bone.
+/// Tissue nodes of a region move with a rigid body.
 struct Attachment {
   std::string body;  // tissue
   std::string to;    // fixed or rigid
@@ -188,8 +188,8 @@ struct Attachment {
   Location where;
 };
 
-/// A point of a line or a load: a point of a bone, or the nearest surface node of a tissue, spread
-/// over the tissue's surface nodes within `radius` if radius > 0 (equal weights).
+/// A point of a line or a load: a point of a rigid body, or the nearest surface node of a tissue,
+/// spread over the tissue's surface nodes within `radius` if radius > 0 (equal weights).
 struct Anchor {
   std::string body;
   Vec3 point = Vec3::Zero();  // [m], world at the start
@@ -302,10 +302,10 @@ struct ReactionProbe {
   std::string body;
 };
 
-/// What a tissue puts on a bone by the nodes attached to it.
+/// What a tissue puts on a rigid body by the nodes attached to it.
 struct AttachmentProbe {
   std::string tissue;
-  std::string bone;
+  std::string rigid;
 };
 
 /// The forces of some probes divided by those of others, both along a direction.

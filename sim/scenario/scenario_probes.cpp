@@ -112,10 +112,10 @@ Target read_attachment(const TableReader& table, const Context& context, const N
   const Node::List& bodies = read_list(table.at("bodies"), "a tissue and a bone", 2);
   AttachmentProbe attachment;
   attachment.tissue = read_body_of_kind(bodies[0], context, Body::Kind::Tissue, "tissue");
-  const Body& bone = read_body_reference(bodies[1], context);
-  if (bone.kind == Body::Kind::Tissue)
-    fail(bodies[1], fmt::format("expected a fixed or rigid body, body `{}` is tissue", bone.name));
-  attachment.bone = bone.name;
+  const Body& rigid = read_body_reference(bodies[1], context);
+  if (rigid.kind == Body::Kind::Tissue)
+    fail(bodies[1], fmt::format("expected a fixed or rigid body, body `{}` is tissue", rigid.name));
+  attachment.rigid = rigid.name;
   return attachment;
 }
 

@@ -60,7 +60,7 @@ class Equilibrium::Solver {
   bool solve(Eigen::VectorXd& y, double t, double damping, const Conditions& conditions);
   bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
   void restart() { linear_ = make_linear_solver(model_); }
-  /// The largest force, or moment by the bone's size, of a vector of block forces [N].
+  /// The largest force, or moment by the rigid body's size, of a vector of block forces [N].
   double largest(const Eigen::VectorXd& f) const;
   double residual() const { return largest(dynamics_.now().forces); }
   double largest_acceleration() const;
@@ -254,7 +254,7 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
     if (!solved) return 1;
     keep_free_part(self.model_, self.correction_);  // round-off out of what is held
     self.prediction_.predict(self.dynamics_.now(), self.dynamics_.matrix(), self.correction_);
-    // A bone's correction is a rotation on top of where it is.
+    // A rigid body's correction is a rotation on top of where it is.
     for (int r = 0; r < self.model_.layout.num_rigid; ++r) {
       const int row = 3 * self.model_.rigid_bodies[static_cast<std::size_t>(r)].block + 3;
       self.correction_.segment<3>(row) =
@@ -357,7 +357,7 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping,
   known_ = false;
   iterations.clear();
   view(solution_).setZero();
-  if (view(solution_).size() == 0) {  // only driven bones
+  if (view(solution_).size() == 0) {  // only driven rigid bodies
     dynamics_.evaluate(y.data(), t, conditions);
     ++counts.steps;
     return true;

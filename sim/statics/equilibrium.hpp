@@ -20,8 +20,8 @@ struct NewtonIteration {
 /// Told of each iteration, towards the loads of t [s]; true asks to stop: Interruption is thrown.
 using IterationWatch = std::function<bool(double t, const NewtonIteration&)>;
 
-/// Equilibrium of forces by KINSOL: Newton's iteration on the displacements u of nodes and bones
-/// (rotations: rotation vectors) from where they are,
+/// Equilibrium of forces by KINSOL: Newton's iteration on the displacements u of nodes and rigid
+/// bodies (rotations: rotation vectors) from where they are,
 ///
 ///   r(u) = −f(u) + d M u = 0,
 ///
@@ -54,10 +54,10 @@ class Equilibrium {
   /// Drops what the linear solver knows of earlier ones.
   void restart();
 
-  /// Largest force, or moment by the bone's size, that is not balanced at the last
+  /// Largest force, or moment by the rigid body's size, that is not balanced at the last
   /// Dynamics::evaluate() [N].
   double residual() const;
-  /// The largest acceleration of a node or bone there [m/s²].
+  /// The largest acceleration of a node or rigid body there [m/s²].
   double largest_acceleration() const;
 
   /// Of the last solve().

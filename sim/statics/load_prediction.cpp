@@ -16,10 +16,10 @@ constexpr double kSmallMotion = 1e-4;
 /// it in its place; what is held does not feel it.
 constexpr double kLeastSpeed = 1e-8;
 
-/// Bones on their way: driven ones, wholly or in part, from one pose to another.
+/// Rigid bodies on their way: driven ones, wholly or in part, from one pose to another.
 class DrivenWay {
  public:
-  /// @param y  at t_before: what the free freedoms of held bones keep on the way
+  /// @param y  at t_before: what the free freedoms of held rigid bodies keep on the way
   DrivenWay(const Model& model, double t_before, double t, const Eigen::VectorXd& y)
       : model_(model) {
     Configuration from, to;
@@ -40,7 +40,7 @@ class DrivenWay {
     return result;
   }
 
-  /// The farthest that a node of a driven bone goes [m].
+  /// The farthest that a node of a driven rigid body goes [m].
   double motion() const {
     double motion = 0;
     const auto look_at = [&](const std::vector<NodeRef>& nodes) {
@@ -57,11 +57,11 @@ class DrivenWay {
     return motion;
   }
 
-  /// Moves tissue that is tied to one driven bone alone with it.
+  /// Moves tissue that is tied to one driven rigid body alone with it.
   void carry(double part, Eigen::VectorXd& y) const {
     const std::vector<Pose> poses = this->poses(part);
     for (const Tissue& tissue : model_.tissues) {
-      const int rigid = only_bone(tissue);
+      const int rigid = only_rigid_body(tissue);
       if (rigid < 0 || !model_.rigid_bodies[static_cast<std::size_t>(rigid)].motion) continue;
       const Pose &a = from_[static_cast<std::size_t>(rigid)],
                  &b = poses[static_cast<std::size_t>(rigid)];
@@ -74,8 +74,8 @@ class DrivenWay {
   }
 
  private:
-  /// The bone that all tied nodes of a tissue are tied to; -1: none or several.
-  static int only_bone(const Tissue& tissue) {
+  /// The rigid body that all tied nodes of a tissue are tied to; -1: none or several.
+  static int only_rigid_body(const Tissue& tissue) {
     int rigid = -1;
     for (const NodeRef& node : tissue.nodes) {
       if (node.rigid < 0 || node.rigid == rigid) continue;

@@ -6,17 +6,17 @@
 
 namespace articular::sim {
 
-/// Where the tangent of the equilibrium y at t_before has everything when the driven bones are
-/// where they are at t:
+/// Where the tangent of the equilibrium y at t_before has everything when the driven rigid bodies
+/// are where they are at t:
 ///
 ///   (K + d M) u = ∂f/∂s,
 ///
-/// ∂f/∂s what the bones add to the forces on their way. Newton's iteration from where things are
-/// begins with the elements beside a wall crushed by the whole way of that wall. K has the soft
+/// ∂f/∂s what the rigid bodies add to the forces on their way. Newton's iteration from where things
+/// are begins with the elements beside a wall crushed by the whole way of that wall. K has the soft
 /// contact stiffness. d > 0 keeps in its place what is loose.
 ///
-/// Tissue that is tied to one driven bone alone goes with it as a rigid body, however far that
-/// turns: in y, and in what is predicted besides u.
+/// Tissue that is tied to one driven rigid body alone goes with it as a rigid body, however far
+/// that turns: in y, and in what is predicted besides u.
 ///
 /// Contact candidates must hold at the old equilibrium; they need not at the new places.
 ///

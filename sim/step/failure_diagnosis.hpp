@@ -9,7 +9,8 @@
 namespace articular::sim {
 
 /// Where the trouble is when a step can't be made: the most squeezed element where it was tried,
-/// and the node or bone that was fastest where it began. "; the most squeezed element is ...".
+/// and the node or rigid body that was fastest where it began. "; the most squeezed element is
+/// ...".
 std::string failure_diagnosis(const Model& model, const Configuration& start,
                               const Configuration& tried);
 

@@ -11,7 +11,7 @@
 namespace articular::sim {
 namespace {
 
-/// What is deeper is not found by the usual search: half an element, or a bone's shell [m].
+/// What is deeper is not found by the usual search: half an element, or a rigid body's shell [m].
 double followed_depth(const Model& model, const ContactModel& contact) {
   const Collider& a = *model.bodies[static_cast<std::size_t>(contact.a)].collider;
   const Collider& b = *model.bodies[static_cast<std::size_t>(contact.b)].collider;

@@ -176,7 +176,7 @@ bool Stepper::try_time_step(State& state, double h) {
     find_contacts(where, state.next_margin);
     y_ = state.y;
     const std::optional<double> reached =
-        y_.size() == 0 ? std::optional(state.t + h)  // only driven bones move
+        y_.size() == 0 ? std::optional(state.t + h)  // only driven rigid bodies move
                        : integrator_->advance(y_, state.t, h);
     if (!reached) {
       why_ = Rejection::NoConvergence;

@@ -96,7 +96,7 @@ class Stepper {
   Configuration start_;
   std::vector<LineState> lines_before_;
   std::vector<Vec3> loads_before_;
-  std::vector<Vec6> reactions_before_;  // of held bones that are driven, by bone
+  std::vector<Vec6> reactions_before_;  // of held rigid bodies that are driven, by rigid body
   Eigen::VectorXd forces_before_;
   double t_before_ = 0;
   double damping_before_ = 0;                // [W]

@@ -17,7 +17,7 @@ constexpr double kSlowFall = 0.1;
 
 Eigen::Quaterniond quaternion(const double* q) { return {q[0], q[1], q[2], q[3]}; }
 
-/// How much longer a line gets when the blocks move by `shift` (bones: p, rotation vector).
+/// How much longer a line gets when the blocks move by `shift` (rigid bodies: p, rotation vector).
 double lengthening(const Line& line, const Configuration& now, const Eigen::VectorXd& shift) {
   const auto move = [&](const WeightedPoint& point) {
     Vec3 sum = Vec3::Zero();
@@ -124,7 +124,7 @@ bool NewtonSystem::find_correction(double gamma, SolverCounts& counts) {
 }
 
 double NewtonSystem::largest_motion(double gamma) const {
-  double largest = 0;  // displacement of a node or bone [m]
+  double largest = 0;  // displacement of a node or rigid body [m]
   for (int block = 0; block < model_.layout.num_free_nodes; ++block)
     largest = std::max(largest, w_.segment<3>(3 * block).squaredNorm());
   for (int r = 0; r < model_.layout.num_rigid; ++r) {
@@ -186,7 +186,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
                          const Conditions& conditions, SolverCounts& counts) {
   const Layout& layout = model_.layout;
   const int num_velocities = 3 * layout.num_unknown_blocks();
-  // b_x by blocks, a bone's as a rotation vector; then b_v + b_x/γ.
+  // b_x by blocks, a rigid body's as a rotation vector; then b_v + b_x/γ.
   shift_.setZero(3 * model_.num_blocks);
   shift_.head(3 * layout.num_free_nodes) =
       Eigen::Map<const Eigen::VectorXd>(b, 3 * layout.num_free_nodes);

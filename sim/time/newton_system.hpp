@@ -64,7 +64,7 @@ class NewtonSystem {
                            const Conditions& conditions, SolverCounts& counts);
   /// Makes w better where the iteration is slow. @return whether it did
   bool accelerate(double gamma);
-  /// How far w moves a node or bone at most [m].
+  /// How far w moves a node or rigid body at most [m].
   double largest_motion(double gamma) const;
   [[nodiscard]] bool prepare(double gamma, fem::Tangent tangent, SolverCounts& counts);
   [[nodiscard]] bool solve_linear(SolverCounts& counts);
