@@ -76,7 +76,8 @@ TEST(BlockTree, MovedAndFittedIsUpdated) {
   EXPECT_GT(answer.pairs.size(), 100u);
 }
 
-// A long bar has several groups of blocks; the probe visits them all while the bar moves on.
+// A long bar has several groups of blocks; the probe visits them all while the bar moves on and
+// turns. Boxes lie in a frame that moves with the bar: it must turn for old ones to be wrong.
 TEST(BlockTree, FollowsEveryUpdateInAllOfItsBlocks) {
   std::mt19937 random(6);
   const Mesh bar = testing::box_mesh(60, 3, 3, 1), probe = testing::box_mesh(2, 2, 2, 1);
@@ -86,8 +87,10 @@ TEST(BlockTree, FollowsEveryUpdateInAllOfItsBlocks) {
   for (int k = 0; k < 12; ++k) {
     const Eigen::Vector3d way(7 * k, -5 * k, 3 * k);  // of the bar
     const Eigen::Vector3d place(5 * k + 0.5, 0.5, 0.5);
-    const Eigen::Matrix3Xd x = testing::jittered(bar.X, 0.2, random).colwise() + way;
-    const Eigen::Matrix3Xd y = probe.X.colwise() + (way + place);
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(0.5 * k, Eigen::Vector3d(1, 2, -1).normalized()).matrix();
+    const Eigen::Matrix3Xd x = (R * testing::jittered(bar.X, 0.2, random)).colwise() + way;
+    const Eigen::Matrix3Xd y = (R * (probe.X.colwise() + place)).colwise() + way;
     B.update(x, 0.1);
     P.update(y, 0.1);
     const auto rule = NarrowTest::SeparatingAxes;
@@ -96,6 +99,17 @@ TEST(BlockTree, FollowsEveryUpdateInAllOfItsBlocks) {
     EXPECT_EQ(faces_in(P, B).pairs, expected) << k;
     EXPECT_EQ(faces_in(B, P).pairs, by_rule(bar, x, probe, y, 0.1, rule)) << k;
   }
+}
+
+// More blocks of faces than are tested against a block of tetrahedra in one go.
+TEST(BlockTree, AFewLargeElementsMeetThousandsOfFaces) {
+  std::mt19937 random(7);
+  const Mesh large = testing::box_mesh(1, 1, 1, 3), fine = testing::box_mesh(24, 24, 24, 0.1);
+  const BlockTree L = tree_of(large, large.X);
+  const Eigen::Matrix3Xd x = testing::placed(fine.X, Eigen::Vector3d(1.5, 1.4, 1.6), random);
+  const BlockTree F = tree_of(fine, x);
+  ASSERT_GT(F.num_face_blocks(), 2 * 128);
+  EXPECT_EQ(faces_in(F, L).pairs, by_rule(fine, x, large, large.X, 0, NarrowTest::SeparatingAxes));
 }
 
 TEST(BlockTree, SortedPairsAreTheSameForEveryInstructionSetAndNumberOfThreads) {

@@ -122,62 +122,81 @@ TEST_F(PreconditionerTest, BoundsTheLargestEigenvalue) {
   }
 }
 
-// For a free body A B = 0, so that smoothing does not change the modes: P B_coarse = B everywhere.
-TEST(Prolongation, ReproducesRigidMotions) {
-  const TetMesh mesh = box_mesh({6, 5, 4}, Vec3(0.3, 0.2, 0.1), 0.15);
-  const Elasticity elasticity(mesh.X, mesh.tets, Linear(1e6, 0.3));
-  BlockMatrix K = elasticity.make_matrix();
-  elasticity.add_stiffness(mesh.X, Tangent::Consistent, 1, K);
-  const int n = K.num_blocks();
+/// A free body in the unknowns that multigrid has: A = L⁻¹ K L⁻ᵀ without its diagonal of ones.
+struct FreeBody {
+  TetMesh mesh = box_mesh({6, 5, 4}, Vec3(0.3, 0.2, 0.1), 0.15);
+  std::vector<Mat3> factor;  // L of each node
   BlockRows<3> A;
   RigidModes modes;
-  std::vector<Mat3> factor(n);
-  for (int i = 0; i < n; ++i) {
-    factor[i] = Eigen::LLT<Mat3>(K.block(K.slot(i, i))).matrixL();
-    modes.center.push_back(mesh.X.col(i));
-    Eigen::Matrix<double, 3, 6, Eigen::RowMajor> B = Eigen::Matrix<double, 3, 6>::Zero();
-    B.leftCols<3>() = factor[i].transpose();
-    modes.values.insert(modes.values.end(), B.data(), B.data() + 18);
-  }
-  for (int i = 0; i < n; ++i) {
-    for (int s = K.row_begin()[i]; s < K.row_begin()[i + 1]; ++s) {
-      const int j = K.column()[s];
-      if (j == i) continue;
-      const Mat3 half = factor[i].inverse() * K.block(s);
-      const Eigen::Matrix3f scaled = (half * factor[j].transpose().inverse()).cast<float>();
-      A.column.push_back(j);
-      A.values.insert(A.values.end(), scaled.data(), scaled.data() + 9);
-    }
-    A.row_begin.push_back(static_cast<int>(A.column.size()));
-  }
-  A.values.resize(A.values.size() + kPadding);
+  Aggregation aggregation;
 
-  ThreadPool pool(1);
-  const std::vector<float> weight(A.column.size(), 1.0F);
-  const Aggregation aggregation = aggregate({A.row_begin, A.column, weight}, 0.5F, {});
-  ASSERT_GT(aggregation.num_aggregates, 1);
-  Prolongation<3> P = prolongation_pattern(A, aggregation, {});
-  const RigidModes coarse = smoothed_prolongation(A, aggregation, {}, modes, 0.6F, P, pool);
-  // A motion of the whole body: translation t and rotation ω about the origin.
+  FreeBody() {
+    const Elasticity elasticity(mesh.X, mesh.tets, Linear(1e6, 0.3));
+    BlockMatrix K = elasticity.make_matrix();
+    elasticity.add_stiffness(mesh.X, Tangent::Consistent, 1, K);
+    const int n = K.num_blocks();
+    factor.resize(n);
+    for (int i = 0; i < n; ++i) {
+      factor[i] = Eigen::LLT<Mat3>(K.block(K.slot(i, i))).matrixL();
+      modes.center.push_back(mesh.X.col(i));
+      Eigen::Matrix<double, 3, 6, Eigen::RowMajor> B = Eigen::Matrix<double, 3, 6>::Zero();
+      B.leftCols<3>() = factor[i].transpose();
+      modes.values.insert(modes.values.end(), B.data(), B.data() + 18);
+    }
+    for (int i = 0; i < n; ++i) {
+      for (int s = K.row_begin()[i]; s < K.row_begin()[i + 1]; ++s) {
+        const int j = K.column()[s];
+        if (j == i) continue;
+        const Mat3 half = factor[i].inverse() * K.block(s);
+        const Eigen::Matrix3f scaled = (half * factor[j].transpose().inverse()).cast<float>();
+        A.column.push_back(j);
+        A.values.insert(A.values.end(), scaled.data(), scaled.data() + 9);
+      }
+      A.row_begin.push_back(static_cast<int>(A.column.size()));
+    }
+    A.values.resize(A.values.size() + kPadding);
+    const std::vector<float> weight(A.column.size(), 1.0F);
+    aggregation = aggregate({A.row_begin, A.column, weight}, 0.5F, {});
+  }
+};
+
+/// A motion of the whole body, translation and rotation about the origin, given by the coarse modes
+/// and prolongated.
+void expect_rigid_motion(const FreeBody& body, const RigidModes& coarse, const Prolongation<3>& P,
+                         ThreadPool& pool) {
   const Vec3 t(0.3, -0.2, 0.5), omega(2, 1, -3);
-  const auto rigid = [&](const Vec3& center) {
-    Eigen::Matrix<double, 6, 1> m;
-    m << t + omega.cross(center), omega;
-    return m;
-  };
-  std::vector<float> e = padded(6 * coarse.center.size()), u = padded(3 * modes.center.size());
+  std::vector<float> e = padded(6 * coarse.center.size()), u = padded(3 * body.factor.size());
   for (std::size_t a = 0; a < coarse.center.size(); ++a) {
     const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> R(coarse.values.data() +
                                                                            36 * a);
-    Eigen::Map<Eigen::Matrix<float, 6, 1>>(e.data() + 6 * a) =
-        (R * rigid(coarse.center[a])).cast<float>();
+    Eigen::Matrix<double, 6, 1> motion;
+    motion << t + omega.cross(coarse.center[a]), omega;
+    Eigen::Map<Eigen::Matrix<float, 6, 1>>(e.data() + 6 * a) = (R * motion).cast<float>();
   }
   prolong(P, e, u, pool);
-  for (int i = 0; i < n; ++i) {
-    const Vec3 expected = factor[i].transpose() * (t + omega.cross(Vec3(mesh.X.col(i))));
+  for (std::size_t i = 0; i < body.factor.size(); ++i) {
+    const Vec3 X = body.mesh.X.col(static_cast<Eigen::Index>(i));
+    const Vec3 expected = body.factor[i].transpose() * (t + omega.cross(X));
     const Vec3 actual = Eigen::Map<const Eigen::Vector3f>(u.data() + 3 * i).cast<double>();
-    EXPECT_LT((actual - expected).norm(), kSingle * (factor[i].norm() * t.norm()));
+    EXPECT_LT((actual - expected).norm(), kSingle * (body.factor[i].norm() * t.norm()));
   }
+}
+
+// For a free body A B = 0, so that smoothing does not change the modes: P B_coarse = B everywhere.
+// The coarse level's unknowns are scaled, and its modes with them.
+TEST(Prolongation, ReproducesRigidMotions) {
+  const FreeBody body;
+  ThreadPool pool(1);
+  ASSERT_GT(body.aggregation.num_aggregates, 1);
+  Prolongation<3> P = prolongation_pattern(body.A, body.aggregation, {});
+  RigidModes coarse =
+      smoothed_prolongation(body.A, body.aggregation, {}, body.modes, 0.6F, P, pool);
+  expect_rigid_motion(body, coarse, P, pool);
+
+  BlockRows<6> coarse_A;
+  const GalerkinPattern pattern = galerkin_pattern(body.A, P, coarse_A);
+  (void)galerkin_product(body.A, pattern, P, coarse, coarse_A, pool);
+  expect_rigid_motion(body, coarse, P, pool);
 }
 
 TEST(Multigrid, GivesTheSameBitsForAnyNumberOfThreads) {

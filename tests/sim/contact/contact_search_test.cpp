@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "sim/build/build_model.hpp"
+#include "sim/contact/contact_summary.hpp"
 #include "tests/sim/support/contact_scene.hpp"
 
 namespace articular::sim::contact_search_test {
@@ -79,6 +81,156 @@ TEST(ContactSearch, ABodyInTwoPiecesPressesItselfAsTwoBodiesPressEachOther) {
     const Simulation apart(two), together(one);
     EXPECT_GT(force_upwards(apart), 0);
     EXPECT_NEAR(force_upwards(together), force_upwards(apart), 1e-6 * force_upwards(apart));
+  }
+}
+
+/// Two blocks, or one tissue in two pieces, of which the upper one comes down on the lower one.
+Scenario pressed(bool is_one, Scenario::Response response, const TemporaryFolder& folder) {
+  const MeshData lower = block({0, 0, -0.005}), upper = block({0, 0, 0.005 - 1e-4});
+  Scenario s = contact_scene(1e-3);
+  s.contact_response = response;
+  ContactPair pair;
+  pair.a = is_one ? "both" : "lower";
+  pair.b = is_one ? "both" : "upper";
+  pair.damping = 1e4;
+  s.contacts = {pair};
+  if (is_one)
+    s.bodies = {mesh_body("both", Body::Kind::Tissue, joined(lower, upper), folder)};
+  else
+    s.bodies = {mesh_body("lower", Body::Kind::Tissue, lower, folder),
+                mesh_body("upper", Body::Kind::Tissue, upper, folder)};
+  return s;
+}
+
+/// Lets the upper block move downwards [m/s].
+void throw_down(double speed, Simulation& run) {
+  std::size_t node = 0;  // of the lower block first, of either scene
+  const std::size_t num_lower = 5 * 5 * 3;
+  for (const Tissue& tissue : run.model.tissues)
+    for (const NodeRef& moved : tissue.nodes)
+      if (node++ >= num_lower)
+        run.state.y[run.model.layout.velocities() + 3 * moved.block + 2] = -speed;
+  run.stepper.restart(run.state);
+}
+
+double largest_node_pressure(const Simulation& run) {
+  double largest = 0;
+  for (const SurfaceContact& surface :
+       surface_contacts(run.model, run.stepper.now().contact, run.now()))
+    if (surface.node_pressure.size() > 0)
+      largest = std::max(largest, surface.node_pressure.maxCoeff());
+  return largest;
+}
+
+// The same with dampers, and in all that is told of the contact.
+TEST(ContactSearch, ABodyInTwoPiecesTellsOfItselfWhatTwoBodiesTell) {
+  constexpr double kPart = 1e-6;
+  for (const auto response : {Scenario::Response::Pointwise, Scenario::Response::Averaged}) {
+    const TemporaryFolder of_two, of_one;
+    Simulation apart(pressed(false, response, of_two)), together(pressed(true, response, of_one));
+    const double undamped = force_upwards(apart);
+    throw_down(0.01, apart);
+    throw_down(0.01, together);
+    EXPECT_GT(force_upwards(apart), 1.2 * undamped);
+    EXPECT_NEAR(force_upwards(together), force_upwards(apart), kPart * force_upwards(apart));
+    const ContactSummary two = apart.stepper.dynamics().contact_summary(0),
+                         one = together.stepper.dynamics().contact_summary(0);
+    EXPECT_NEAR(one.area, two.area, kPart * two.area);
+    EXPECT_NEAR(one.normal_force, two.normal_force, kPart * two.normal_force);
+    EXPECT_NEAR(one.max_pressure, two.max_pressure, kPart * two.max_pressure);
+    EXPECT_NEAR(one.energy, two.energy, kPart * two.energy);
+    EXPECT_NEAR(one.max_depth, two.max_depth, kPart * two.max_depth);
+    EXPECT_NEAR(together.stepper.now().contact.damping_power(),
+                apart.stepper.now().contact.damping_power(),
+                kPart * apart.stepper.now().contact.damping_power());
+    EXPECT_NEAR(largest_node_pressure(together), largest_node_pressure(apart),
+                kPart * largest_node_pressure(apart));
+  }
+}
+
+/// A block over a wider table, which it is this deep in.
+Scenario on_a_table(double depth) {
+  Scenario s = contact_scene(1e-3);
+  s.contact_response = Scenario::Response::Averaged;
+  s.bodies = {
+      box_body("block", Body::Kind::Tissue, {0.02, 0.02, 0.02}, {0, 0, 0.01 - depth}, {4, 4, 4}),
+      box_body("table", Body::Kind::Fixed, {0.06, 0.06, 0.02}, {0, 0, -0.01}, {6, 6, 2})};
+  return s;
+}
+
+/// All candidates of a block in or above a table, with this margin.
+std::vector<ContactCandidate> candidates_at(double depth, double margin) {
+  const Model model = build_model(on_a_table(depth));
+  ContactSearch search(model, {});
+  Configuration now;
+  read_state(model, initial_state(model).data(), 0, now);
+  search.find(now, margin);
+  std::vector<ContactCandidate> all;
+  for (const CandidateList& list : search.candidates())
+    all.insert(all.end(), list.pairs.begin(), list.pairs.end());
+  return all;
+}
+
+// Triangles a bit deeper than faces reach are found by their nearness and by their depth: the
+// latter reaches them.
+TEST(ContactSearch, OfAPairThatIsFoundTwiceTheOneThatReachesDeeperIsKept) {
+  const Model model = build_model(on_a_table(0));
+  ASSERT_FALSE(model.contacts[0].reversed);
+  const double reach =
+      depth_range(*model.bodies[0].collider, *model.bodies[1].collider, true).reach;
+  const double margin = 0.2 * reach, depth = reach + 0.5 * margin;
+  const std::vector<ContactCandidate> found = candidates_at(depth, margin);
+  EXPECT_GT(found.size(), 32U);
+  for (const ContactCandidate& candidate : found) EXPECT_GT(candidate.reach, depth);
+}
+
+// Pressure begins the open depth in front of a face: pairs are found that far beyond the margin.
+TEST(ContactSearch, FindsPairsAsFarApartAsTheMarginAndTheOpenDepth) {
+  const Model model = build_model(on_a_table(0));
+  const double open = depth_range(*model.bodies[0].collider, *model.bodies[1].collider, true).open;
+  ASSERT_GT(open, 0);
+  const double margin = 0.5 * open;
+  EXPECT_FALSE(candidates_at(-0.99 * (margin + open), margin).empty());
+  EXPECT_TRUE(candidates_at(-4 * (margin + open), margin).empty());
+}
+
+// One block passes through another from any side, or one of its corners does.
+TEST(ContactSearch, SeesWhatPassesTheOtherBodyUnseen) {
+  const double size = 0.02, way = 0.06;
+  for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)}) {
+    Scenario s = contact_scene(1e-3);
+    s.bodies = {
+        box_body("a", Body::Kind::Tissue, Vec3::Constant(size), -0.5 * way * direction, {2, 2, 2}),
+        box_body("b", Body::Kind::Tissue, Vec3::Constant(size), Vec3::Zero(), {2, 2, 2})};
+    const Model model = build_model(std::move(s));
+    const ContactSearch search(model, {});
+    const Eigen::VectorXd start = initial_state(model);
+    Configuration from, to;
+    read_state(model, start.data(), 0, from);
+    const auto passes = [&](auto&& way_of) {  // of a tissue's node
+      Eigen::VectorXd y = start;
+      for (std::size_t t = 0; t < 2; ++t)
+        for (std::size_t i = 0; i < model.tissues[t].nodes.size(); ++i)
+          y.segment<3>(model.layout.node_x(model.tissues[t].nodes[i].block)) +=
+              way_of(t, model.tissues[t].X.col(static_cast<Eigen::Index>(i)));
+      read_state(model, y.data(), 0, to);
+      return search.passes_unseen(from, to);
+    };
+    const Vec3 none = Vec3::Zero();
+    EXPECT_FALSE(passes([&](std::size_t, const Vec3&) { return none; }));
+    EXPECT_TRUE(
+        passes([&](std::size_t t, const Vec3&) { return t == 0 ? way * direction : none; }));
+    EXPECT_TRUE(
+        passes([&](std::size_t t, const Vec3&) { return t == 1 ? -way * direction : none; }));
+    EXPECT_FALSE(passes([&](std::size_t, const Vec3&) { return way * direction; }));
+    EXPECT_FALSE(
+        passes([&](std::size_t t, const Vec3&) { return t == 0 ? -way * direction : none; }));
+    const auto is_front = [&](const Vec3& X) {
+      return (X.dot(direction) + 0.5 * way) > 0.4 * size;
+    };
+    EXPECT_TRUE(passes([&](std::size_t t, const Vec3& X) {
+      return t == 0 && is_front(X) ? way * direction : none;
+    }));
   }
 }
 

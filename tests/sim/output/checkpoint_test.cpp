@@ -1,0 +1,114 @@
+#include "sim/output/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "sim/build/build_model.hpp"
+#include "tests/sim/support/contact_scene.hpp"
+
+namespace articular::sim::checkpoint_test {
+
+std::vector<double> numbers(const EnergyLedger& l) {
+  return {l.muscle_work, l.load_work,    l.motion_work,   l.ligament_loss,
+          l.tissue_loss, l.contact_loss, l.settling_loss, l.start};
+}
+
+std::vector<double> numbers(const RunExtrema& e) {
+  return {e.volume_ratio,    double(e.tissue), double(e.element), e.squeezed_at, e.overlap,
+          double(e.contact), e.overlap_at,     e.kinetic,         e.work,        e.made,
+          e.gravity_low,     e.gravity_high};
+}
+
+std::vector<std::int64_t> numbers(const Counts& c) {
+  return {c.steps,
+          c.rejected_newton,
+          c.newton_iterations,
+          c.factorizations,
+          c.projected_tangents,
+          c.linear_solves,
+          c.linear_iterations,
+          c.force_evaluations,
+          c.rejected_motion,
+          c.tree_updates,
+          c.narrow_tests,
+          c.reported_pairs,
+          c.deep_pairs};
+}
+
+/// Every number another one.
+State some_state() {
+  State s;
+  s.t = 0.1;
+  s.y = Eigen::VectorXd::LinSpaced(17, 1.0 / 3, 2);
+  s.next_step = 1e-3 / 7;
+  s.next_margin = 2e-4 / 3;
+  s.max_penetration = 3e-5;
+  s.frames = 12;
+  s.energy = {1, 2, 3, 4, 5, 6, 7, 8};
+  s.counts.steps = 1;
+  s.counts.rejected_newton = 2;
+  s.counts.newton_iterations = 3;
+  s.counts.factorizations = 4;
+  s.counts.projected_tangents = 5;
+  s.counts.linear_solves = 6;
+  s.counts.linear_iterations = 7;
+  s.counts.force_evaluations = 8;
+  s.counts.rejected_motion = 9;
+  s.counts.tree_updates = 10;
+  s.counts.narrow_tests = 11;
+  s.counts.reported_pairs = 12;
+  s.counts.deep_pairs = 13;
+  s.overlap_resolution = {{{1, 0.2, 0.3}, {2, 0.4, 0.5}}, 3, 0.6};
+  s.extrema = {0.1, 2, 3, 0.4, 0.5, 6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2};
+  return s;
+}
+
+TEST(Checkpoint, KeepsEveryNumberOfAState) {
+  const TemporaryFolder folder;
+  const State given = some_state();
+  write_checkpoint(folder / "state.bin", given, "scene");
+  const State read = read_checkpoint(folder / "state.bin", "scene").value();
+  EXPECT_EQ(read.t, given.t);
+  EXPECT_EQ(read.y, given.y);
+  EXPECT_EQ(read.next_step, given.next_step);
+  EXPECT_EQ(read.next_margin, given.next_margin);
+  EXPECT_EQ(read.max_penetration, given.max_penetration);
+  EXPECT_EQ(read.frames, given.frames);
+  EXPECT_EQ(numbers(read.energy), numbers(given.energy));
+  EXPECT_EQ(numbers(read.counts), numbers(given.counts));
+  EXPECT_EQ(numbers(read.extrema), numbers(given.extrema));
+  const OverlapResolution &found = read.overlap_resolution, &told = given.overlap_resolution;
+  EXPECT_EQ(found.solutions, told.solutions);
+  EXPECT_EQ(found.largest_motion, told.largest_motion);
+  ASSERT_EQ(found.overlaps.size(), told.overlaps.size());
+  for (std::size_t k = 0; k < told.overlaps.size(); ++k) {
+    EXPECT_EQ(found.overlaps[k].contact, told.overlaps[k].contact);
+    EXPECT_EQ(found.overlaps[k].before, told.overlaps[k].before);
+    EXPECT_EQ(found.overlaps[k].after, told.overlaps[k].after);
+  }
+}
+
+/// Of a scene of one mesh, as tissue or as a fixed body; nothing in the scenario itself tells
+/// meshes apart.
+std::string fingerprint_of(const MeshData& mesh, Body::Kind kind) {
+  const TemporaryFolder folder;
+  Scenario s = scene(1e-3);
+  s.bodies = {mesh_body("body", kind, mesh, folder)};
+  return fingerprint(s, build_model(s));
+}
+
+TEST(Checkpoint, BelongsToTheMeshThatWasRead) {
+  const MeshData mesh = box_mesh({Vec3::Constant(0.02), {2, 2, 2}, Vec3::Zero()});
+  MeshData moved = mesh, ordered = mesh;
+  moved.X(0, 0) += 1e-9;
+  ordered.tets.col(0).swap(ordered.tets.col(1));
+  for (const Body::Kind kind : {Body::Kind::Tissue, Body::Kind::Fixed}) {
+    EXPECT_EQ(fingerprint_of(mesh, kind), fingerprint_of(mesh, kind));
+    EXPECT_NE(fingerprint_of(mesh, kind), fingerprint_of(moved, kind));
+  }
+  // Results of a tissue depend on the order of its elements, to round-off.
+  EXPECT_NE(fingerprint_of(mesh, Body::Kind::Tissue), fingerprint_of(ordered, Body::Kind::Tissue));
+}
+
+}  // namespace articular::sim::checkpoint_test
