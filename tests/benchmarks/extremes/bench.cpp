@@ -63,7 +63,7 @@ ProgramRun Bench::run_from(
   change(model, state);
   stepper.restart(state);
   state.energy.start = stepper.stored_energy().total();
-  sim::note_extrema(model, stepper.dynamics(), state);
+  sim::note_extrema(stepper.now(), state);
   const fs::path checkpoint = folder_ / name / "checkpoint";
   fs::create_directories(checkpoint);
   sim::write_checkpoint(checkpoint / "state.bin", state, sim::fingerprint(given, model));

@@ -43,7 +43,7 @@ void press_tissue(Scene& scene, int cells, double part) {
 
 void press_plate(Scene& scene, int cells) {
   Body plate = stand("upper");
-  plate.box =
+  plate.geometry =
       BoxGeometry{{1.3 * kSide, 1.3 * kSide, kSide / 4}, {cells, cells, 1}, {0, 0, kSide / 8}};
   scene.add(plate);
   scene.drive("upper", {Vec3::Zero(), Vec3(0, 0, -kSide * kPress)});
