@@ -40,8 +40,10 @@ function(articular_module target)
   endif()
 endfunction()
 
-# As in Debug, with assertions, but for -O1: what is sanitized is slow enough.
+# As in Debug, with assertions, but for -O1: what is sanitized is slow enough. With the address sanitizer Eigen would align
+# what it allocates by itself, and matrices pass between these objects and those of the tests.
 function(articular_sanitize target)
+  target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
   target_compile_options(${target} PRIVATE -O1 -g1 -UNDEBUG ${sanitizer_options}
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # sees it where there is none
 endfunction()
