@@ -202,7 +202,7 @@ TEST(ContactSearch, SeesWhatPassesTheOtherBodyUnseen) {
     s.bodies = {
         box_body("a", Body::Kind::Tissue, Vec3::Constant(size), -0.5 * way * direction, {2, 2, 2}),
         box_body("b", Body::Kind::Tissue, Vec3::Constant(size), Vec3::Zero(), {2, 2, 2})};
-    const Model model = build_model(std::move(s));
+    const Model model = build_model(s);
     const ContactSearch search(model, {});
     const Eigen::VectorXd start = initial_state(model);
     Configuration from, to;
@@ -216,21 +216,20 @@ TEST(ContactSearch, SeesWhatPassesTheOtherBodyUnseen) {
       read_state(model, y.data(), 0, to);
       return search.passes_unseen(from, to);
     };
-    const Vec3 none = Vec3::Zero();
-    EXPECT_FALSE(passes([&](std::size_t, const Vec3&) { return none; }));
-    EXPECT_TRUE(
-        passes([&](std::size_t t, const Vec3&) { return t == 0 ? way * direction : none; }));
-    EXPECT_TRUE(
-        passes([&](std::size_t t, const Vec3&) { return t == 1 ? -way * direction : none; }));
-    EXPECT_FALSE(passes([&](std::size_t, const Vec3&) { return way * direction; }));
-    EXPECT_FALSE(
-        passes([&](std::size_t t, const Vec3&) { return t == 0 ? -way * direction : none; }));
+    const Vec3 through = way * direction;
+    const auto only = [&](bool moves, const Vec3& by) -> Vec3 {
+      return moves ? 1.0 * by : 0.0 * by;
+    };
+    EXPECT_FALSE(passes([&](std::size_t, const Vec3&) { return only(false, through); }));
+    EXPECT_TRUE(passes([&](std::size_t t, const Vec3&) { return only(t == 0, through); }));
+    EXPECT_TRUE(passes([&](std::size_t t, const Vec3&) { return only(t == 1, -through); }));
+    EXPECT_FALSE(passes([&](std::size_t, const Vec3&) { return only(true, through); }));
+    EXPECT_FALSE(passes([&](std::size_t t, const Vec3&) { return only(t == 0, -through); }));
     const auto is_front = [&](const Vec3& X) {
       return (X.dot(direction) + 0.5 * way) > 0.4 * size;
     };
-    EXPECT_TRUE(passes([&](std::size_t t, const Vec3& X) {
-      return t == 0 && is_front(X) ? way * direction : none;
-    }));
+    EXPECT_TRUE(
+        passes([&](std::size_t t, const Vec3& X) { return only(t == 0 && is_front(X), through); }));
   }
 }
 
