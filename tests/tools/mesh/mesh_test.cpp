@@ -161,8 +161,8 @@ TEST(Mesh, WhatCannotBeDoneIsSaidInOneLine) {
 TEST(Mesh, AMissingMesherIsAFailureOfTheSystem) {
   const TemporaryFolder folder;
   sim::write_mesh(folder / "b.vtp", ball({0, 0, 0}, 10e-3, 2), kUnit);
-  const ProgramResult result =
-      run_shell(folder, "cp \"$articular\" . && ./articular mesh b.vtp --size '3 mm' --out t.vtu");
+  const ProgramResult result = run_shell(
+      folder, "cp \"$articular\" articular && ./articular mesh b.vtp --size '3 mm' --out t.vtu");
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_NE(result.err.find("the mesher is missing"), std::string::npos) << result.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "t.vtu"));
@@ -171,11 +171,11 @@ TEST(Mesh, AMissingMesherIsAFailureOfTheSystem) {
 TEST(Mesh, AMesherThatDiesIsAFailureOfTheSystem) {
   const TemporaryFolder folder;
   sim::write_mesh(folder / "b.vtp", ball({0, 0, 0}, 10e-3, 2), kUnit);
-  const ProgramResult result =
-      run_shell(folder,
-                "cp \"$articular\" . && printf '#!/bin/sh\\ncat <&3 >/dev/null\\nexit 9\\n' > "
-                "articular-mesher && chmod +x "
-                "articular-mesher && ./articular mesh b.vtp --size '3 mm' --out t.vtu");
+  const ProgramResult result = run_shell(
+      folder,
+      "cp \"$articular\" articular && printf '#!/bin/sh\\ncat <&3 >/dev/null\\nexit 9\\n' > "
+      "articular-mesher && chmod +x "
+      "articular-mesher && ./articular mesh b.vtp --size '3 mm' --out t.vtu");
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_NE(result.err.find("ended without an answer"), std::string::npos) << result.err;
 }
