@@ -15,9 +15,9 @@
 namespace articular::sim {
 namespace {
 
-/// [s] A step is halved no further: a millisecond has been halved thirteen times by then, and what
-/// fails all the same does not fail for the length of the step.
-constexpr double kLeastStep = 1e-7;
+/// Of the step that was asked for: it is halved thirteen times, no further. What fails all the same
+/// does not fail for the length of the step.
+constexpr double kLeastPart = 0x1p-13;
 
 const char* words_for(Rejection why) {
   switch (why) {
@@ -104,7 +104,7 @@ void Stepper::step(State& state, double t_target) {
   for (;;) {
     if (try_step(state, tried)) break;
     tried *= 0.5;
-    if (tried < kLeastStep) fail(state, tried);
+    if (tried < kLeastPart * nominal) fail(state, tried);
   }
   if (last && state.t - t_start >= remaining * (1 - 1e-12)) state.t = t_target;
   if (free_steps)
