@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/base/stopwatch.hpp"
 #include "sim/model/tissue.hpp"
@@ -55,6 +56,7 @@ void Dynamics::read_internal_variables(std::size_t t, const double* y) {
 }
 
 void Dynamics::note_force(double force) {
+  if (!std::isfinite(force)) force = std::numeric_limits<double>::infinity();  // max skips NaN
   moment_.largest_force = std::max(moment_.largest_force, force);
 }
 

@@ -31,7 +31,8 @@ struct Moment {
   /// bodies the part along their free freedoms.
   Eigen::VectorXd forces;
   std::vector<Vec6> rigid_forces;  // on each rigid body that moves, held freedoms too
-  /// The largest force on one node, body or line [N]: what a residual is small against.
+  /// The largest force on one node, body or line [N]: what a residual is small against. Infinite
+  /// where one is not a finite number.
   double largest_force = 0;
   /// A step begins here: accelerations that jump are those after it, elsewhere those before it.
   bool begins_step = false;

@@ -52,6 +52,14 @@ vtkSmartPointer<vtkPointSet> make_lines(const std::vector<Positions>& paths, dou
   return set;
 }
 
+/// The door of every frame.
+void require_finite(const std::string& body, const std::vector<Field>& fields) {
+  for (const Field& field : fields)
+    if (!field.may_be_blank && !field.values.allFinite())
+      throw SimulationError("the simulation cannot go on: " + field.name + " of `" + body +
+                            "` is not finite; results are valid until the frame before");
+}
+
 }  // namespace
 
 FrameWriter::FrameWriter(std::filesystem::path directory, std::string name, LengthUnit unit)
@@ -102,8 +110,11 @@ void FrameWriter::add_field(vtkPointSet& set, vtkDataSetAttributes& target,
   add_text(set, field.name + ".unit", unit);
 }
 
-void FrameWriter::add_fields(vtkPointSet& set, const std::vector<Field>& point_fields,
+void FrameWriter::add_fields(const std::string& body, vtkPointSet& set,
+                             const std::vector<Field>& point_fields,
                              const std::vector<Field>& cell_fields) const {
+  require_finite(body, point_fields);
+  require_finite(body, cell_fields);
   for (const Field& field : point_fields) {
     assert(field.values.cols() == set.GetNumberOfPoints());
     add_field(set, *set.GetPointData(), field);
@@ -132,13 +143,13 @@ void FrameWriter::write_part(const std::string& part, const std::string& name,
 
 void FrameWriter::write_tissue(const TissueFrame& frame, int index, double time) {
   const auto set = make_grid(frame.x, unit_.metres, frame.tets, Triangles(3, 0));
-  add_fields(*set, frame.point_fields, frame.cell_fields);
+  add_fields(frame.body, *set, frame.point_fields, frame.cell_fields);
   write_part(frame.body, frame.body, ".vtu", *set, index, time);
 }
 
 void FrameWriter::write_rigid_body(const RigidBodyFrame& frame, int index, double time) {
   const auto set = make_surface(frame.x, unit_.metres, frame.triangles);
-  add_fields(*set, frame.point_fields, frame.cell_fields);
+  add_fields(frame.body, *set, frame.point_fields, frame.cell_fields);
   write_part(frame.body, frame.body, ".vtp", *set, index, time);
 }
 
@@ -158,7 +169,7 @@ void FrameWriter::write_contact_surface(const ContactSurfaceFrame& frame, int in
   std::vector<Field> point_fields = frame.point_fields;
   for (Field& field : point_fields) field.values = field.values(Eigen::all, kept).eval();
   const auto set = make_surface(frame.x(Eigen::all, kept), unit_.metres, faces);
-  add_fields(*set, point_fields, frame.cell_fields);
+  add_fields(frame.body, *set, point_fields, frame.cell_fields);
   write_part(contact_surface_part(frame.body), frame.body + "_contact", ".vtp", *set, index, time);
 }
 
@@ -168,7 +179,7 @@ void FrameWriter::write_lines(const LinesFrame& frame, int index, double time) {
   names->SetName("name");
   for (const std::string& name : frame.names) names->InsertNextValue(name);
   set->GetCellData()->AddArray(names);
-  add_fields(*set, {}, frame.cell_fields);
+  add_fields("lines", *set, {}, frame.cell_fields);
   write_part("lines", "lines", ".vtp", *set, index, time);
 }
 

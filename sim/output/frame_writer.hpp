@@ -21,9 +21,10 @@ namespace articular::sim {
 /// `displacement` or `contact_gap` in "m" and a `velocity` in "m/s" are written in the output's
 /// length unit, every other field as it is.
 struct Field {
-  std::string name;  // e.g. "contact_pressure"
-  std::string unit;  // e.g. "Pa"; written as a field-data array "<name>.unit"
-  Eigen::MatrixXd values;
+  std::string name;           // e.g. "contact_pressure"
+  std::string unit;           // e.g. "Pa"; written as a field-data array "<name>.unit"
+  Eigen::MatrixXd values;     // finite numbers
+  bool may_be_blank = false;  // NaN: nothing is known there
 };
 
 struct TissueFrame {
@@ -82,7 +83,8 @@ class FrameWriter {
                   vtkPointSet& set, int index, double time);
   std::filesystem::path series_file() const;
   void add_field(vtkPointSet& set, vtkDataSetAttributes& target, const Field& field) const;
-  void add_fields(vtkPointSet& set, const std::vector<Field>& point_fields,
+  /// @throws SimulationError where a field is not finite
+  void add_fields(const std::string& body, vtkPointSet& set, const std::vector<Field>& point_fields,
                   const std::vector<Field>& cell_fields) const;
 
   std::filesystem::path directory_;

@@ -107,7 +107,7 @@ void write_contact_surface(const Model& model, const Configuration& now, int bod
                                 collider.surface.faces,
                                 contact_point_fields(contacts, b, x.cols()),
                                 {{"contact_pressure", "Pa", surface.face_pressure.transpose()},
-                                 {"contact_gap", "m", surface.face_gap.transpose()}}},
+                                 {"contact_gap", "m", surface.face_gap.transpose(), true}}},
                                index, time);
 }
 

@@ -6,10 +6,14 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string_view>
 #include <utility>
+
+#include "sim/base/error.hpp"
 
 namespace articular::sim {
 namespace {
@@ -24,13 +28,22 @@ class Columns {
       : length_(unit.name), area_(unit.name + "^2"), per_metre_(1 / unit.metres) {}
   virtual ~Columns() = default;
 
-  virtual void number(std::string_view what, std::string_view unit, double value) = 0;
-  virtual void vector(std::string_view what, std::string_view unit, const Vec3& value) = 0;
+  /// Without a value the cell stays empty; a value that is given is a finite number.
+  virtual void number(std::string_view what, std::string_view unit,
+                      const std::optional<double>& value) = 0;
+  virtual void vector(std::string_view what, std::string_view unit,
+                      const std::optional<Vec3>& value) = 0;
 
   // Of values in m and m², in the user's unit of length.
-  void length(std::string_view what, double x) { number(what, length_, x * per_metre_); }
+  void length(std::string_view what, std::optional<double> x) {
+    if (x) *x *= per_metre_;
+    number(what, length_, x);
+  }
   void area(std::string_view what, double A) { number(what, area_, A * per_metre_ * per_metre_); }
-  void place(std::string_view what, const Vec3& x) { vector(what, length_, per_metre_ * x); }
+  void place(std::string_view what, std::optional<Vec3> x) {
+    if (x) *x *= per_metre_;
+    vector(what, length_, x);
+  }
 
  private:
   std::string length_, area_;  // names
@@ -42,10 +55,10 @@ class Header : public Columns {
  public:
   Header(const std::string& probe, const LengthUnit& unit) : Columns(unit), probe_(probe) {}
 
-  void number(std::string_view what, std::string_view unit, double) override {
+  void number(std::string_view what, std::string_view unit, const std::optional<double>&) override {
     names_.push_back(fmt::format("{}.{} [{}]", probe_, what, unit));
   }
-  void vector(std::string_view what, std::string_view unit, const Vec3&) override {
+  void vector(std::string_view what, std::string_view unit, const std::optional<Vec3>&) override {
     for (const char axis : {'x', 'y', 'z'})
       names_.push_back(fmt::format("{}.{}.{} [{}]", probe_, what, axis, unit));
   }
@@ -60,16 +73,26 @@ class Header : public Columns {
 /// Takes what they show.
 class Row : public Columns {
  public:
-  Row(const LengthUnit& unit, std::vector<double>& values) : Columns(unit), values_(values) {}
+  Row(const std::string& probe, const LengthUnit& unit, std::vector<double>& values)
+      : Columns(unit), probe_(probe), values_(values) {}
 
-  void number(std::string_view, std::string_view, double value) override {
-    values_.push_back(value);
+  void number(std::string_view what, std::string_view,
+              const std::optional<double>& value) override {
+    append(what, value);
   }
-  void vector(std::string_view, std::string_view, const Vec3& value) override {
-    values_.insert(values_.end(), {value.x(), value.y(), value.z()});
+  void vector(std::string_view what, std::string_view, const std::optional<Vec3>& value) override {
+    for (int k = 0; k < 3; ++k) append(what, value ? std::optional((*value)[k]) : std::nullopt);
   }
 
  private:
+  void append(std::string_view what, const std::optional<double>& value) {
+    if (value && !std::isfinite(*value))
+      throw SimulationError(
+          fmt::format("the simulation cannot go on: {} of probe `{}` is not finite", what, probe_));
+    values_.push_back(value.value_or(kNothing));
+  }
+
+  const std::string& probe_;
   std::vector<double>& values_;
 };
 
@@ -122,16 +145,16 @@ ContactSummary measure(const ObservedContact& observed, const Now& now) {
 // Shares read a force from the first three columns.
 void list(const ContactSummary& sum, Columns& columns) {
   const bool carries = sum.area > 0;
-  const Vec3 nowhere = Vec3::Constant(kNothing);
+  const auto where = [&](const Vec3& x) { return carries ? std::optional(x) : std::nullopt; };
   columns.vector("force", "N", sum.force);
   columns.vector("moment", "N m", sum.moment);
-  columns.place("center", carries ? sum.center : nowhere);
+  columns.place("center", where(sum.center));
   columns.area("area", sum.area);
   columns.number("mean_pressure", "Pa", carries ? sum.normal_force / sum.area : 0);
   columns.number("max_pressure", "Pa", sum.max_pressure);
   columns.number("max_face_pressure", "Pa", sum.max_face_pressure);
   columns.length("max_penetration", sum.max_depth);
-  columns.place("max_penetration_at", carries ? sum.deepest : nowhere);
+  columns.place("max_penetration_at", where(sum.deepest));
   columns.length("max_point_penetration", sum.max_point_depth);
 }
 
@@ -220,26 +243,29 @@ void list(const ForceAndMoment& reading, Columns& columns) {
   columns.vector("moment", "N m", reading.moment);
 }
 
-struct Share {
-  double value = kNothing;
-};
+/// Known when the row is complete: see History.
+struct Share {};
 
 Share measure(const ObservedShare&, const Now&) { return {}; }
 
-void list(const Share& share, Columns& columns) { columns.number("share", "-", share.value); }
+void list(const Share&, Columns& columns) { columns.number("share", "-", std::nullopt); }
 
 JointCoordinates measure(const ObservedJoint& joint, const Now& now) {
   return joint_coordinates(joint.proximal, now.pose(joint.proximal.rigid), joint.distal,
                            now.pose(joint.distal.rigid), joint.is_right);
 }
 
+// Without a floating axis all but the abduction is undefined.
 void list(const JointCoordinates& q, Columns& columns) {
-  columns.number("flexion", "deg", q.flexion / kDegree);
+  const auto defined = [&](double value) {
+    return std::isnan(q.flexion) ? std::nullopt : std::optional(value);
+  };
+  columns.number("flexion", "deg", defined(q.flexion / kDegree));
   columns.number("abduction", "deg", q.abduction / kDegree);
-  columns.number("internal_rotation", "deg", q.internal_rotation / kDegree);
-  columns.length("lateral", q.lateral);
-  columns.length("anterior", q.anterior);
-  columns.length("distraction", q.distraction);
+  columns.number("internal_rotation", "deg", defined(q.internal_rotation / kDegree));
+  columns.length("lateral", defined(q.lateral));
+  columns.length("anterior", defined(q.anterior));
+  columns.length("distraction", defined(q.distraction));
 }
 
 /// What measure() of a kind of probe gives.
@@ -257,7 +283,7 @@ std::vector<std::string> column_names(const ProbeModel& probe, const LengthUnit&
 void append_values(const ProbeModel& probe, const Model& model, const LengthUnit& unit,
                    const State& state, const Stepper& stepper, std::vector<double>& values) {
   const Now now{model, state, stepper};
-  Row row(unit, values);
+  Row row(probe.name, unit, values);
   std::visit([&](const auto& kind) { list(measure(kind, now), row); }, probe.what);
 }
 

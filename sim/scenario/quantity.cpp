@@ -181,7 +181,9 @@ double value(const Decimal& number, const Unit& unit) {
   double result = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
   result *= unit.factor;
-  if (error != std::errc() || !std::isfinite(result)) throw Reason("out of range");
+  // Squares of what is measured must be numbers too.
+  constexpr double kMost = 1e100;
+  if (error != std::errc() || !(std::abs(result) <= kMost)) throw Reason("out of range");
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "sim/assembly/line_search.hpp"
@@ -61,6 +62,7 @@ class Equilibrium::Solver {
   bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
   void restart() { linear_ = make_linear_solver(model_); }
   /// The largest force, or moment by the rigid body's size, of a vector of block forces [N].
+  /// Infinite where one is not a number: std::max would pass over it.
   double largest(const Eigen::VectorXd& f) const;
   double residual() const { return largest(dynamics_.now().forces); }
   double largest_acceleration() const;
@@ -79,6 +81,7 @@ class Equilibrium::Solver {
     check(KINSetNumMaxIters(kinsol_.get(), most), "KINSetNumMaxIters");
   }
   [[nodiscard]] bool balance(bool soft);
+  [[nodiscard]] bool iterate(double tolerance);
   [[nodiscard]] bool balance_within_bounds();
   void move(const Eigen::VectorXd& u, Eigen::VectorXd& y) const;
   /// r at u; kept, as KINSOL asks again for what the line search has seen.
@@ -275,6 +278,7 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
 }
 
 double Equilibrium::Solver::largest(const Eigen::VectorXd& f) const {
+  if (!f.allFinite()) return std::numeric_limits<double>::infinity();
   double largest = 0;
   for (int block = 0; block < model_.layout.num_free_nodes; ++block)
     largest = std::max(largest, f.segment<3>(3 * block).norm());
@@ -288,6 +292,7 @@ double Equilibrium::Solver::largest(const Eigen::VectorXd& f) const {
 
 double Equilibrium::Solver::largest_acceleration() const {
   const Eigen::VectorXd& f = dynamics_.now().forces;
+  if (!f.allFinite()) return std::numeric_limits<double>::infinity();
   double largest = 0;
   for (int block = 0; block < model_.layout.num_free_nodes; ++block)
     largest = std::max(largest, f.segment<3>(3 * block).norm() / model_.node_mass[block]);
@@ -317,25 +322,29 @@ int Equilibrium::Solver::run(double tolerance) {
 /// From where solution_ is. @param soft  contact is, and about balanced will do
 bool Equilibrium::Solver::balance(bool soft) {
   constexpr double kAboutBalanced = 1e-3;
-  const double tolerance = soft ? kAboutBalanced : kBalanced;
   conditions_.contact.soft = soft;
   known_ = false;
   taken_ = {};
+  const bool balanced = iterate(soft ? kAboutBalanced : kBalanced);
+  conditions_.contact.soft = false;
+  return balanced;
+}
+
+/// @param tolerance  of the largest force
+bool Equilibrium::Solver::iterate(double tolerance) {
   residual_at(view(solution_));
   for (int round = 0; round < kMostRounds; ++round) {
-    if (!(dynamics_.now().largest_force > 0)) break;  // nothing acts
-    const int flag = run(tolerance * dynamics_.now().largest_force);
+    const double force = dynamics_.now().largest_force;
+    if (!std::isfinite(force) || !r_.allFinite()) return false;
+    if (force == 0) break;  // nothing acts
+    const int flag = run(tolerance * force);
     const bool stuck = flag == KIN_STEP_LT_STPTOL && iterations.back().fraction < 1;
-    if (flag < 0 || stuck || !r_.allFinite()) {
-      conditions_.contact.soft = false;
-      return false;
-    }
+    if (flag < 0 || stuck) return false;
     residual_at(view(solution_));
     if (flag == KIN_STEP_LT_STPTOL) break;
     if (largest(r_) <= 2 * tolerance * dynamics_.now().largest_force) break;
   }
-  conditions_.contact.soft = false;
-  return true;
+  return r_.allFinite();
 }
 
 /// With multipliers where contact penetrates too much.

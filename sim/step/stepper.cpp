@@ -160,6 +160,11 @@ bool Stepper::try_step(State& state, double h) {
   return true;
 }
 
+/// The door of every step: what is no number goes no further.
+bool Stepper::is_finite(const Eigen::VectorXd& y) const {
+  return y.allFinite() && dynamics_->now().forces.allFinite();
+}
+
 bool Stepper::try_time_step(State& state, double h) {
   // Implicit Euler needs contacts where the step ends: they are looked for where everything will be
   // if it moves on as now. A scheme with stages between needs them on the whole way, and looks from
@@ -183,7 +188,7 @@ bool Stepper::try_time_step(State& state, double h) {
       return false;
     }
     dynamics_->evaluate(y_.data(), *reached, {.step_start = state.t});
-    if (!dynamics_->now().forces.allFinite()) {
+    if (!is_finite(y_)) {
       why_ = Rejection::NotFinite;
       return false;
     }
@@ -223,6 +228,10 @@ bool Stepper::try_load_step(State& state, double h) {
   if (!result.reached) {
     why_ = Rejection::NoEquilibrium;
     if (loose_) fail(state, h);  // a smaller load would not hold it either
+    return false;
+  }
+  if (!is_finite(y_)) {
+    why_ = Rejection::NotFinite;
     return false;
   }
   const auto same_body = [&](const RigidBodyMode& other) { return other.body == loose_->body; };

@@ -13,6 +13,7 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <limits>
 #include <random>
 
 #include "sim/base/error.hpp"
@@ -310,6 +311,18 @@ TEST(WriteTextFile, AFullDiskIsASystemErrorAndADeviceStaysADevice) {
   write_text_file("/dev/null", "text");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(FrameWriter, RefusesWhatIsNoNumber) {
+  const TemporaryFolder folder;
+  FrameWriter writer(folder.path(), "scene", {kMillimetre, "mm"});
+  Scene scene;
+  Field& stress = scene.tissue.cell_fields[0];
+  stress.values(2, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(scene.write(writer, 0, 0), SimulationError);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "frames"));
+  stress.may_be_blank = true;
+  scene.write(writer, 0, 0);
 }
 
 }  // namespace articular::sim::frame_writer_test

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "sim/base/error.hpp"
 #include "tests/sim/support/probes.hpp"
 #include "tests/sim/support/scenario_file.hpp"
 
@@ -319,6 +321,17 @@ TEST_F(ProbeFile, WhatSharesAndJointsCannotBeIsRefused) {
          "a joint needs two bodies");
   expect("kind = \"joint\"\nmirror = \"x\"\nside = \"right\"\n" + skull, "not mirrored");
   expect("kind = \"energy\"\nregion = {}\n", "the probe is of kind \"energy\"");
+}
+
+TEST(History, RefusesWhatIsNoNumber) {
+  Scenario s = scene(1e-3);
+  s.bodies = {mass_body("mass", 1)};
+  s.probes = {Probe{.name = "energies", .what = EnergyProbe{}}};
+  Simulation run(s);
+  History history(run.model, {});
+  history.record(run.state, run.stepper);
+  run.state.energy.load_work = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(history.record(run.state, run.stepper), SimulationError);
 }
 
 }  // namespace articular::sim::history_test

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -396,6 +397,18 @@ TEST(Threads, ChangeNoBitOfAResult) {
     const Eigen::VectorXd one = state_of(1, element);
     EXPECT_EQ(one, state_of(2, element));
     EXPECT_EQ(one, state_of(3, element));
+  }
+}
+
+TEST(Stepper, NothingThatIsNoNumberPassesAStep) {
+  for (const auto analysis : {Scenario::Analysis::Dynamic, Scenario::Analysis::Static}) {
+    Scenario s = scene(1e-3);
+    s.analysis = analysis;
+    s.bodies = {box_body("block", Body::Kind::Tissue, {0.02, 0.02, 0.02}), stand("floor")};
+    s.attachments = {attach("block", "floor", {-1, -1, -1}, {1, 1, -0.009})};
+    Simulation run(s);
+    run.state.y[0] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(run.stepper.step(run.state, 1e-3), SimulationError);
   }
 }
 
