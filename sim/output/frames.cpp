@@ -107,7 +107,10 @@ void write_contact_surface(const Model& model, const Configuration& now, int bod
                                 collider.surface.faces,
                                 contact_point_fields(contacts, b, x.cols()),
                                 {{"contact_pressure", "Pa", surface.face_pressure.transpose()},
-                                 {"contact_gap", "m", surface.face_gap.transpose(), true}}},
+                                 {.name = "contact_gap",
+                                  .unit = "m",
+                                  .values = surface.face_gap.transpose(),
+                                  .may_be_blank = true}}},
                                index, time);
 }
 

@@ -46,8 +46,8 @@ double History::share_of(const ObservedShare& share, const std::vector<std::size
           Eigen::Map<const Vec3>(&values_[begin[static_cast<std::size_t>(p)]]).dot(share.direction);
     return sum;
   };
-  const double whole = along(share.whole);
-  return whole != 0 ? along(share.part) / whole : std::numeric_limits<double>::quiet_NaN();
+  const double ratio = along(share.part) / along(share.whole);
+  return std::isfinite(ratio) ? ratio : std::numeric_limits<double>::quiet_NaN();  // of nothing
 }
 
 std::string History::text() const { return fmt::format("{}\n", fmt::join(columns_, ",")) + rows_; }

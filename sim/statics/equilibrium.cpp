@@ -65,6 +65,8 @@ class Equilibrium::Solver {
   /// Infinite where one is not a number: std::max would pass over it.
   double largest(const Eigen::VectorXd& f) const;
   double residual() const { return largest(dynamics_.now().forces); }
+  bool is_balanced(double part) const { return is_balanced(dynamics_.now().forces, part); }
+  bool is_balanced(const Eigen::VectorXd& r, double part) const;
   double largest_acceleration() const;
 
   std::vector<NewtonIteration> iterations;
@@ -82,6 +84,8 @@ class Equilibrium::Solver {
   }
   [[nodiscard]] bool balance(bool soft);
   [[nodiscard]] bool iterate(double tolerance);
+  /// Of r_ and what it is small against.
+  bool is_finite() const { return std::isfinite(dynamics_.now().largest_force) && r_.allFinite(); }
   [[nodiscard]] bool balance_within_bounds();
   void move(const Eigen::VectorXd& u, Eigen::VectorXd& y) const;
   /// r at u; kept, as KINSOL asks again for what the line search has seen.
@@ -290,9 +294,14 @@ double Equilibrium::Solver::largest(const Eigen::VectorXd& f) const {
   return largest;
 }
 
+/// Where forces are no numbers, nothing is.
+bool Equilibrium::Solver::is_balanced(const Eigen::VectorXd& r, double part) const {
+  const double force = dynamics_.now().largest_force;
+  return std::isfinite(force) && largest(r) <= part * force;
+}
+
 double Equilibrium::Solver::largest_acceleration() const {
   const Eigen::VectorXd& f = dynamics_.now().forces;
-  if (!f.allFinite()) return std::numeric_limits<double>::infinity();
   double largest = 0;
   for (int block = 0; block < model_.layout.num_free_nodes; ++block)
     largest = std::max(largest, f.segment<3>(3 * block).norm() / model_.node_mass[block]);
@@ -334,17 +343,15 @@ bool Equilibrium::Solver::balance(bool soft) {
 bool Equilibrium::Solver::iterate(double tolerance) {
   residual_at(view(solution_));
   for (int round = 0; round < kMostRounds; ++round) {
-    const double force = dynamics_.now().largest_force;
-    if (!std::isfinite(force) || !r_.allFinite()) return false;
-    if (force == 0) break;  // nothing acts
-    const int flag = run(tolerance * force);
+    if (!is_finite()) return false;
+    if (dynamics_.now().largest_force == 0) break;  // nothing acts
+    const int flag = run(tolerance * dynamics_.now().largest_force);
     const bool stuck = flag == KIN_STEP_LT_STPTOL && iterations.back().fraction < 1;
     if (flag < 0 || stuck) return false;
     residual_at(view(solution_));
-    if (flag == KIN_STEP_LT_STPTOL) break;
-    if (largest(r_) <= 2 * tolerance * dynamics_.now().largest_force) break;
+    if (flag == KIN_STEP_LT_STPTOL || is_balanced(r_, 2 * tolerance)) break;
   }
-  return r_.allFinite();
+  return is_finite();
 }
 
 /// With multipliers where contact penetrates too much.
@@ -423,6 +430,7 @@ bool Equilibrium::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorX
 void Equilibrium::set_watch(IterationWatch watch) { solver_->watch = std::move(watch); }
 void Equilibrium::restart() { solver_->restart(); }
 double Equilibrium::residual() const { return solver_->residual(); }
+bool Equilibrium::is_balanced(double part) const { return solver_->is_balanced(part); }
 double Equilibrium::largest_acceleration() const { return solver_->largest_acceleration(); }
 const std::vector<NewtonIteration>& Equilibrium::iterations() const { return solver_->iterations; }
 const SolverCounts& Equilibrium::counts() const { return solver_->counts; }

@@ -57,6 +57,8 @@ class Equilibrium {
   /// Largest force, or moment by the rigid body's size, that is not balanced at the last
   /// Dynamics::evaluate() [N].
   double residual() const;
+  /// Whether that is at most this part of the largest force. Forces that are no numbers are not.
+  bool is_balanced(double part) const;
   /// The largest acceleration of a node or rigid body there [m/s²].
   double largest_acceleration() const;
 

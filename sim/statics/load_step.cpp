@@ -106,8 +106,7 @@ class LoadStep {
     y = trial;
     look(y, 0);
     result.loose = find_rigid_body_mode(model_, dynamics_);
-    const bool reached = equilibrium_.residual() <= 2 * kBalanced * dynamics_.now().largest_force ||
-                         (!result.loose && balance(y));
+    const bool reached = equilibrium_.is_balanced(2 * kBalanced) || (!result.loose && balance(y));
     return reached ? PseudoStep::Arrived : PseudoStep::Moved;
   }
 

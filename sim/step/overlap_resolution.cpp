@@ -165,7 +165,7 @@ class OverlapResolver {
           const auto c = static_cast<std::size_t>(contact.contact);
           return contact.max_point_depth <= model_.contacts[c].max_penetration;
         });
-    return apart || equilibrium_.residual() <= kMostUnbalanced * dynamics_.now().largest_force;
+    return apart || equilibrium_.is_balanced(kMostUnbalanced);
   }
 
   /// Finds contacts at y, for things that will move so far [m], and evaluates there.

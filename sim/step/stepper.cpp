@@ -160,10 +160,8 @@ bool Stepper::try_step(State& state, double h) {
   return true;
 }
 
-/// The door of every step: what is no number goes no further.
-bool Stepper::is_finite(const Eigen::VectorXd& y) const {
-  return y.allFinite() && dynamics_->now().forces.allFinite();
-}
+/// The door of every step: where it ended, with the forces there.
+bool Stepper::is_finite() const { return y_.allFinite() && dynamics_->now().forces.allFinite(); }
 
 bool Stepper::try_time_step(State& state, double h) {
   // Implicit Euler needs contacts where the step ends: they are looked for where everything will be
@@ -188,7 +186,7 @@ bool Stepper::try_time_step(State& state, double h) {
       return false;
     }
     dynamics_->evaluate(y_.data(), *reached, {.step_start = state.t});
-    if (!is_finite(y_)) {
+    if (!is_finite()) {
       why_ = Rejection::NotFinite;
       return false;
     }
@@ -230,7 +228,7 @@ bool Stepper::try_load_step(State& state, double h) {
     if (loose_) fail(state, h);  // a smaller load would not hold it either
     return false;
   }
-  if (!is_finite(y_)) {
+  if (!is_finite()) {
     why_ = Rejection::NotFinite;
     return false;
   }

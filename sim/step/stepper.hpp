@@ -72,7 +72,7 @@ class Stepper {
   void find_contacts(const Configuration& where, double margin);
   void remember_start(const State& state);
   bool try_step(State& state, double h);
-  bool is_finite(const Eigen::VectorXd& y) const;
+  bool is_finite() const;
   bool try_time_step(State& state, double h);
   bool try_load_step(State& state, double h);
   SolverCounts solver_counts() const;
