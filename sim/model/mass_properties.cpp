@@ -1,5 +1,7 @@
 #include "sim/model/mass_properties.hpp"
 
+#include <Eigen/LU>
+
 namespace articular::sim {
 
 MassProperties solid_mass_properties(const Positions& X, const Triangles& surface, double density) {
