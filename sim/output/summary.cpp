@@ -118,7 +118,7 @@ std::string summary_json(const Scenario& scenario, const Model& model, const Sta
       {"linear_solver", chosen_solver(model, scenario.integrator.scheme)},
       {"threads", scenario.threads},
       {"counts", counts(state.counts)},
-      {"settling", overlap_resolution(model, state.overlap_resolution)},
+      {"overlap_resolution", overlap_resolution(model, state.overlap_resolution)},
       {"frames", state.frames},
       {"max_penetration_m", state.max_penetration},
       {"energy", energy(state, stepper.stored_energy())},

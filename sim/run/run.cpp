@@ -135,7 +135,7 @@ class Run {
     std::error_code ignored;
     std::filesystem::remove(checkpoint_file(), ignored);
     std::filesystem::remove(options_.directory / (scenario_.name + ".pvd"), ignored);
-    if (scenario_.settling) resolve_initial_overlaps();
+    resolve_initial_overlaps();
     history_.record(state_, stepper_);
     output_frame();
   }

@@ -12,7 +12,7 @@ struct RunOptions {
   bool resume = false;
   /// Called once bodies that overlapped at the start have been pushed apart.
   std::function<void(const OverlapResolution&)> after_overlap_resolution;
-  /// Called after every iteration of a static load step, and of settling (t = 0); true stops the
+  /// Called after every iteration of a static load step, and of overlap resolution (t = 0); true stops the
   /// run: a load step may take minutes.
   IterationWatch after_iteration;
   /// Asked within each step of an analysis in time; true stops the run at the end of the last one.

@@ -49,7 +49,7 @@ Scenario read_scenario(const std::filesystem::path& file,
     if (!sets_a_choice(text)) apply_override(root, text);
   const TableReader document(
       root, "scenario",
-      {"choice", "title", "duration", "analysis", "accuracy", "settling", "contact_response",
+      {"choice", "title", "duration", "analysis", "accuracy", "contact_response",
        "contact_stiffness_factor", "contact", "integrator", "detection", "output", "body", "attach",
        "muscle", "muscle_table", "ligament", "load", "probe"});
   Scenario scenario;

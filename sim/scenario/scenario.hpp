@@ -376,7 +376,6 @@ struct Scenario {
   /// Of averaged depths in a dynamic analysis: contact is this many times as stiff as the elements
   /// at the surface; default: chosen by the scheme.
   std::optional<double> contact_stiffness_factor;
-  bool settling = true;  // bodies that overlap at the start are pushed apart first
   std::vector<ContactPair> contacts;
   std::vector<Probe> probes;
   Output output;

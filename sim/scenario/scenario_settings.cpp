@@ -116,7 +116,6 @@ void read_settings(const TableReader& document, Scenario& scenario) {
     return read_choice<Scenario::Analysis>(
         n, {{"dynamic", Scenario::Analysis::Dynamic}, {"static", Scenario::Analysis::Static}});
   });
-  document.may("settling", scenario.settling, read_boolean);
   if (scenario.analysis == Scenario::Analysis::Static)
     document.refuse({"contact_response", "contact_stiffness_factor"},
                     "a static analysis averages depths");
@@ -148,7 +147,6 @@ std::string settings_as_json(const Scenario& scenario) {
   json["accuracy"] = kAccuracies[static_cast<int>(scenario.accuracy)];
   json["accuracy_stands_for"] = preset_as_json(scenario);
   json["analysis"] = scenario.analysis == Scenario::Analysis::Static ? "static" : "dynamic";
-  json["settling"] = scenario.settling;
   json["contact"] = contact_as_json(scenario);
   json["contact_response"] = scenario.analysis == Scenario::Analysis::Static
                                  ? "averaged"

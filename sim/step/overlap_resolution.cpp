@@ -56,8 +56,7 @@ void refuse_lost_bodies(const Model& model, const std::vector<double>& seen) {
     if (seen[static_cast<std::size_t>(contact - model.contacts.begin())] > 0) continue;
     throw SimulationError(
         fmt::format("{} overlap at the start by {:.3g} mm, at ({:.3f} {:.3f} {:.3f}) mm, and "
-                    "contact can't tell the way out: move one of them, or start as they are with "
-                    "settling = false",
+                    "contact can't tell the way out: move one of them",
                     names(model, *contact), 1e3 * overlap.depth, 1e3 * overlap.place.x(),
                     1e3 * overlap.place.y(), 1e3 * overlap.place.z()));
   }
@@ -97,7 +96,7 @@ class OverlapResolver {
       if (relax(1 - target, moving)) {
         done = target;
       } else if (++halvings > kMostHalvings) {
-        fail(fmt::format("could not push them apart by more than {:.3g} mm",
+        fail(fmt::format("they could be pushed apart by no more than {:.3g} mm",
                          1e3 * done * deepest().before));
       } else {
         step *= 0.5;
@@ -200,7 +199,7 @@ class OverlapResolver {
         return tissue.elements.volume_ratio(x).minCoeff(&element);
       };
       if (least(before) > 0 && !(least(dynamics_.now().configuration) > 0))
-        fail(fmt::format("would turn tetrahedron {} of `{}` inside out", element,
+        fail(fmt::format("pushing them apart would turn tetrahedron {} of `{}` inside out", element,
                          model_.bodies[static_cast<std::size_t>(tissue.body)].name));
     }
   }
@@ -212,11 +211,10 @@ class OverlapResolver {
   }
 
   [[noreturn]] void fail(const std::string& how) const {
-    throw SimulationError(fmt::format(
-        "{} overlap at the start by {:.3g} mm, and settling {}: move one of them, or start as they "
-        "are with settling = false",
-        names(model_, model_.contacts[static_cast<std::size_t>(deepest().contact)]),
-        1e3 * deepest().before, how));
+    throw SimulationError(
+        fmt::format("{} overlap at the start by {:.3g} mm, and {}: move one of them",
+                    names(model_, model_.contacts[static_cast<std::size_t>(deepest().contact)]),
+                    1e3 * deepest().before, how));
   }
 
   const Model& model_;

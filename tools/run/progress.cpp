@@ -39,8 +39,8 @@ void Progress::update(double t, const sim::NewtonIteration& iteration) {
   if (Clock::now() - shown_ <
       (status_.is_terminal() ? Clock::duration(kBarInterval) : kLineInterval))
     return;
-  const std::string what =
-      t > 0 ? fmt::format("load step to t = {:.1f} ms", 1e3 * t) : std::string("settling");
+  const std::string what = t > 0 ? fmt::format("load step to t = {:.1f} ms", 1e3 * t)
+                                 : std::string("pushing bodies apart");
   put(fmt::format("{}: iteration {}, residual {:.1e} of the largest force", what, iterations_,
                   iteration.residual));
 }

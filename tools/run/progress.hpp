@@ -14,7 +14,7 @@ class Progress {
  public:
   explicit Progress(bool quiet);
   void update(const sim::State& state, double duration);
-  /// Of a static load step to t, or of settling (t = 0).
+  /// Of a static load step to t, or of overlap resolution (t = 0).
   void update(double t, const sim::NewtonIteration& iteration);
   void finish();
 

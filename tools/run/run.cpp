@@ -26,18 +26,17 @@ struct RunArguments {
   bool resume = false, quiet = false;
 };
 
-void print(const sim::Model& model, const sim::OverlapResolution& settling) {
+void print(const sim::Model& model, const sim::OverlapResolution& resolution) {
   const auto name = [&](int body) { return model.bodies[static_cast<std::size_t>(body)].name; };
-  for (const sim::ResolvedOverlap& overlap : settling.overlaps) {
+  for (const sim::ResolvedOverlap& overlap : resolution.overlaps) {
     const sim::ContactModel& contact = model.contacts[static_cast<std::size_t>(overlap.contact)];
-    fmt::print(stderr,
-               "articular: settling: `{}` and `{}` overlapped by {:.3g} mm, now {:.2g} mm\n",
+    fmt::print(stderr, "articular: start: `{}` and `{}` overlapped by {:.3g} mm, now {:.2g} mm\n",
                name(contact.a), name(contact.b), 1e3 * overlap.before, 1e3 * overlap.after);
   }
   fmt::print(stderr,
-             "articular: settling moved nodes by up to {:.3g} mm ({} solutions); "
-             "settling = false starts without\n",
-             1e3 * settling.largest_motion, settling.solutions);
+             "articular: start: to push them apart nodes were moved by up to {:.3g} mm "
+             "({} solutions)\n",
+             1e3 * resolution.largest_motion, resolution.solutions);
 }
 
 int run_scenario(const RunArguments& arguments) {
@@ -63,8 +62,8 @@ int run_scenario(const RunArguments& arguments) {
     progress.update(t, iteration);
     return interrupted.load();
   };
-  options.after_overlap_resolution = [&](const sim::OverlapResolution& settling) {
-    if (!arguments.quiet) print(model, settling);
+  options.after_overlap_resolution = [&](const sim::OverlapResolution& resolution) {
+    if (!arguments.quiet) print(model, resolution);
   };
   options.warn = [&](const std::string& warning) {
     progress.finish();

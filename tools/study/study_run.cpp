@@ -59,7 +59,7 @@ std::string first_error(const fs::path& log) {
   std::string line;
   while (std::getline(stream, line))
     if (line.starts_with("articular: ") && !line.starts_with("articular: warning:") &&
-        !line.starts_with("articular: settling"))
+        !line.starts_with("articular: start:"))
       return line.substr(std::string("articular: ").size());
   return "";
 }

@@ -469,7 +469,6 @@ TEST_F(CompleteScenario, RecordsItsSettingsAsJson) {
   EXPECT_EQ(json["contact"][0]["bodies"][1], "mandible");
   EXPECT_EQ(json["integrator"]["scheme"], "tr-bdf2");
   EXPECT_EQ(json["integrator"]["position_tolerance_m"], 3e-7);
-  EXPECT_EQ(json["settling"], true);
   EXPECT_EQ(json["contact_response"], "pointwise");
   EXPECT_EQ(json["contact_parameters_set"], 1);
   EXPECT_EQ(json["output"]["contact_surfaces"], true);
