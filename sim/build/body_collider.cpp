@@ -82,7 +82,7 @@ Collider rigid_collider(const Body& body, const BodyGeometry& geometry, std::siz
   if (shell) {
     const MeshData& surface = geometry.contact.X.cols() > 0 ? geometry.contact : geometry.mesh;
     if (surface.triangles.cols() == 0) throw InputError("its mesh has no triangles");
-    depth = body.shell_thickness.value_or(mean_edge(surface));
+    depth = mean_edge(surface);
     collider.X = surface.X;
     Triangles triangles = surface.triangles;
     collider.tets = shell_under(collider.X, triangles, depth);

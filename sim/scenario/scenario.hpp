@@ -172,8 +172,6 @@ struct Body {
   std::optional<Eigen::Matrix3d>
       inertia;  // [kg m^2], rigid, about the centre of mass; default from the mesh
   std::optional<Layer> layer;
-  std::optional<double>
-      shell_thickness;  // [m], depth of the collision elements under a rigid body's surface
   Vec3 velocity = Vec3::Zero();          // [m/s] at the start
   Vec3 angular_velocity = Vec3::Zero();  // [rad/s] at the start, rigid
   std::optional<Hold> hold;              // rigid

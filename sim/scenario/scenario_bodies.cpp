@@ -225,7 +225,7 @@ void check_kind(const TableReader& table, const Body& body) {
       table.refuse({"mass", "density", "center_of_mass", "inertia"}, "a fixed body has no inertia");
       table.refuse({"velocity", "angular_velocity"},
                    "a fixed body has no velocity; a [[load]] of kind \"motion\" moves it");
-      if (!has_surface(body)) table.refuse({"layer", "shell_thickness"}, "the body has no mesh");
+      if (!has_surface(body)) table.refuse({"layer"}, "the body has no mesh");
       break;
     case Body::Kind::Rigid:
       table.refuse({"material"}, "only tissue has a material");
@@ -235,8 +235,7 @@ void check_kind(const TableReader& table, const Body& body) {
       break;
     case Body::Kind::Tissue:
       table.refuse({"mass", "center_of_mass", "inertia"}, "tissue has a density instead");
-      table.refuse({"contact_meshes", "layer", "shell_thickness"},
-                   "tissue touches with its own surface");
+      table.refuse({"contact_meshes", "layer"}, "tissue touches with its own surface");
       table.refuse({"angular_velocity"}, "only a rigid body has an angular velocity");
       table.refuse({"hold"}, "only a rigid body has freedoms to hold; tissue is attached");
       table.exactly_one({"mesh", "geometry"});
@@ -247,10 +246,10 @@ void check_kind(const TableReader& table, const Body& body) {
 }
 
 Body read_body(const Node& node, const std::filesystem::path& folder) {
-  const TableReader table(node, label(node, "body"),
-                          {"name", "kind", "mesh", "geometry", "contact_meshes", "layer",
-                           "shell_thickness", "collides", "mass", "density", "center_of_mass",
-                           "inertia", "velocity", "angular_velocity", "hold", "material"});
+  const TableReader table(
+      node, label(node, "body"),
+      {"name", "kind", "mesh", "geometry", "contact_meshes", "layer", "collides", "mass", "density",
+       "center_of_mass", "inertia", "velocity", "angular_velocity", "hold", "material"});
   const auto mesh = [&](const Node& n) { return read_mesh(n, folder, false); };
   const auto contact_meshes = [&](const Node& n) { return read_contact_meshes(n, folder); };
   Body body;
@@ -264,7 +263,6 @@ Body read_body(const Node& node, const std::filesystem::path& folder) {
   if (const Node* geometry = table.find("geometry")) read_geometry(*geometry, body);
   table.may("contact_meshes", body.contact_meshes, contact_meshes);
   table.may("layer", body.layer, read_layer);
-  table.may("shell_thickness", body.shell_thickness, as_quantity(kLength, kPositive));
   table.may("collides", body.collides, read_boolean);
   table.may("mass", body.mass, as_quantity(kMass, kPositive));
   table.may("density", body.density, as_quantity(kDensity, kPositive));

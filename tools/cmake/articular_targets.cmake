@@ -89,12 +89,13 @@ function(articular_program target)
   endif()
 endfunction()
 
-# articular_test(name SOURCES ... LIBRARIES ... [LABELS ...] [IN_ONE_PROCESS]): one GoogleTest program, each of its tests
-# a ctest, or all of them one. With ARTICULAR_SANITIZED the same objects are linked a second time, with the sanitized
-# libraries: those tests have names that begin with "sanitized/", and that label. Tests take longest to compile, and
-# what they are to find is in the libraries. Slow ones would take minutes with sanitizers, and graphics drivers leak.
+# articular_test(name SOURCES ... LIBRARIES ... [LABELS ...] [UNSANITIZED ...] [IN_ONE_PROCESS]): one GoogleTest program,
+# each of its tests a ctest, or all of them one. With ARTICULAR_SANITIZED the same objects are linked a second time, with
+# the sanitized libraries: those tests have names that begin with "sanitized/", and that label. Tests take longest to
+# compile, and what they are to find is in the libraries. Slow ones would take minutes with sanitizers, and graphics
+# drivers leak. So would those of UNSANITIZED, patterns of GoogleTest: they compute for long what shorter ones reach.
 function(articular_test name)
-  cmake_parse_arguments(arg "IN_ONE_PROCESS" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "IN_ONE_PROCESS" "" "SOURCES;LIBRARIES;LABELS;UNSANITIZED" ${ARGN})
   if(NOT ARTICULAR_SLOW_TESTS AND arg_LABELS MATCHES "slow|render")
     return()
   endif()
@@ -108,7 +109,7 @@ function(articular_test name)
   target_link_libraries(${name}_objects PRIVATE ${arg_LIBRARIES} GTest::gtest_main)
   add_executable(${name} $<TARGET_OBJECTS:${name}_objects>)
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} GTest::gtest_main)
-  articular_register_tests(${name} "" "${arg_IN_ONE_PROCESS}" "${arg_LABELS}")
+  articular_register_tests(${name} "" "${arg_IN_ONE_PROCESS}" "${arg_LABELS}" "*")
   if(ARTICULAR_SANITIZED AND NOT arg_LABELS MATCHES "slow|render")
     articular_sanitized_names(libraries ${arg_LIBRARIES})
     add_executable(${name}_sanitized $<TARGET_OBJECTS:${name}_objects>)
@@ -117,7 +118,8 @@ function(articular_test name)
     articular_own_libraries(own ${libraries})
     target_link_options(${name}_sanitized PRIVATE ${sanitizer_options}
       LINKER:--whole-archive ${own} LINKER:--no-whole-archive)
-    articular_register_tests(${name}_sanitized "sanitized/" "${arg_IN_ONE_PROCESS}" "${arg_LABELS};sanitized")
+    list(JOIN arg_UNSANITIZED ":" left_out)
+    articular_register_tests(${name}_sanitized "sanitized/" "${arg_IN_ONE_PROCESS}" "${arg_LABELS};sanitized" "*-${left_out}")
   endif()
 endfunction()
 
@@ -136,7 +138,7 @@ function(articular_own_libraries result)
 endfunction()
 
 include(GoogleTest)
-function(articular_register_tests program prefix in_one_process labels)
+function(articular_register_tests program prefix in_one_process labels filter)
   set(properties TIMEOUT 600)
   if(labels)
     list(APPEND properties LABELS "${labels}")
@@ -145,10 +147,11 @@ function(articular_register_tests program prefix in_one_process labels)
     list(APPEND properties ENVIRONMENT "ARTICULAR_PROGRAM=$<TARGET_FILE:articular_sanitized>")
   endif()
   if(in_one_process)
-    add_test(NAME ${prefix}${program} COMMAND ${program})
+    add_test(NAME ${prefix}${program} COMMAND ${program} --gtest_filter=${filter})
     set_tests_properties(${prefix}${program} PROPERTIES ${properties})
   else()
-    gtest_discover_tests(${program} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${prefix}" PROPERTIES ${properties})
+    gtest_discover_tests(${program} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${prefix}" TEST_FILTER "${filter}"
+      PROPERTIES ${properties})
   endif()
 endfunction()
 

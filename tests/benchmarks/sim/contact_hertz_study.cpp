@@ -129,8 +129,7 @@ void study_hertz(const StudyOptions& options) {
     Scene scene(options);
     add_lower(scene, fine_block(kContactRadius / elements));
     // Facets of a/16: their sagitta is 0.05 % of δ.
-    scene.add_rigid("sphere", sphere_cap(kRadius, 3 * kContactRadius, kFine, kContactRadius / 16),
-                    0.5 * kContactRadius);
+    scene.add_rigid("sphere", sphere_cap(kRadius, 3 * kContactRadius, kFine, kContactRadius / 16));
     scene.touch("sphere", "lower");
     scene.drive("sphere", {Vec3::Zero(), Vec3(0, 0, -kApproach)});
     print_row(elements, scene, options, hertz(kYoung / (1 - kPoisson * kPoisson)));

@@ -38,8 +38,7 @@ LayerResult press_layer(int elements, double nu, const StudyOptions& options) {
   scene.add(rigid);
   scene.tie("layer", "bone", -1.001 * kThickness, -0.999 * kThickness);
   // Facets of t/12: their sagitta is 0.09 % of the indentation.
-  scene.add_rigid("sphere", sphere_cap(kRadius, 1.4 * kFine, kFine, kThickness / 12),
-                  kThickness / 2);
+  scene.add_rigid("sphere", sphere_cap(kRadius, 1.4 * kFine, kFine, kThickness / 12));
   scene.touch("sphere", "layer");
   scene.drive("sphere", {Vec3::Zero(), Vec3(0, 0, -kIndentation)});
   ContactRun run(scene, options);

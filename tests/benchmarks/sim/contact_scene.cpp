@@ -142,10 +142,9 @@ void Scene::tissue(const std::string& name, const MeshData& mesh, const fem::Any
   add(std::move(body));
 }
 
-void Scene::add_rigid(const std::string& name, const MeshData& mesh, double shell) {
+void Scene::add_rigid(const std::string& name, const MeshData& mesh) {
   Body body = meshed(name, mesh);
   body.kind = Body::Kind::Fixed;
-  body.shell_thickness = shell;
   add(std::move(body));
 }
 

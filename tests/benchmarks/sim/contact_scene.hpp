@@ -51,8 +51,7 @@ class Scene {
   explicit Scene(const StudyOptions& options);
 
   void tissue(const std::string& name, const MeshData& mesh, const fem::AnyMaterial& law);
-  /// @param shell  [m] depth of the collision elements under a mesh of triangles
-  void add_rigid(const std::string& name, const MeshData& mesh, double shell);
+  void add_rigid(const std::string& name, const MeshData& mesh);
   void add(Body body) { scenario_.bodies.push_back(std::move(body)); }
   /// Nodes of a tissue between two heights [m] move with a fixed body.
   void tie(const std::string& tissue, const std::string& rigid, double z_low, double z_high);

@@ -41,7 +41,6 @@ contact_meshes = [
   { file = "anatomy/fossa_right.vtp", unit = "m", place = { scale = 2 } },
 ]
 layer = { thickness = "0.4 mm", young_modulus = "2.7 MPa", poisson_ratio = 0.49 }
-shell_thickness = "2 mm"
 collides = false
 
 [[body]]
@@ -260,7 +259,6 @@ TEST_F(CompleteScenario, HasItsBones) {
   EXPECT_EQ(skull.layer->thickness, 0.4e-3);
   EXPECT_EQ(skull.layer->young_modulus, 2.7e6);
   EXPECT_EQ(skull.layer->poisson_ratio, 0.49);
-  EXPECT_EQ(skull.shell_thickness, 2e-3);
   EXPECT_FALSE(skull.collides);
 
   const Body& mandible = scenario_.bodies[1];
