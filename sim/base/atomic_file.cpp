@@ -28,13 +28,14 @@ class OpenFile {
   OpenFile& operator=(const OpenFile&) = delete;
 
   /// 0, or the error number of the first call that failed.
-  int write_and_close(const std::string& text) {
+  int write_and_close(const std::string& text, Durable durable) {
     if (fd_ < 0) return errno;
     for (std::size_t done = 0; done < text.size();) {
       const ssize_t count = ::write(fd_, text.data() + done, text.size() - done);
       if (count < 0 && errno != EINTR) return errno;
       if (count > 0) done += static_cast<std::size_t>(count);
     }
+    if (durable == Durable::Now && ::fsync(fd_) != 0 && errno != EINVAL) return errno;
     const int fd = fd_;
     fd_ = -1;
     return ::close(fd) == 0 ? 0 : errno;
@@ -47,7 +48,7 @@ class OpenFile {
 
 }  // namespace
 
-void write_text_file(const fs::path& file, const std::string& text) {
+void write_text_file(const fs::path& file, const std::string& text, Durable durable) {
   std::error_code status;
   fs::path target = file;
   if (fs::is_symlink(file, status)) {  // the link stays, what it points to is replaced
@@ -56,13 +57,13 @@ void write_text_file(const fs::path& file, const std::string& text) {
   }
   // A pipe or device (/dev/stdout, /dev/full) must be written itself: a rename would replace it.
   if (fs::exists(target, status) && fs::is_other(target, status)) {
-    if (const int error = OpenFile(target).write_and_close(text)) fail(file, error);
+    if (const int error = OpenFile(target).write_and_close(text, Durable::Later)) fail(file, error);
     return;
   }
   // A fixed name, so that what a killed run left is overwritten by the next.
   fs::path temporary = target;
   temporary += ".part";
-  if (const int error = OpenFile(temporary).write_and_close(text)) {
+  if (const int error = OpenFile(temporary).write_and_close(text, durable)) {
     ::unlink(temporary.c_str());
     fail(file, error);
   }
@@ -71,6 +72,15 @@ void write_text_file(const fs::path& file, const std::string& text) {
     ::unlink(temporary.c_str());
     fail(file, status.value());
   }
+  if (durable == Durable::Now) sync_file(fs::absolute(target).parent_path());
+}
+
+void sync_file(const fs::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(file, errno);
+  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (error != 0 && error != EINVAL) fail(file, error);  // EINVAL: a file system that can't
 }
 
 }  // namespace articular::sim

@@ -5,8 +5,15 @@
 
 namespace articular::sim {
 
+/// When what was written outlasts a power cut: at once, or once somebody calls sync_file().
+enum class Durable { Now, Later };
+
 /// Writes a file (text or bytes) whole or not at all: beside it as `<file>.part`, then renamed.
 /// What is no regular file (/dev/stdout, a pipe) is written straight. @throws SystemError
-void write_text_file(const std::filesystem::path& file, const std::string& text);
+void write_text_file(const std::filesystem::path& file, const std::string& text,
+                     Durable durable = Durable::Now);
+
+/// A file, or a folder with the names in it, outlasts a power cut from now on. @throws SystemError
+void sync_file(const std::filesystem::path& file);
 
 }  // namespace articular::sim

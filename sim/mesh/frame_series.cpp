@@ -8,9 +8,7 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
-#include <map>
 
-#include "sim/base/atomic_file.hpp"
 #include "sim/base/error.hpp"
 #include "sim/mesh/mesh_readers.hpp"
 #include "sim/mesh/vtk_files.hpp"
@@ -55,6 +53,12 @@ std::optional<int> index_in_name(const std::string& file) {
   return parse_integer(std::string_view(stem).substr(underscore + 1));
 }
 
+constexpr const char* kHead =
+    "<?xml version=\"1.0\"?>\n"
+    "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+    "  <Collection>\n";
+constexpr const char* kTail = "  </Collection>\n</VTKFile>\n";
+
 constexpr const char* kContactSurface = ":contact";  // bodies' names have no colon
 
 }  // namespace
@@ -94,22 +98,34 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& pvd) {
   return entries;
 }
 
-void write_series(const std::filesystem::path& pvd, const std::vector<SeriesEntry>& entries) {
+SeriesFile::SeriesFile(const std::filesystem::path& pvd) : file_(pvd) {
+  file_.append(kHead, kTail);
+}
+
+SeriesFile::SeriesFile(const std::filesystem::path& pvd, const FileExtent& extent)
+    : file_(pvd, extent) {
+  file_.append("", kTail);
+  for (const SeriesEntry& entry : read_series(pvd)) {
+    part_number_.try_emplace(entry.part, part_number_.size());
+    std::error_code gone;
+    if (std::filesystem::file_size(pvd.parent_path() / entry.file, gone) == 0 || gone)
+      throw InputError({pvd.string()}, "lists `" + entry.file +
+                                           "`, which is gone or empty: put it back, or run "
+                                           "without --resume");
+  }
+}
+
+void SeriesFile::append(const std::vector<SeriesEntry>& entries) {
   // ParaView wants parts numbered, the same part by the same number in every frame.
-  std::map<std::string, std::size_t> part_number;
-  std::string text =
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-      "  <Collection>\n";
+  std::string text;
   for (const SeriesEntry& entry : entries) {
     const std::size_t number =
-        part_number.try_emplace(entry.part, part_number.size()).first->second;
+        part_number_.try_emplace(entry.part, part_number_.size()).first->second;
     text += "    <DataSet timestep=\"" + shortest(entry.time) + "\" part=\"" +
             std::to_string(number) + "\" name=\"" + escaped(entry.part) + "\" file=\"" +
             escaped(entry.file) + "\"/>\n";
   }
-  text += "  </Collection>\n</VTKFile>\n";
-  write_text_file(pvd, text);
+  file_.append(text, kTail);
 }
 
 std::string frame_file_name(const std::string& part, int index, const std::string& ending) {

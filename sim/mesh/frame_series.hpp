@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
+
+#include "sim/base/append_file.hpp"
 
 namespace articular::sim {
 
@@ -21,8 +24,24 @@ bool is_contact_surface(const SeriesEntry& entry);
 /// The entries of a .pvd in its order. @throws InputError when it is missing or not understood
 std::vector<SeriesEntry> read_series(const std::filesystem::path& pvd);
 
-/// Writes a .pvd whole or not at all; the parts of a frame stand together. @throws SystemError
-void write_series(const std::filesystem::path& pvd, const std::vector<SeriesEntry>& entries);
+/// A .pvd that grows by a frame at a time. Its file is whole XML after each.
+class SeriesFile {
+ public:
+  /// A new one, in the place of one that may be there. @throws SystemError
+  explicit SeriesFile(const std::filesystem::path& pvd);
+  /// Goes on where it had that extent; what follows is cut.
+  /// @throws InputError where it does not begin so, or a file that it lists is gone
+  SeriesFile(const std::filesystem::path& pvd, const FileExtent& extent);
+
+  /// The parts of one frame. @throws SystemError
+  void append(const std::vector<SeriesEntry>& entries);
+  void sync() { file_.sync(); }
+  const FileExtent& extent() const { return file_.extent(); }
+
+ private:
+  AppendFile file_;
+  std::map<std::string, std::size_t> part_number_;
+};
 
 /// "condyle_left_000123.vtp"
 std::string frame_file_name(const std::string& part, int index, const std::string& ending);

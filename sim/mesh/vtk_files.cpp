@@ -179,13 +179,13 @@ vtkSmartPointer<vtkPointSet> read_vtk_file(const std::filesystem::path& file) {
   return set;
 }
 
-void write_vtk_file(const std::filesystem::path& file, vtkPointSet& set) {
+void write_vtk_file(const std::filesystem::path& file, vtkPointSet& set, Durable durable) {
   const QuietVtk vtk;
   const std::string xml = set.IsA("vtkPolyData") != 0 ? to_xml<vtkXMLPolyDataWriter>(set)
                                                       : to_xml<vtkXMLUnstructuredGridWriter>(set);
   if (vtk.failed() || xml.empty())
     throw SystemError(file.string() + ": can't be written: " + vtk.message());
-  write_text_file(file, xml);
+  write_text_file(file, xml, durable);
 }
 
 vtkSmartPointer<vtkPointSet> make_grid(const Positions& x, double unit, const Tetrahedra& tets,

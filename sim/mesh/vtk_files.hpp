@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "fem/base/types.hpp"
+#include "sim/base/atomic_file.hpp"
 
 /// VTK's readers and writers with our manners: quiet, errors as exceptions, files whole or not at
 /// all.
@@ -38,7 +39,8 @@ bool is_vtk_file_ending(std::string_view ending);
 vtkSmartPointer<vtkPointSet> read_vtk_file(const std::filesystem::path& file);
 
 /// A .vtu or .vtp: appended binary, zlib. @throws SystemError
-void write_vtk_file(const std::filesystem::path& file, vtkPointSet& set);
+void write_vtk_file(const std::filesystem::path& file, vtkPointSet& set,
+                    Durable durable = Durable::Now);
 
 /// Points x / unit in double precision; cells as given, tetrahedra first.
 vtkSmartPointer<vtkPointSet> make_grid(const Positions& x, double unit, const Tetrahedra& tets,

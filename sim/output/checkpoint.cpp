@@ -8,19 +8,14 @@
 
 #include "sim/base/atomic_file.hpp"
 #include "sim/base/error.hpp"
+#include "sim/base/hash.hpp"
 
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 7\n";
+constexpr char kMagic[] = "articular checkpoint 8\n";
 
-/// FNV-1a: a plain hash is enough to notice damage and mix-ups.
-std::uint64_t hash_bytes(const char* data, std::size_t size) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (std::size_t i = 0; i < size; ++i)
-    hash = (hash ^ static_cast<unsigned char>(data[i])) * 1099511628211ULL;
-  return hash;
-}
+constexpr const char *kNewest = "state.bin", *kBefore = "previous.bin";
 
 template <class T>
 void put(const T& value, std::string& bytes) {
@@ -34,10 +29,10 @@ void put_vector(const Eigen::VectorXd& values, std::string& bytes) {
                static_cast<std::size_t>(values.size()) * sizeof(double));
 }
 
-/// Takes values off the front of a file's bytes.
 /// The file ends too early or is no checkpoint.
 struct Torn {};
 
+/// Takes values off the front of a file's bytes.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : rest_(bytes) {}
@@ -49,6 +44,7 @@ class Reader {
   void get_vector(Eigen::VectorXd& values) {
     Eigen::Index size = 0;
     get(size);
+    if (size < 0 || static_cast<std::size_t>(size) > rest_.size() / sizeof(double)) throw Torn{};
     const auto doubles = take(static_cast<std::size_t>(size) * sizeof(double));
     values.resize(size);
     if (size > 0) std::memcpy(values.data(), doubles.data(), doubles.size());
@@ -111,72 +107,102 @@ std::string fingerprint(const Scenario& scenario, const Model& model) {
     put(muscle.given.tendon_ratio, bytes);
   }
   for (const Line& line : model.lines) put(line.start_length, bytes);
-  return fmt::format("{:016x}", hash_bytes(bytes.data(), bytes.size()));
+  return fmt::format("{:016x}", hash_bytes(bytes));
 }
 
-void write_checkpoint(const std::filesystem::path& file, const State& state,
+namespace {
+
+/// All of it but the state's vector, each in its place, to be written or read.
+template <class AnyCheckpoint, class Visit>
+void each_of_checkpoint(AnyCheckpoint& checkpoint, const Visit& visit) {
+  auto& state = checkpoint.state;
+  visit(state.t);
+  visit(state.next_step);
+  visit(state.next_margin);
+  visit(state.max_penetration);
+  visit(state.frames);
+  visit(state.energy);
+  visit(state.counts);
+  each_of_extrema(state.extrema, visit);
+  visit(state.overlap_resolution.solutions);
+  visit(state.overlap_resolution.largest_motion);
+  for (auto* extent : {&checkpoint.history, &checkpoint.series, &checkpoint.convergence}) {
+    visit(extent->bytes);
+    visit(extent->hash);
+  }
+}
+
+/// @throws Torn, or InputError when it belongs to another scenario
+Checkpoint parsed(const std::string& bytes, const std::string& fingerprint,
+                  const std::filesystem::path& file) {
+  if (bytes.size() < sizeof(std::uint64_t)) throw Torn{};
+  const std::size_t body = bytes.size() - sizeof(std::uint64_t);
+  std::uint64_t stored = 0;
+  std::memcpy(&stored, bytes.data() + body, sizeof(stored));
+  if (stored != hash_bytes(std::string_view(bytes).substr(0, body))) throw Torn{};
+  Reader reader(std::string_view(bytes).substr(0, body));
+  if (reader.take(std::strlen(kMagic)) != kMagic) throw Torn{};
+  if (reader.take(fingerprint.size()) != fingerprint)
+    throw InputError(
+        fmt::format("{} belongs to another scenario, mesh or setting; run without "
+                    "--resume or choose another --out",
+                    file.string()));
+  Checkpoint checkpoint;
+  const auto get_member = [&](auto& member) { reader.get(member); };
+  each_of_checkpoint(checkpoint, get_member);
+  std::size_t num_overlaps = 0;
+  reader.get(num_overlaps);
+  for (std::size_t k = 0; k < num_overlaps; ++k)
+    each_of_overlap(checkpoint.state.overlap_resolution.overlaps.emplace_back(), get_member);
+  reader.get_vector(checkpoint.state.y);
+  return checkpoint;
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint,
                       const std::string& fingerprint) {
   std::string bytes = kMagic;
   const auto put_member = [&](const auto& member) { put(member, bytes); };
   bytes += fingerprint;
-  put(state.t, bytes);
-  put(state.next_step, bytes);
-  put(state.next_margin, bytes);
-  put(state.max_penetration, bytes);
-  put(state.frames, bytes);
-  put(state.energy, bytes);
-  put(state.counts, bytes);
-  each_of_extrema(state.extrema, put_member);
-  put(state.overlap_resolution.solutions, bytes);
-  put(state.overlap_resolution.largest_motion, bytes);
-  put(state.overlap_resolution.overlaps.size(), bytes);
-  for (const ResolvedOverlap& overlap : state.overlap_resolution.overlaps)
-    each_of_overlap(overlap, put_member);
-  put_vector(state.y, bytes);
-  put(hash_bytes(bytes.data(), bytes.size()), bytes);
-  write_text_file(file, bytes);
+  each_of_checkpoint(checkpoint, put_member);
+  const auto& overlaps = checkpoint.state.overlap_resolution.overlaps;
+  put(overlaps.size(), bytes);
+  for (const ResolvedOverlap& overlap : overlaps) each_of_overlap(overlap, put_member);
+  put_vector(checkpoint.state.y, bytes);
+  put(hash_bytes(bytes), bytes);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (std::filesystem::exists(folder / kNewest, error))
+    std::filesystem::rename(folder / kNewest, folder / kBefore, error);
+  write_text_file(folder / kNewest, bytes);
 }
 
-std::optional<State> read_checkpoint(const std::filesystem::path& file,
-                                     const std::string& fingerprint) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return {};
-  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  State state;
-  try {
-    if (bytes.size() < sizeof(std::uint64_t)) throw Torn{};
-    const std::size_t body = bytes.size() - sizeof(std::uint64_t);
-    std::uint64_t stored = 0;
-    std::memcpy(&stored, bytes.data() + body, sizeof(stored));
-    if (stored != hash_bytes(bytes.data(), body)) throw Torn{};
-    Reader reader(std::string_view(bytes).substr(0, body));
-    if (reader.take(std::strlen(kMagic)) != kMagic) throw Torn{};
-    if (reader.take(fingerprint.size()) != fingerprint)
-      throw InputError(
-          fmt::format("{} belongs to another scenario, mesh or setting; run without "
-                      "--resume or choose another --out",
-                      file.string()));
-    reader.get(state.t);
-    reader.get(state.next_step);
-    reader.get(state.next_margin);
-    reader.get(state.max_penetration);
-    reader.get(state.frames);
-    reader.get(state.energy);
-    reader.get(state.counts);
-    const auto get_member = [&](auto& member) { reader.get(member); };
-    each_of_extrema(state.extrema, get_member);
-    reader.get(state.overlap_resolution.solutions);
-    reader.get(state.overlap_resolution.largest_motion);
-    std::size_t num_overlaps = 0;
-    reader.get(num_overlaps);
-    for (std::size_t k = 0; k < num_overlaps; ++k)
-      each_of_overlap(state.overlap_resolution.overlaps.emplace_back(), get_member);
-    reader.get_vector(state.y);
-  } catch (const Torn&) {
-    throw InputError(
-        fmt::format("{} is not a whole checkpoint; remove it to start afresh", file.string()));
+std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder,
+                                          const std::string& fingerprint,
+                                          const std::function<void(const std::string&)>& warn) {
+  std::string damaged;
+  for (const char* const name : {kNewest, kBefore}) {
+    const std::filesystem::path file = folder / name;
+    std::ifstream in(file, std::ios::binary);
+    if (!in) continue;
+    try {
+      Checkpoint checkpoint = parsed({std::istreambuf_iterator<char>(in), {}}, fingerprint, file);
+      if (damaged.empty()) return checkpoint;
+      std::error_code ignored;
+      std::filesystem::rename(file, folder / kNewest, ignored);
+      if (warn)
+        warn(
+            fmt::format("{} is not a whole checkpoint; going on from the one before, of t = {:g} s",
+                        damaged, checkpoint.state.t));
+      return checkpoint;
+    } catch (const Torn&) {
+      damaged = file.string();
+    }
   }
-  return state;
+  if (damaged.empty()) return {};
+  throw InputError(
+      fmt::format("{} is not a whole checkpoint; run without --resume to start afresh", damaged));
 }
 
 }  // namespace articular::sim

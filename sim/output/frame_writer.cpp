@@ -76,17 +76,9 @@ FrameWriter::FrameWriter(std::filesystem::path directory, std::string name, Leng
 
 std::filesystem::path FrameWriter::series_file() const { return directory_ / (name_ + ".pvd"); }
 
-void FrameWriter::resume_at(double time) {
-  constexpr double kSameTime = 1e-12;  // relative: round-off of sums of step sizes
+void FrameWriter::resume_at(const FileExtent& series) {
   pending_.clear();
-  published_.clear();
-  if (!std::filesystem::exists(series_file())) return;  // stopped before its first frame
-  published_ = read_series(series_file());
-  const std::size_t before = published_.size();
-  std::erase_if(published_, [&](const SeriesEntry& entry) {
-    return entry.time > time + kSameTime * std::abs(time);
-  });
-  if (published_.size() < before) write_series(series_file(), published_);
+  series_.emplace(series_file(), series);
 }
 
 void FrameWriter::add_field(vtkPointSet& set, vtkDataSetAttributes& target,
@@ -130,14 +122,16 @@ void FrameWriter::write_part(const std::string& part, const std::string& name,
   if (name.empty() || name.find('/') != std::string::npos || name.front() == '.')
     throw InputError("body name `" + name + "` can't be the name of a file");
   const std::string file = std::string(kFrames) + "/" + frame_file_name(name, index, ending);
-  assert(std::none_of(pending_.begin(), pending_.end(),
-                      [&](const SeriesEntry& entry) { return entry.file == file; }));
+  if (std::any_of(pending_.begin(), pending_.end(),
+                  [&](const SeriesEntry& entry) { return entry.file == file; }))
+    throw InputError("two results would be called " + file + ": rename a body");
   vtkNew<vtkDoubleArray> time_value;
   time_value->SetName("TimeValue");
   time_value->InsertNextValue(time);
   set.GetFieldData()->AddArray(time_value);
   add_text(set, "coordinates.unit", unit_.name);
-  write_vtk_file(directory_ / file, set);
+  write_vtk_file(directory_ / file, set, Durable::Later);
+  not_synced_.push_back(file);
   pending_.push_back({time, index, part, file});
 }
 
@@ -183,16 +177,21 @@ void FrameWriter::write_lines(const LinesFrame& frame, int index, double time) {
   write_part("lines", "lines", ".vtp", *set, index, time);
 }
 
-void FrameWriter::finish_frame(int index, double time) {
-  // A frame written again (the last before an interruption) takes the place of its first version.
-  std::erase_if(published_, [&](const SeriesEntry& entry) { return entry.index == index; });
+void FrameWriter::finish_frame([[maybe_unused]] int index, double time) {
   for (SeriesEntry& entry : pending_) {
     assert(entry.index == index);
     entry.time = time;
   }
-  published_.insert(published_.end(), pending_.begin(), pending_.end());
+  if (!series_) series_.emplace(series_file());
+  series_->append(pending_);
   pending_.clear();
-  write_series(series_file(), published_);
+}
+
+void FrameWriter::sync() {
+  for (const std::string& file : not_synced_) sync_file(directory_ / file);
+  not_synced_.clear();
+  sync_file(directory_ / kFrames);
+  if (series_) series_->sync();
 }
 
 }  // namespace articular::sim

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -56,16 +57,16 @@ struct LinesFrame {
   std::vector<Field> cell_fields;  // activation, force, length, kind (0 muscle, 1 ligament)
 };
 
-/// Writes a time series into a folder: DIR/NAME.pvd and DIR/frames/BODY_000123.vtu etc. Every file
-/// appears whole or not at all; after each frame the .pvd lists all frames so far.
+/// Writes a time series into a folder: DIR/NAME.pvd and DIR/frames/BODY_000123.vtu etc. Every frame
+/// file appears whole or not at all; after each frame the .pvd lists all frames so far.
 class FrameWriter {
  public:
   /// @throws SystemError when the folder can't be made or written
   FrameWriter(std::filesystem::path directory, std::string name, LengthUnit unit);
 
-  /// Resumes: keeps the frames up to `time` (relative tolerance 1e-12) that an earlier run
-  /// published, forgets those after it. @throws InputError when that .pvd can't be understood
-  void resume_at(double time);
+  /// Resumes: keeps the frames that the .pvd listed when it had that extent, forgets those after.
+  /// @throws InputError when they are not there any more
+  void resume_at(const FileExtent& series);
 
   void write_tissue(const TissueFrame& frame, int index, double time);
   void write_rigid_body(const RigidBodyFrame& frame, int index, double time);
@@ -76,6 +77,11 @@ class FrameWriter {
   void write_lines(const LinesFrame& frame, int index, double time);
   /// All parts of this frame are there: publishes it in the .pvd.
   void finish_frame(int index, double time);
+
+  /// All published frames outlast a power cut from now on. @throws SystemError
+  void sync();
+  /// Of the .pvd; at least one frame has been finished.
+  const FileExtent& series() const { return series_.value().extent(); }
 
  private:
   /// @param part  its name in the .pvd  @param name  of the file, without number and ending
@@ -90,7 +96,9 @@ class FrameWriter {
   std::filesystem::path directory_;
   std::string name_;
   LengthUnit unit_;
-  std::vector<SeriesEntry> published_, pending_;
+  std::optional<SeriesFile> series_;
+  std::vector<SeriesEntry> pending_;
+  std::vector<std::string> not_synced_;  // files
 };
 
 }  // namespace articular::sim

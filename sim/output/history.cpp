@@ -8,7 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "sim/output/convergence.hpp"
 #include "sim/output/probe_columns.hpp"
 
 namespace articular::sim {
@@ -50,8 +49,6 @@ double History::share_of(const ObservedShare& share, const std::vector<std::size
   return std::isfinite(ratio) ? ratio : std::numeric_limits<double>::quiet_NaN();  // of nothing
 }
 
-std::string History::text() const { return fmt::format("{}\n", fmt::join(columns_, ",")) + rows_; }
-
-void History::resume(const std::string& earlier, double time) { rows_ = rows_until(earlier, time); }
+std::string History::header() const { return fmt::format("{}\n", fmt::join(columns_, ",")); }
 
 }  // namespace articular::sim

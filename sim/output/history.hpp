@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/base/length_unit.hpp"
@@ -8,18 +9,20 @@
 
 namespace articular::sim {
 
-/// history.csv: first column `time [s]`, then one column a probe value with its unit. A place where
-/// nothing is (NaN) is an empty cell: plots and spreadsheets leave a gap there, while a number
-/// would draw a line to it.
+/// The rows of history.csv: first column `time [s]`, then one column a probe value with its unit. A
+/// place where nothing is (NaN) is an empty cell: plots and spreadsheets leave a gap there, while a
+/// number would draw a line to it.
 class History {
  public:
   History(const Model& model, LengthUnit unit);
 
   void record(const State& state, const Stepper& stepper);
-  /// The whole file.
-  std::string text() const;
-  /// Continues from an earlier file's text: keeps its rows up to a time.
-  void resume(const std::string& earlier, double time);
+  /// The file's first line.
+  std::string header() const;
+  /// Those recorded since the last call.
+  std::string take_rows() { return std::exchange(rows_, {}); }
+
+  std::size_t num_pending_bytes() const { return rows_.size(); }
 
   const std::vector<std::string>& columns() const { return columns_; }
   /// The values of the last record(), one a column.

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
 
+#include "sim/base/append_file.hpp"
 #include "sim/base/atomic_file.hpp"
 #include "sim/base/stopwatch.hpp"
 #include "sim/build/build_model.hpp"
@@ -13,6 +14,8 @@
 #include "sim/output/convergence.hpp"
 #include "sim/output/frames.hpp"
 #include "sim/output/history.hpp"
+#include "sim/output/output_size.hpp"
+#include "sim/output/results_folder.hpp"
 #include "sim/output/run_warnings.hpp"
 #include "sim/output/summary.hpp"
 #include "sim/step/failure_diagnosis.hpp"
@@ -25,6 +28,9 @@ namespace {
 /// Frames between two checkpoints where the scenario gives no interval. What lies between two
 /// frames of a static analysis may take minutes.
 int frames_per_checkpoint(const Model& model) { return model.is_static ? 1 : 10; }
+
+/// Rows of the history that wait for the next frame take no more memory than this.
+constexpr std::size_t kMostPendingBytes = 1 << 16;
 
 /// Multiples of an interval are computed, not summed: a resumed run has the same ones.
 struct Schedule {
@@ -39,17 +45,13 @@ struct Schedule {
   }
 };
 
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 class Run {
  public:
   Run(const Scenario& scenario, const Model& model, const RunOptions& options)
       : scenario_(scenario),
         model_(model),
         options_(options),
+        folder_(options.directory),
         writer_(options.directory, scenario.name, scenario.output.length_unit),
         stepper_(model, step_settings(scenario)),
         history_(model, scenario.output.length_unit),
@@ -67,7 +69,7 @@ class Run {
       WallTimes wall;
       wall.output = output_seconds_;
       wall.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      write_history();
+      write_and_sync();
       if (options_.warn)
         for (const std::string& warning : run_warnings(model_, state_, stepper_))
           options_.warn(warning);
@@ -94,7 +96,6 @@ class Run {
       stepper_.restart(state_);  // energies are those of the last step that was done
     } catch (const SimulationError& error) {
       how = error.what();
-      convergence_ += convergence_rows(stepper_.take_convergence(), scenario_.output.length_unit);
       finish();
       throw;
     }
@@ -103,9 +104,7 @@ class Run {
   }
 
  private:
-  std::filesystem::path checkpoint_file() const {
-    return options_.directory / "checkpoint" / "state.bin";
-  }
+  std::filesystem::path checkpoints() const { return options_.directory / "checkpoint"; }
 
   /// A law that can't be turned inside out, a start that is: nothing to begin from.
   void check_start() const {
@@ -119,25 +118,43 @@ class Run {
   void begin() {
     state_ = stepper_.initial();
     fingerprint_ = fingerprint(scenario_, model_);
-    if (options_.resume) {
-      if (auto stored = read_checkpoint(checkpoint_file(), fingerprint_)) {
-        state_ = std::move(*stored);
-        stepper_.restart(state_);
-        check_start();
-        writer_.resume_at(state_.t);
-        history_.resume(read_text(options_.directory / "history.csv"), state_.t);
-        if (is_static()) convergence_ = rows_until(read_text(convergence_file()), state_.t);
-        return;
-      }
+    std::optional<Checkpoint> from;
+    if (options_.resume) from = read_checkpoint(checkpoints(), fingerprint_, options_.warn);
+    if (from) {
+      go_on(std::move(*from));
+      return;
     }
     check_start();
-    // Nothing of an earlier run must stand beside what this one leaves when it is interrupted.
-    std::error_code ignored;
-    std::filesystem::remove(checkpoint_file(), ignored);
-    std::filesystem::remove(options_.directory / (scenario_.name + ".pvd"), ignored);
+    refuse_more_than_fits(estimated_output(scenario_, model_), options_.directory);
+    const std::string scenario = scenario_.file.filename().string();
+    clear_results(options_.directory, scenario, options_.overwrite);
+    write_unfinished_summary();
+    history_file_.emplace(history_path());
+    history_file_->append(history_.header());
+    if (is_static()) {
+      convergence_file_.emplace(convergence_path());
+      convergence_file_->append(convergence_header(scenario_.output.length_unit));
+    }
     resolve_initial_overlaps();
     history_.record(state_, stepper_);
     output_frame();
+  }
+
+  void go_on(Checkpoint from) {
+    state_ = std::move(from.state);
+    stepper_.restart(state_);
+    check_start();
+    writer_.resume_at(from.series);
+    history_file_.emplace(history_path(), from.history);
+    if (is_static()) convergence_file_.emplace(convergence_path(), from.convergence);
+    write_unfinished_summary();
+  }
+
+  /// For as long as the run goes on; a killed one leaves it.
+  void write_unfinished_summary() const {
+    const nlohmann::json summary = {{"outcome", "unfinished"},
+                                    {"scenario", scenario_.file.filename().string()}};
+    write_text_file(options_.directory / "summary.json", summary.dump(2) + "\n");
   }
 
   void resolve_initial_overlaps() {
@@ -162,20 +179,18 @@ class Run {
   }
 
   bool is_static() const { return model_.is_static; }
-  std::filesystem::path convergence_file() const { return options_.directory / "convergence.csv"; }
+  std::filesystem::path history_path() const { return options_.directory / "history.csv"; }
+  std::filesystem::path convergence_path() const { return options_.directory / "convergence.csv"; }
 
   void observe() {
-    convergence_ += convergence_rows(stepper_.take_convergence(), scenario_.output.length_unit);
     history_.record(state_, stepper_);
     if (!is_static()) note_balance(numerical_loss(state_, stepper_.stored_energy()), state_);
     const bool end = state_.t >= scenario_.duration;
     if (frames_.due(state_.t) || end) output_frame();
+    if (history_.num_pending_bytes() > kMostPendingBytes) write_tables();
     if (checkpoints_.due(state_.t) && !end) {
       const Stopwatch watch(output_seconds_);
-      write_history();
-      std::error_code existing;
-      std::filesystem::create_directories(checkpoint_file().parent_path(), existing);
-      write_checkpoint(checkpoint_file(), state_, fingerprint_);
+      write_checkpoint();
       stepper_.restart(state_);
     }
   }
@@ -184,20 +199,37 @@ class Run {
     const Stopwatch watch(output_seconds_);
     write_frame(model_, stepper_, scenario_.output.contact_surfaces, state_.frames, state_.t,
                 writer_);
-    write_history();
+    write_tables();
     ++state_.frames;
   }
 
-  void write_history() const {
-    write_text_file(options_.directory / "history.csv", history_.text());
-    if (is_static())
-      write_text_file(convergence_file(),
-                      convergence_header(scenario_.output.length_unit) + convergence_);
+  void write_tables() {
+    if (!history_file_) return;  // nothing began
+    history_file_->append(history_.take_rows());
+    if (convergence_file_)
+      convergence_file_->append(
+          convergence_rows(stepper_.take_convergence(), scenario_.output.length_unit));
+  }
+
+  /// All results so far are on the disk.
+  void write_and_sync() {
+    write_tables();
+    for (auto* table : {&history_file_, &convergence_file_})
+      if (*table) (*table)->sync();
+    writer_.sync();
+  }
+
+  void write_checkpoint() {
+    write_and_sync();  // what it refers to, before it is there
+    Checkpoint checkpoint{state_, history_file_->extent(), writer_.series(), {}};
+    if (convergence_file_) checkpoint.convergence = convergence_file_->extent();
+    sim::write_checkpoint(checkpoints(), checkpoint, fingerprint_);
   }
 
   const Scenario& scenario_;
   const Model& model_;
   const RunOptions& options_;
+  ResultsFolder folder_;  // this run's alone, from before the first file to after the last
   FrameWriter writer_;
   Stepper stepper_;
   History history_;
@@ -205,7 +237,7 @@ class Run {
   Schedule frames_, checkpoints_;
   State state_;
   std::string fingerprint_;
-  std::string convergence_;  // rows
+  std::optional<AppendFile> history_file_, convergence_file_;
   double output_seconds_ = 0;
 };
 

@@ -10,10 +10,11 @@ namespace articular::sim {
 struct RunOptions {
   std::filesystem::path directory;  // of the results
   bool resume = false;
+  bool overwrite = false;  // also results of another scenario
   /// Called once bodies that overlapped at the start have been pushed apart.
   std::function<void(const OverlapResolution&)> after_overlap_resolution;
-  /// Called after every iteration of a static load step, and of overlap resolution (t = 0); true stops the
-  /// run: a load step may take minutes.
+  /// Called after every iteration of a static load step, and of overlap resolution (t = 0); true
+  /// stops the run: a load step may take minutes.
   IterationWatch after_iteration;
   /// Asked within each step of an analysis in time; true stops the run at the end of the last one.
   std::function<bool()> is_to_stop;

@@ -7,6 +7,8 @@
 namespace articular::sim {
 namespace {
 
+constexpr std::size_t kLongestName =
+    200;  // bytes: files are called so, with a number and an ending
 constexpr std::string_view kLeft = "_left", kRight = "_right";
 
 bool is_name_character(char c) {
@@ -46,6 +48,9 @@ std::string read_name(const Node& node) {
     fail(node,
          fmt::format("expected a name of letters, digits, `_`, `-` and inner spaces, found {}",
                      found(node)));
+  if (name.size() > kLongestName)
+    fail(node, fmt::format("expected a name of at most {} characters, found {}", kLongestName,
+                           name.size()));
   return name;
 }
 

@@ -1,4 +1,5 @@
 // Title, times, presets, integrator, detection and output of a scenario, and the record of them.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "sim/scenario/preset.hpp"
@@ -52,6 +53,17 @@ void read_detection(const Node& node, Detection& detection) {
   });
 }
 
+/// A scenario from somewhere else says where results go only within the working folder.
+std::filesystem::path read_directory(const Node& node) {
+  std::filesystem::path directory = read_text(node);
+  if (directory.is_absolute() ||
+      std::find(directory.begin(), directory.end(), "..") != directory.end())
+    fail(node, fmt::format("expected a folder within the working folder, found {}; give another "
+                           "one as --out",
+                           found(node)));
+  return directory;
+}
+
 void read_output(const Node& node, Output& output) {
   const TableReader table(
       node, "[output]",
@@ -62,7 +74,7 @@ void read_output(const Node& node, Output& output) {
         read_choice<double>(*unit, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
     output.length_unit.name = *unit->text();
   }
-  table.may("directory", output.directory, read_text);
+  table.may("directory", output.directory, read_directory);
   table.may("contact_surfaces", output.contact_surfaces, read_boolean);
   table.may("checkpoint_interval", output.checkpoint_interval, as_quantity(kTime, kPositive));
 }

@@ -10,6 +10,7 @@
 #include "sim/assembly/solver_setup.hpp"
 #include "sim/build/build_model.hpp"
 #include "sim/model/model.hpp"
+#include "sim/output/output_size.hpp"
 #include "sim/scenario/preset.hpp"
 #include "tools/run/commands.hpp"
 #include "tools/run/term_costs.hpp"
@@ -226,6 +227,8 @@ void print(const Json& json) {
     fmt::print("  {} - {}: {:.3g} Pa/m\n", pair["a"].get<std::string>(),
                pair["b"].get<std::string>(), pair["stiffness_Pa_per_m"].get<double>());
   if (json.contains("costs")) print_costs(json["costs"]);
+  fmt::print("\nOutput: {:.0f} frames, at most {:.3g} MB with the history\n",
+             json["output"]["frames"].get<double>(), json["output"]["at_most_MB"].get<double>());
   fmt::print("\nLeft out:\n");
   for (const Json& item : json["left_out"]) fmt::print("  {}\n", item.get<std::string>());
   fmt::print("\n{} unknown velocities, {} muscle activations\n",
@@ -275,6 +278,8 @@ void add_explain_command(CLI::App& app, int& exit_code) {
       json["costs"] = costs_as_json(costs, 3 * model.layout.num_unknown_blocks(), model_bytes);
       json["costs"]["estimated_memory_MB"] = costs.peak_bytes / 1e6;
     }
+    const sim::OutputSize output = sim::estimated_output(scenario, model);
+    json["output"] = {{"frames", output.num_frames}, {"at_most_MB", output.total_bytes() / 1e6}};
     if (arguments->json)
       fmt::print("{}\n", json.dump(2));
     else

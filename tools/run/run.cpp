@@ -23,7 +23,7 @@ struct RunArguments {
   std::filesystem::path scenario, out;
   std::vector<std::string> overrides;
   int threads = 1;
-  bool resume = false, quiet = false;
+  bool resume = false, overwrite = false, quiet = false;
 };
 
 void print(const sim::Model& model, const sim::OverlapResolution& resolution) {
@@ -52,6 +52,7 @@ int run_scenario(const RunArguments& arguments) {
     options.directory =
         scenario.output.directory.value_or(std::filesystem::path("out") / scenario.name);
   options.resume = arguments.resume;
+  options.overwrite = arguments.overwrite;
   Progress progress(arguments.quiet);
   options.is_to_stop = [] { return interrupted.load(); };
   options.after_step = [&](const sim::State& state, double duration) {
@@ -69,8 +70,10 @@ int run_scenario(const RunArguments& arguments) {
     progress.finish();
     fmt::print(stderr, "articular: warning: {}\n", warning);
   };
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    std::signal(signal, [](int) { interrupted = true; });
+  for (const int signal : {SIGXFSZ, SIGPIPE})  // the write that it is about fails and says why
+    std::signal(signal, SIG_IGN);
   sim::RunOutcome outcome = sim::RunOutcome::Finished;
   try {
     outcome = sim::run(scenario, model, options);
@@ -109,6 +112,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, kMostThreads));
   command->add_flag("--resume", arguments->resume,
                     "Go on from the folder's last checkpoint, if there is one");
+  command->add_flag("--overwrite", arguments->overwrite,
+                    "Replace results of another scenario in the folder");
   command->add_flag("--quiet", arguments->quiet, "No progress on stderr");
   command->footer(
       "Writes DIR/NAME.pvd (open it in ParaView), DIR/frames/, DIR/history.csv (probes over "

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "sim/base/error.hpp"
 #include "sim/build/build_model.hpp"
 #include "tests/sim/support/contact_scene.hpp"
 
@@ -66,9 +67,13 @@ State some_state() {
 
 TEST(Checkpoint, KeepsEveryNumberOfAState) {
   const TemporaryFolder folder;
-  const State given = some_state();
-  write_checkpoint(folder / "state.bin", given, "scene");
-  const State read = read_checkpoint(folder / "state.bin", "scene").value();
+  const Checkpoint whole{some_state(), {1, 2}, {3, 4}, {5, 6}};
+  write_checkpoint(folder.path(), whole, "scene");
+  const Checkpoint again = read_checkpoint(folder.path(), "scene", {}).value();
+  EXPECT_EQ(again.history, whole.history);
+  EXPECT_EQ(again.series, whole.series);
+  EXPECT_EQ(again.convergence, whole.convergence);
+  const State &given = whole.state, &read = again.state;
   EXPECT_EQ(read.t, given.t);
   EXPECT_EQ(read.y, given.y);
   EXPECT_EQ(read.next_step, given.next_step);
@@ -87,6 +92,40 @@ TEST(Checkpoint, KeepsEveryNumberOfAState) {
     EXPECT_EQ(found.overlaps[k].before, told.overlaps[k].before);
     EXPECT_EQ(found.overlaps[k].after, told.overlaps[k].after);
   }
+}
+
+// The newest one damaged in any way, the one before serves; both, and nothing does.
+TEST(Checkpoint, TheOneBeforeServesWhereTheNewestIsDamaged) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(read_checkpoint(folder / "checkpoint", "scene", {}));
+  Checkpoint checkpoint{some_state(), {}, {}, {}};
+  for (const double t : {0.1, 0.2, 0.3}) {
+    checkpoint.state.t = t;
+    write_checkpoint(folder / "checkpoint", checkpoint, "scene");
+  }
+  std::vector<std::string> warnings;
+  const auto warn = [&](const std::string& warning) { warnings.push_back(warning); };
+  const auto time = [&] { return read_checkpoint(folder / "checkpoint", "scene", warn)->state.t; };
+  EXPECT_EQ(time(), 0.3);
+  EXPECT_TRUE(warnings.empty());
+  const std::string newest = content(folder / "checkpoint/state.bin"),
+                    before = content(folder / "checkpoint/previous.bin");
+  for (std::size_t size = 0; size < newest.size(); size += 7) {
+    std::string flipped = newest;
+    flipped[size] ^= 4;
+    for (const std::string& damaged : {newest.substr(0, size), flipped}) {
+      folder.file("checkpoint/state.bin", damaged);
+      folder.file("checkpoint/previous.bin", before);
+      EXPECT_EQ(time(), 0.2);
+    }
+  }
+  EXPECT_NE(warnings.back().find("state.bin is not a whole checkpoint"), std::string::npos);
+  folder.file("checkpoint/previous.bin", before);
+  std::filesystem::remove(folder / "checkpoint/state.bin");  // killed between two renames
+  EXPECT_EQ(time(), 0.2);
+  for (const char* const name : {"checkpoint/state.bin", "checkpoint/previous.bin"})
+    folder.file(name, "");
+  EXPECT_THROW(read_checkpoint(folder / "checkpoint", "scene", warn), InputError);
 }
 
 /// Of a scene of one mesh, as tissue or as a fixed body; nothing in the scenario itself tells

@@ -196,14 +196,18 @@ TEST(FrameWriter, AFrameIsListedWhenAllItsPartsAreThere) {
 TEST(FrameWriter, AResumedRunContinuesTheSeriesWithoutGapOrDouble) {
   const TemporaryFolder folder;
   const Scene scene;
+  FileExtent known;
   {
     FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
-    for (int i = 0; i < 6; ++i) scene.write(writer, i, 0.1 * i);
+    for (int i = 0; i < 6; ++i) {
+      scene.write(writer, i, 0.1 * i);
+      if (i == 3) known = writer.series();
+    }
   }
   FrameWriter resumed(folder.path(), "opening", {kMillimetre, "mm"});
-  resumed.resume_at(0.3 * (1 - 1e-14));  // 0.1 * 3 is not quite 0.3 either
+  resumed.resume_at(known);
   EXPECT_EQ(read_series(folder / "opening.pvd").size(), 12U);
-  for (int i = 3; i < 8; ++i) scene.write(resumed, i, 0.1 * i);  // frame 3 once more
+  for (int i = 4; i < 8; ++i) scene.write(resumed, i, 0.1 * i);
   const std::vector<SeriesEntry> entries = read_series(folder / "opening.pvd");
   ASSERT_EQ(entries.size(), 24U);
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -212,26 +216,55 @@ TEST(FrameWriter, AResumedRunContinuesTheSeriesWithoutGapOrDouble) {
   }
 }
 
-TEST(FrameWriter, ResumingBeforeTheFirstFrameStartsAnEmptySeries) {
+TEST(FrameWriter, PartsKeepTheirNumbersWhenARunIsResumed) {
   const TemporaryFolder folder;
-  FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
-  writer.resume_at(0);
-  Scene().write(writer, 0, 0);
-  EXPECT_EQ(read_series(folder / "opening.pvd").size(), 3U);
+  const Scene scene;
+  const auto write = [&](FrameWriter& writer, int index) {
+    if (index == 1)  // parts in another order
+      writer.write_rigid_body(scene.rigid, index, 0.1);
+    writer.write_tissue(scene.tissue, index, 0.1 * index);
+    writer.finish_frame(index, 0.1 * index);
+  };
+  for (const char* const name : {"whole", "parts"}) {
+    std::optional<FrameWriter> writer;
+    writer.emplace(folder / name, "opening", LengthUnit{kMillimetre, "mm"});
+    write(*writer, 0);
+    const FileExtent known = writer->series();
+    if (name == std::string("parts")) {
+      writer.emplace(folder / name, "opening", LengthUnit{kMillimetre, "mm"});
+      writer->resume_at(known);
+    }
+    write(*writer, 1);
+  }
+  EXPECT_EQ(content(folder / "whole/opening.pvd"), content(folder / "parts/opening.pvd"));
 }
 
-TEST(FrameWriter, ResumingFromABrokenSeriesIsAnInputError) {
+TEST(FrameWriter, ResumingIsRefusedWhereFramesOrTheSeriesAreNotAsTheyWere) {
   const TemporaryFolder folder;
   FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
-  for (const std::string text :
-       {"", "hello", "<VTKFile></VTKFile>",
-        "<VTKFile><Collection><DataSet timestep=\"soon\" file=\"disc_000001.vtu\"/>"
-        "</Collection></VTKFile>",
-        "<VTKFile><Collection><DataSet timestep=\"1\" "
-        "file=\"disc.vtu\"/></Collection></VTKFile>"}) {
-    folder.file("opening.pvd", text);
-    EXPECT_THROW(writer.resume_at(1), InputError) << text;
-  }
+  Scene().write(writer, 0, 0);
+  Scene().write(writer, 1, 0.1);
+  const FileExtent known = writer.series();
+  const std::string series = content(folder / "opening.pvd");
+  const std::string frame = content(folder / "frames/disc_000001.vtu");
+  writer.resume_at(known);
+  folder.file("opening.pvd", series.substr(0, series.size() / 2));
+  EXPECT_THROW(writer.resume_at(known), InputError);
+  folder.file("opening.pvd", series);
+  folder.file("frames/disc_000001.vtu", "");  // a power cut
+  EXPECT_THROW(writer.resume_at(known), InputError);
+  std::filesystem::remove(folder / "frames/disc_000001.vtu");
+  EXPECT_THROW(writer.resume_at(known), InputError);
+  folder.file("frames/disc_000001.vtu", frame);
+  writer.resume_at(known);
+}
+
+TEST(FrameWriter, NoTwoPartsShareAFile) {
+  const TemporaryFolder folder;
+  FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"});
+  const Scene scene;
+  writer.write_tissue(scene.tissue, 0, 0);
+  EXPECT_THROW(writer.write_tissue(scene.tissue, 0, 0), InputError);
 }
 
 TEST(FrameWriter, NamesWithMarkupSurviveInTheSeries) {

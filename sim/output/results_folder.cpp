@@ -1,0 +1,109 @@
+#include "sim/output/results_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "sim/base/error.hpp"
+
+namespace articular::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& folder, const char* what, int error) {
+  throw SystemError(folder.string() + ": the folder can't be " + what + ": " +
+                    std::system_category().message(error));
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// BODY_000123.vtu or .vtp, also half-written.
+bool is_frame(const fs::path& file) {
+  std::string name = file.filename().string();
+  if (name.ends_with(".part")) name.resize(name.size() - std::string_view(".part").size());
+  if (!name.ends_with(".vtu") && !name.ends_with(".vtp")) return false;
+  const std::string stem = fs::path(name).stem().string();
+  const std::size_t underscore = stem.rfind('_');
+  return underscore != std::string::npos && stem.size() - underscore > 6 &&
+         std::all_of(stem.begin() + static_cast<std::ptrdiff_t>(underscore) + 1, stem.end(),
+                     is_digit);
+}
+
+/// The scenario that results in a folder are of; "" where nothing tells.
+std::string scenario_of_results(const fs::path& folder) {
+  std::ifstream in(folder / "summary.json");
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  if (json.is_object() && json.contains("scenario") && json["scenario"].is_string())
+    return json["scenario"];
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (entry.path().extension() == ".pvd") return entry.path().stem().string() + ".toml";
+  return "";
+}
+
+void refuse_link(const fs::path& file) {
+  std::error_code none;
+  if (fs::is_symlink(file, none))
+    throw InputError({file.string()},
+                     "is a symbolic link; results are not written through one: remove it, or "
+                     "choose another --out");
+}
+
+void delete_file(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw SystemError(file.string() + ": can't be removed: " + error.message());
+}
+
+}  // namespace
+
+ResultsFolder::ResultsFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) fail(folder, "made", error.value());
+  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0) fail(folder, "opened", errno);
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+  const int reason = errno;
+  ::close(descriptor_);
+  if (reason == EWOULDBLOCK)
+    throw InputError(
+        {folder.string()},
+        "another run is writing its results here; wait for it, or choose another --out");
+  fail(folder, "locked", reason);
+}
+
+ResultsFolder::~ResultsFolder() { ::close(descriptor_); }
+
+void clear_results(const fs::path& folder, const std::string& scenario, bool overwrite) {
+  std::string other = scenario_of_results(folder);
+  if (other.empty() && fs::exists(folder / "history.csv")) other = "an unknown scenario";
+  if (!overwrite && !other.empty() && other != scenario)
+    throw InputError({folder.string()}, "holds results of " + other +
+                                            "; choose another --out, or replace them with "
+                                            "--overwrite");
+  std::vector<fs::path> files;
+  for (const char* const name : {"history.csv", "convergence.csv", "summary.json"})
+    files.push_back(folder / name);
+  for (const std::string& name : {scenario, other})
+    files.push_back(folder / (fs::path(name).stem().string() + ".pvd"));
+  for (const char* const name : {"state.bin", "previous.bin"})
+    files.push_back(folder / "checkpoint" / name);
+  for (const fs::path& file : {folder / "checkpoint", folder / "frames"}) refuse_link(file);
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder / "frames", none))
+    if (is_frame(entry.path())) files.push_back(entry.path());
+  for (const fs::path& file : files) refuse_link(file);
+  for (const fs::path& file : files) delete_file(file);
+}
+
+}  // namespace articular::sim
