@@ -1,5 +1,6 @@
 #include "fem/element/elasticity.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cassert>

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <algorithm>
-
-#include "fem/base/rotation_svd.hpp"
 #include "fem/material/batch_law.hpp"
 #include "fem/material/split_material.hpp"
 
@@ -33,25 +29,12 @@ class Corotated {
   /// Ψ_d = μ |dev S|² with F = R S
   Corotated distortion() const { return Corotated(without_bulk_modulus(lame_.mu)); }
 
-  double energy_density(const Mat3& F) const {
-    const Vec3 strain = rotation_svd(F).sigma - Vec3::Ones();
-    return lame_.mu * strain.squaredNorm() + 0.5 * lame_.lambda * strain.sum() * strain.sum();
-  }
-
-  Mat3 first_piola(const Mat3& F) const {
-    const RotationSvd svd = rotation_svd(F);
-    const Mat3 R = svd.U * svd.V.transpose();
-    return 2 * lame_.mu * (F - R) + lame_.lambda * (svd.sigma.sum() - 3) * R;
-  }
-
-  Mat9 tangent(const Mat3& F) const {
-    return tangent(F, [](double eigenvalue) { return eigenvalue; });
-  }
+  double energy_density(const Mat3& F) const;
+  Mat3 first_piola(const Mat3& F) const;
+  Mat9 tangent(const Mat3& F) const;
 
   /// The nearest positive semidefinite matrix to the tangent: only the twists T_k can be negative.
-  Mat9 projected_tangent(const Mat3& F) const {
-    return tangent(F, [](double eigenvalue) { return std::max(eigenvalue, 0.0); });
-  }
+  Mat9 projected_tangent(const Mat3& F) const;
 
   BatchLaw batch_law() const { return {BatchLaw::Kind::Corotated, lame_.mu, lame_.lambda}; }
   /// Of a distortion().
@@ -64,20 +47,7 @@ class Corotated {
 
   /// The tangent, with `twist_stiffness` applied to its eigenvalues of the twists T_k.
   template <class Function>
-  Mat9 tangent(const Mat3& F, Function twist_stiffness) const {
-    const RotationSvd svd = rotation_svd(F);
-    const Mat3 R = svd.U * svd.V.transpose();
-    const Vec9 r = R.reshaped();
-    const double of_rotation = lame_.lambda * (svd.sigma.sum() - 3) - 2 * lame_.mu;
-    Mat9 C = lame_.lambda * r * r.transpose();
-    C.diagonal().array() += 2 * lame_.mu;
-    for (int k = 0; k < 3; ++k) {
-      const double eigenvalue = 2 * lame_.mu + of_rotation * 2 / twist_stretch(svd, k);
-      const Vec9 t = twist(svd, k);
-      C += (twist_stiffness(eigenvalue) - 2 * lame_.mu) * t * t.transpose();
-    }
-    return C;
-  }
+  Mat9 tangent(const Mat3& F, Function twist_stiffness) const;
 
   Lame lame_;
 };

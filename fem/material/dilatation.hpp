@@ -1,10 +1,7 @@
 #pragma once
 
-#include <cmath>
 #include <concepts>
 
-#include "fem/base/cofactor.hpp"
-#include "fem/base/rotation_svd.hpp"
 #include "fem/base/types.hpp"
 
 /// Measures Θ(F) of the change of volume, for a volumetric energy κ/2 Θ². All are 0 without strain
@@ -20,41 +17,34 @@ concept DilatationMeasure = requires(const Mat3& F) {
 
 /// Θ = J − 1: defined for every F.
 struct VolumeChange {
-  static double value(const Mat3& F) { return F.determinant() - 1; }
-  static Mat3 gradient(const Mat3& F) { return cofactor(F); }
-  static Mat9 hessian(const Mat3& F) { return cofactor_derivative(F); }
+  static double value(const Mat3& F);
+  static Mat3 gradient(const Mat3& F);
+  static Mat9 hessian(const Mat3& F);
 };
 static_assert(DilatationMeasure<VolumeChange>);
 
 /// Θ = ln J: not a number for an inverted F.
 struct LogVolumeChange {
-  static double value(const Mat3& F) { return std::log(F.determinant()); }
-  static Mat3 gradient(const Mat3& F) { return cofactor(F) / F.determinant(); }
-  static Mat9 hessian(const Mat3& F) {
-    const double J = F.determinant();
-    const Vec9 c = cofactor(F).reshaped();
-    return cofactor_derivative(F) / J - c * c.transpose() / (J * J);
-  }
+  static double value(const Mat3& F);
+  static Mat3 gradient(const Mat3& F);
+  static Mat9 hessian(const Mat3& F);
 };
 static_assert(DilatationMeasure<LogVolumeChange>);
 
 /// Θ = tr S − 3 of the polar decomposition F = R S, with R the rotation nearest to F: the sum of
 /// the principal strains of corotated elasticity. Defined for every F.
 struct StretchDilatation {
-  static double value(const Mat3& F) { return rotation_svd(F).sigma.sum() - 3; }
-  static Mat3 gradient(const Mat3& F) {
-    const RotationSvd svd = rotation_svd(F);
-    return svd.U * svd.V.transpose();
-  }
-  static Mat9 hessian(const Mat3& F) { return rotation_derivative(rotation_svd(F)); }
+  static double value(const Mat3& F);
+  static Mat3 gradient(const Mat3& F);
+  static Mat9 hessian(const Mat3& F);
 };
 static_assert(DilatationMeasure<StretchDilatation>);
 
 /// Θ = tr ε = tr F − 3, of the theory of small strain.
 struct SmallDilatation {
-  static double value(const Mat3& F) { return F.trace() - 3; }
-  static Mat3 gradient(const Mat3&) { return Mat3::Identity(); }
-  static Mat9 hessian(const Mat3&) { return Mat9::Zero(); }
+  static double value(const Mat3& F);
+  static Mat3 gradient(const Mat3&);
+  static Mat9 hessian(const Mat3&);
 };
 static_assert(DilatationMeasure<SmallDilatation>);
 

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -37,6 +38,40 @@ ToeLinearFibre::ToeLinearFibre(const Constants& c) : c_(c) {
   c6_ = c.c3 * std::expm1(c.c4 * (c.toe_end - 1)) - c.c5 * c.toe_end;
 }
 
+double ToeLinearFibre::energy(double stretch, double activation) const {
+  const double active = activation * c_.active_stress * std::log(stretch);
+  if (stretch <= 1) return active;
+  if (stretch < c_.toe_end) return active + toe_energy(stretch);
+  return active + toe_energy(c_.toe_end) + c_.c5 * (stretch - c_.toe_end) +
+         c6_ * std::log(stretch / c_.toe_end);
+}
+
+double ToeLinearFibre::tension(double stretch, double activation) const {
+  return cauchy_stress(stretch, activation) / stretch;
+}
+
+double ToeLinearFibre::stiffness(double stretch, double activation) const {
+  return (stress_slope(stretch) - tension(stretch, activation)) / stretch;
+}
+
+double ToeLinearFibre::cauchy_stress(double stretch, double activation) const {
+  const double active = activation * c_.active_stress;
+  if (stretch <= 1) return active;
+  if (stretch < c_.toe_end) return active + c_.c3 * std::expm1(c_.c4 * (stretch - 1));
+  return active + c_.c5 * stretch + c6_;
+}
+
+double ToeLinearFibre::stress_slope(double stretch) const {
+  if (stretch <= 1) return 0;
+  if (stretch < c_.toe_end) return c_.c3 * c_.c4 * std::exp(c_.c4 * (stretch - 1));
+  return c_.c5;
+}
+
+double ToeLinearFibre::toe_energy(double stretch) const {
+  const double difference = std::expint(c_.c4 * stretch) - std::expint(c_.c4);
+  return c_.c3 * (std::exp(-c_.c4) * difference - std::log(stretch));
+}
+
 MuscleFibre::MuscleFibre(const Constants& c) : c_(c) {
   checked_positive(c.max_stress, "largest active stress", "Pa");
   checked_positive(c.p1, "P1", "(no unit)");
@@ -46,6 +81,62 @@ MuscleFibre::MuscleFibre(const Constants& c) : c_(c) {
   check_below(c.p2 * (c.toe_end - 1), "P2 times the strain at the end of the toe",
               kLargestExponent);
   end_slope_ = c.p1 * c.p2 * std::exp(c.p2 * (c.toe_end - 1));
+}
+
+double MuscleFibre::energy(double stretch, double activation) const {
+  const double n = stretch / c_.optimal_stretch;
+  return c_.max_stress * (passive_integral(n) + activation * active_integral(n));
+}
+
+double MuscleFibre::tension(double stretch, double activation) const {
+  const double n = stretch / c_.optimal_stretch;
+  return c_.max_stress / c_.optimal_stretch * (passive(n) + activation * active(n));
+}
+
+double MuscleFibre::stiffness(double stretch, double activation) const {
+  const double n = stretch / c_.optimal_stretch, per_stretch = 1 / c_.optimal_stretch;
+  return c_.max_stress * per_stretch * per_stretch *
+         (passive_slope(n) + activation * active_slope(n));
+}
+
+double MuscleFibre::active(double n) {
+  if (n < 0.4 || n > 1.6) return 0;
+  if (n < 0.6) return 9 * (n - 0.4) * (n - 0.4);
+  return n < 1.4 ? 1 - 4 * (1 - n) * (1 - n) : 9 * (n - 1.6) * (n - 1.6);
+}
+
+double MuscleFibre::active_slope(double n) {
+  if (n < 0.4 || n > 1.6) return 0;
+  if (n < 0.6) return 18 * (n - 0.4);
+  return n < 1.4 ? 8 * (1 - n) : 18 * (n - 1.6);
+}
+
+double MuscleFibre::active_integral(double n) {
+  const auto cube = [](double v) { return v * v * v; };
+  constexpr double kFoot = 0.024;                  // 3 · 0.2³, of either foot
+  constexpr double kHump = 0.8 - 8.0 / 3 * 0.064;  // from 0.6 to 1.4
+  if (n < 0.4) return 0;
+  if (n < 0.6) return 3 * cube(n - 0.4);
+  if (n < 1.4) return kFoot + (n - 0.6) - 4.0 / 3 * (cube(n - 1) + 0.064);
+  return 2 * kFoot + kHump + (n < 1.6 ? 3 * cube(n - 1.6) : 0);
+}
+
+double MuscleFibre::passive(double n) const {
+  if (n <= 1) return 0;
+  if (n < c_.toe_end) return c_.p1 * std::expm1(c_.p2 * (n - 1));
+  return c_.p1 * std::expm1(c_.p2 * (c_.toe_end - 1)) + end_slope_ * (n - c_.toe_end);
+}
+
+double MuscleFibre::passive_slope(double n) const {
+  if (n <= 1) return 0;
+  return n < c_.toe_end ? c_.p1 * c_.p2 * std::exp(c_.p2 * (n - 1)) : end_slope_;
+}
+
+double MuscleFibre::passive_integral(double n) const {
+  if (n <= 1) return 0;
+  const double toe = std::fmin(n, c_.toe_end) - 1, beyond = std::fmax(n - c_.toe_end, 0);
+  return c_.p1 * (std::expm1(c_.p2 * toe) / c_.p2 - toe) +
+         beyond * (c_.p1 * std::expm1(c_.p2 * toe) + 0.5 * end_slope_ * beyond);
 }
 
 }  // namespace articular::fem

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "fem/material/split_material.hpp"
 
 namespace articular::fem {
@@ -25,36 +23,15 @@ class Linear {
   /// Ψ_d = μ dev ε : dev ε
   Linear distortion() const { return Linear(without_bulk_modulus(lame_.mu)); }
 
-  double energy_density(const Mat3& F) const {
-    const Mat3 strain = small_strain(F);
-    const double trace = strain.trace();
-    return lame_.mu * strain.squaredNorm() + 0.5 * lame_.lambda * trace * trace;
-  }
-
-  Mat3 first_piola(const Mat3& F) const {
-    const Mat3 strain = small_strain(F);
-    return 2 * lame_.mu * strain + lame_.lambda * strain.trace() * Mat3::Identity();
-  }
-
-  Mat9 tangent(const Mat3&) const {
-    Mat9 C = Mat9::Zero();
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        C(3 * j + i, 3 * j + i) += lame_.mu;  // ∂F_ij/∂F_ij
-        C(3 * j + i, 3 * i + j) += lame_.mu;  // ∂F_ji/∂F_ij
-        C(4 * i, 4 * j) += lame_.lambda;      // tr(F) I
-      }
-    }
-    return C;
-  }
+  double energy_density(const Mat3& F) const;
+  Mat3 first_piola(const Mat3& F) const;
+  Mat9 tangent(const Mat3&) const;
 
   /// In the small-strain theory all stresses are one: P Fᵀ/J would not even be symmetric.
   Mat3 cauchy_stress(const Mat3& F) const { return first_piola(F); }
 
  private:
   explicit Linear(const Lame& lame) : lame_(lame) {}
-
-  static Mat3 small_strain(const Mat3& F) { return 0.5 * (F + F.transpose()) - Mat3::Identity(); }
 
   Lame lame_;
 };

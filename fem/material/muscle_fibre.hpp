@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "fem/material/fibre.hpp"
 
 namespace articular::fem {
@@ -29,57 +27,19 @@ class MuscleFibre {
   /// @throws std::invalid_argument naming a constant that is out of range
   explicit MuscleFibre(const Constants& c);
 
-  double energy(double stretch, double activation) const {
-    const double n = stretch / c_.optimal_stretch;
-    return c_.max_stress * (passive_integral(n) + activation * active_integral(n));
-  }
-  double tension(double stretch, double activation) const {
-    const double n = stretch / c_.optimal_stretch;
-    return c_.max_stress / c_.optimal_stretch * (passive(n) + activation * active(n));
-  }
-  double stiffness(double stretch, double activation) const {
-    const double n = stretch / c_.optimal_stretch, per_stretch = 1 / c_.optimal_stretch;
-    return c_.max_stress * per_stretch * per_stretch *
-           (passive_slope(n) + activation * active_slope(n));
-  }
+  double energy(double stretch, double activation) const;
+  double tension(double stretch, double activation) const;
+  double stiffness(double stretch, double activation) const;
 
   /// f_a, its slope and its integral from 0
-  static double active(double n) {
-    if (n < 0.4 || n > 1.6) return 0;
-    if (n < 0.6) return 9 * (n - 0.4) * (n - 0.4);
-    return n < 1.4 ? 1 - 4 * (1 - n) * (1 - n) : 9 * (n - 1.6) * (n - 1.6);
-  }
-  static double active_slope(double n) {
-    if (n < 0.4 || n > 1.6) return 0;
-    if (n < 0.6) return 18 * (n - 0.4);
-    return n < 1.4 ? 8 * (1 - n) : 18 * (n - 1.6);
-  }
-  static double active_integral(double n) {
-    const auto cube = [](double v) { return v * v * v; };
-    constexpr double kFoot = 0.024;                  // 3 · 0.2³, of either foot
-    constexpr double kHump = 0.8 - 8.0 / 3 * 0.064;  // from 0.6 to 1.4
-    if (n < 0.4) return 0;
-    if (n < 0.6) return 3 * cube(n - 0.4);
-    if (n < 1.4) return kFoot + (n - 0.6) - 4.0 / 3 * (cube(n - 1) + 0.064);
-    return 2 * kFoot + kHump + (n < 1.6 ? 3 * cube(n - 1.6) : 0);
-  }
+  static double active(double n);
+  static double active_slope(double n);
+  static double active_integral(double n);
 
  private:
-  double passive(double n) const {
-    if (n <= 1) return 0;
-    if (n < c_.toe_end) return c_.p1 * std::expm1(c_.p2 * (n - 1));
-    return c_.p1 * std::expm1(c_.p2 * (c_.toe_end - 1)) + end_slope_ * (n - c_.toe_end);
-  }
-  double passive_slope(double n) const {
-    if (n <= 1) return 0;
-    return n < c_.toe_end ? c_.p1 * c_.p2 * std::exp(c_.p2 * (n - 1)) : end_slope_;
-  }
-  double passive_integral(double n) const {
-    if (n <= 1) return 0;
-    const double toe = std::fmin(n, c_.toe_end) - 1, beyond = std::fmax(n - c_.toe_end, 0);
-    return c_.p1 * (std::expm1(c_.p2 * toe) / c_.p2 - toe) +
-           beyond * (c_.p1 * std::expm1(c_.p2 * toe) + 0.5 * end_slope_ * beyond);
-  }
+  double passive(double n) const;
+  double passive_slope(double n) const;
+  double passive_integral(double n) const;
 
   Constants c_;
   double end_slope_;  // of f_p at n* [-]

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/LU>
-
-#include "fem/base/cofactor.hpp"
 #include "fem/material/batch_law.hpp"
 #include "fem/material/split_material.hpp"
 
@@ -36,20 +32,9 @@ class NeoHookean {
   /// Ψ_d = μ/2 (tr FᵀF − 3) − μ (J − 1) + μ/6 (J − 1)²: the law of bulk modulus 0
   NeoHookean distortion() const { return NeoHookean(without_bulk_modulus(mu_)); }
 
-  double energy_density(const Mat3& F) const {
-    const double dJ = F.determinant() - alpha_, dJ_rest = 1 - alpha_;
-    return 0.5 * mu_ * (F.squaredNorm() - 3) + 0.5 * lambda_ * (dJ * dJ - dJ_rest * dJ_rest);
-  }
-
-  Mat3 first_piola(const Mat3& F) const {
-    return mu_ * F + lambda_ * (F.determinant() - alpha_) * cofactor(F);
-  }
-
-  Mat9 tangent(const Mat3& F) const {
-    const Vec9 c = cofactor(F).reshaped();
-    return mu_ * Mat9::Identity() + lambda_ * c * c.transpose() +
-           lambda_ * (F.determinant() - alpha_) * cofactor_derivative(F);
-  }
+  double energy_density(const Mat3& F) const;
+  Mat3 first_piola(const Mat3& F) const;
+  Mat9 tangent(const Mat3& F) const;
 
   BatchLaw batch_law() const { return {BatchLaw::Kind::NeoHookean, mu_, lambda_}; }
   /// Of a distortion().

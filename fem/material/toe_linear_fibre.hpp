@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "fem/material/fibre.hpp"
 
 namespace articular::fem {
@@ -27,38 +25,16 @@ class ToeLinearFibre {
   /// @throws std::invalid_argument naming a constant that is out of range
   explicit ToeLinearFibre(const Constants& c);
 
-  double energy(double stretch, double activation) const {
-    const double active = activation * c_.active_stress * std::log(stretch);
-    if (stretch <= 1) return active;
-    if (stretch < c_.toe_end) return active + toe_energy(stretch);
-    return active + toe_energy(c_.toe_end) + c_.c5 * (stretch - c_.toe_end) +
-           c6_ * std::log(stretch / c_.toe_end);
-  }
-  double tension(double stretch, double activation) const {
-    return cauchy_stress(stretch, activation) / stretch;
-  }
-  double stiffness(double stretch, double activation) const {
-    return (stress_slope(stretch) - tension(stretch, activation)) / stretch;
-  }
+  double energy(double stretch, double activation) const;
+  double tension(double stretch, double activation) const;
+  double stiffness(double stretch, double activation) const;
   /// λ dW/dλ [Pa]
-  double cauchy_stress(double stretch, double activation) const {
-    const double active = activation * c_.active_stress;
-    if (stretch <= 1) return active;
-    if (stretch < c_.toe_end) return active + c_.c3 * std::expm1(c_.c4 * (stretch - 1));
-    return active + c_.c5 * stretch + c6_;
-  }
+  double cauchy_stress(double stretch, double activation) const;
 
  private:
-  double stress_slope(double stretch) const {
-    if (stretch <= 1) return 0;
-    if (stretch < c_.toe_end) return c_.c3 * c_.c4 * std::exp(c_.c4 * (stretch - 1));
-    return c_.c5;
-  }
+  double stress_slope(double stretch) const;
   // ∫ c3 (exp(c4 (λ − 1)) − 1)/λ dλ from 1, with the exponential integral Ei.
-  double toe_energy(double stretch) const {
-    const double difference = std::expint(c_.c4 * stretch) - std::expint(c_.c4);
-    return c_.c3 * (std::exp(-c_.c4) * difference - std::log(stretch));
-  }
+  double toe_energy(double stretch) const;
 
   Constants c_;
   double c6_;  // [Pa]

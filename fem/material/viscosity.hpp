@@ -1,6 +1,5 @@
 #pragma once
 
-#include "fem/material/isochoric.hpp"
 #include "fem/material/material.hpp"
 
 namespace articular::fem {
@@ -24,38 +23,22 @@ class KelvinVoigt {
         lambda_(checked_not_negative(zeta, "bulk viscosity", "Pa s") - 2 * eta / 3) {}
 
   /// P_v : Ḟ [W/m³]. @param rate  Ḟ [1/s]
-  double dissipation(const Mat3& F, const Mat3& rate) const {
-    return first_piola(F, rate).cwiseProduct(rate).sum();
-  }
+  double dissipation(const Mat3& F, const Mat3& rate) const;
 
-  Mat3 first_piola(const Mat3& F, const Mat3& rate) const { return F * second_piola(F, rate); }
+  Mat3 first_piola(const Mat3& F, const Mat3& rate) const;
 
   /// ∂vec(P_v)/∂vec(Ḟ) [Pa s], symmetric, positive semidefinite; does not depend on Ḟ. In indices
   /// η (F_ik F_lj + (FFᵀ)_il δ_jk) + λ F_ij F_lk at row ij and column lk.
-  Mat9 rate_tangent(const Mat3& F) const { return chained(F, F); }
+  Mat9 rate_tangent(const Mat3& F) const;
 
   /// ∂vec(P_v)/∂vec(F) [Pa] at a fixed Ḟ; not symmetric.
-  Mat9 tangent(const Mat3& F, const Mat3& rate) const {
-    return chained(F, rate) + on_columns(second_piola(F, rate));
-  }
+  Mat9 tangent(const Mat3& F, const Mat3& rate) const;
 
  private:
-  Mat3 second_piola(const Mat3& F, const Mat3& rate) const {
-    const Mat3 A = F.transpose() * rate;
-    return eta_ * (A + A.transpose()) + lambda_ * A.trace() * Mat3::Identity();
-  }
+  Mat3 second_piola(const Mat3& F, const Mat3& rate) const;
 
   /// dA ↦ F (η (BᵀdA + dAᵀB) + λ (B : dA) I): the change of F S_v through Ė alone.
-  Mat9 chained(const Mat3& F, const Mat3& B) const {
-    const Mat3 FB = eta_ * F * B.transpose();
-    Mat9 result = lambda_ * F.reshaped() * B.reshaped().transpose();
-    for (int j = 0; j < 3; ++j) {
-      result.block<3, 3>(3 * j, 3 * j) += FB;
-      for (int k = 0; k < 3; ++k)
-        result.block<3, 3>(3 * j, 3 * k) += eta_ * F.col(k) * B.col(j).transpose();
-    }
-    return result;
-  }
+  Mat9 chained(const Mat3& F, const Mat3& B) const;
 
   double eta_, lambda_;  // [Pa s]; λ = ζ − 2η/3
 };
@@ -67,15 +50,10 @@ class KelvinVoigt {
 
 /// The dashpot of β K, β [s], for a material with these moduli [Pa] at rest: η = β μ, ζ = β κ.
 /// @throws std::invalid_argument for a negative β
-inline KelvinVoigt stiffness_damping(double beta, double shear_modulus, double bulk_modulus) {
-  checked_not_negative(beta, "stiffness damping", "s");
-  return {beta * shear_modulus, beta * bulk_modulus};
-}
+KelvinVoigt stiffness_damping(double beta, double shear_modulus, double bulk_modulus);
 
 /// f += α m v [N], α [1/s]. @param lumped_mass  one entry a node [kg]
-inline void add_mass_damping(double alpha, const Eigen::VectorXd& lumped_mass, const Positions& v,
-                             Positions& f) {
-  f += alpha * v * lumped_mass.asDiagonal();
-}
+void add_mass_damping(double alpha, const Eigen::VectorXd& lumped_mass, const Positions& v,
+                      Positions& f);
 
 }  // namespace articular::fem

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "fem/material/batch_law.hpp"
-#include "fem/material/isochoric.hpp"
 #include "fem/material/split_material.hpp"
 
 namespace articular::fem {
@@ -19,21 +18,9 @@ class IsochoricYeoh {
 
   double shear_modulus() const { return 2 * c10_; }  // [Pa]
 
-  double energy_density(const Mat3& F) const {
-    const double x = std::pow(F.determinant(), -2.0 / 3) * F.squaredNorm() - 3;
-    return (c10_ + c20_ * x) * x;
-  }
-
-  Mat3 first_piola(const Mat3& F) const {
-    const double J = F.determinant(), a = std::pow(J, -2.0 / 3), I1 = F.squaredNorm();
-    const double slope = c10_ + 2 * c20_ * (a * I1 - 3);
-    return 2 * slope * a * (F - I1 / (3 * J) * cofactor(F));
-  }
-
-  Mat9 tangent(const Mat3& F) const {
-    const Jet I1 = first_isochoric_invariant(F);
-    return composed(I1, 0, c10_ + 2 * c20_ * (I1.value - 3), 2 * c20_).hessian;
-  }
+  double energy_density(const Mat3& F) const;
+  Mat3 first_piola(const Mat3& F) const;
+  Mat9 tangent(const Mat3& F) const;
 
   SplitBatchLaw split_batch_law() const {
     return {.distortion = SplitBatchLaw::Distortion::Polynomial, .c = {c10_, c20_, 0}};

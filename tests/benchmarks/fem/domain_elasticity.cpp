@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "fem/material/any_material.hpp"
 #include "fem/mesh/rest_shape.hpp"
 #include "fem/mesh/tetrahedron.hpp"
 

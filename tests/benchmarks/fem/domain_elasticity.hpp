@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "fem/material/any_material.hpp"
 #include "fem/material/mooney_rivlin.hpp"
 #include "fem/material/projected_tangent.hpp"
 #include "fem/mesh/edge_domains.hpp"

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "fem/material/any_material.hpp"
 #include "tests/benchmarks/fem/domain_elasticity.hpp"
 
 /// The parts of tests/benchmarks/fem/locking_study.cpp.

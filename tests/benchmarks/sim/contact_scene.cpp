@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "fem/material/any_material.hpp"
 #include "sim/build/build_model.hpp"
 #include "sim/output/history.hpp"
 #include "tests/sim/support/scene.hpp"

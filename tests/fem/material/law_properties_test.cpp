@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "fem/base/cofactor.hpp"
 #include "fem/material/von_mises.hpp"
 #include "tests/fem/support/central_difference.hpp"
 #include "tests/fem/support/dense.hpp"

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/base/cofactor.hpp"
 #include "fem/material/any_material.hpp"
 #include "fem/material/corotated.hpp"
 #include "fem/material/linear.hpp"

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "fem/base/cofactor.hpp"
 #include "fem/material/any_material.hpp"
 #include "fem/material/corotated.hpp"
 #include "fem/material/mooney_rivlin.hpp"

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/base/rotation_svd.hpp"
 #include "fem/element/elasticity.hpp"
 #include "fem/material/point_law.hpp"
 #include "fem/mesh/tetrahedron.hpp"

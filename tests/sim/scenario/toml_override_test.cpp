@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fem/material/any_material.hpp"
 #include "fem/material/point_law.hpp"
 
 #include "tests/sim/support/scenario_file.hpp"

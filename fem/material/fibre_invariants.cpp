@@ -1,0 +1,48 @@
+#include "fem/material/fibre_invariants.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "fem/base/cofactor.hpp"
+
+namespace articular::fem {
+
+Jet fourth_invariant(const Mat3& F, const Vec3& a0) {
+  const Vec3 b = F * a0;
+  return {b.squaredNorm(), 2 * b * a0.transpose(), 2 * on_columns(a0 * a0.transpose())};
+}
+
+Mat3 fifth_invariant_gradient(const Mat3& F, const Vec3& a0) {
+  const Vec3 b = F * a0, w = F.transpose() * b;
+  return 2 * (b * w.transpose() + F * w * a0.transpose());
+}
+
+Jet fifth_invariant(const Mat3& F, const Vec3& a0) {
+  const Vec3 b = F * a0, w = F.transpose() * b;
+  Eigen::Matrix<double, 3, 9> dw;
+  for (int j = 0; j < 3; ++j)
+    dw.middleCols<3>(3 * j) = Vec3::Unit(j) * b.transpose() + a0[j] * F.transpose();
+  const Mat3 A = w * a0.transpose();
+  return {w.squaredNorm(), fifth_invariant_gradient(F, a0),
+          2 * dw.transpose() * dw + 2 * on_columns(A + A.transpose())};
+}
+
+double isochoric_fibre_stretch(const Mat3& F, const Vec3& a0) {
+  return std::pow(F.determinant(), -1.0 / 3) * (F * a0).norm();
+}
+
+Mat3 isochoric_fibre_stretch_gradient(const Mat3& F, const Vec3& a0) {
+  const double J = F.determinant();
+  const Vec3 b = F * a0;
+  const double stretch = b.norm();
+  return std::pow(J, -1.0 / 3) * (b * a0.transpose() / stretch - stretch / (3 * J) * cofactor(F));
+}
+
+Jet isochoric_fibre_stretch_jet(const Mat3& F, const Vec3& a0) {
+  const Jet I4 = fourth_invariant(F, a0);
+  const double stretch = std::sqrt(I4.value);
+  const double first = 0.5 / stretch, second = -0.25 / (stretch * I4.value);
+  return times_power_of_volume(composed(I4, stretch, first, second), -1.0 / 3, F);
+}
+
+}  // namespace articular::fem
