@@ -129,12 +129,7 @@ class Run {
     const std::string scenario = scenario_.file.filename().string();
     clear_results(options_.directory, scenario, options_.overwrite);
     write_unfinished_summary();
-    history_file_.emplace(history_path());
-    history_file_->append(history_.header());
-    if (is_static()) {
-      convergence_file_.emplace(convergence_path());
-      convergence_file_->append(convergence_header(scenario_.output.length_unit));
-    }
+    open_tables({}, {});
     resolve_initial_overlaps();
     history_.record(state_, stepper_);
     output_frame();
@@ -144,10 +139,26 @@ class Run {
     state_ = std::move(from.state);
     stepper_.restart(state_);
     check_start();
-    writer_.resume_at(from.series);
-    history_file_.emplace(history_path(), from.history);
-    if (is_static()) convergence_file_.emplace(convergence_path(), from.convergence);
+    if (from.series.bytes > 0) writer_.resume_at(from.series);
+    open_tables(from.history, from.convergence);
     write_unfinished_summary();
+  }
+
+  /// With what an earlier run wrote, or new ones.
+  void open_tables(const FileExtent& history, const FileExtent& convergence) {
+    const auto open = [&](const char* name, const FileExtent& extent, const std::string& header,
+                          std::optional<AppendFile>& table) {
+      if (extent.bytes > 0) {
+        table.emplace(options_.directory / name, extent);
+      } else {
+        table.emplace(options_.directory / name);
+        table->append(header);
+      }
+    };
+    open("history.csv", history, history_.header(), history_file_);
+    if (is_static())
+      open("convergence.csv", convergence, convergence_header(scenario_.output.length_unit),
+           convergence_file_);
   }
 
   /// For as long as the run goes on; a killed one leaves it.
@@ -179,8 +190,6 @@ class Run {
   }
 
   bool is_static() const { return model_.is_static; }
-  std::filesystem::path history_path() const { return options_.directory / "history.csv"; }
-  std::filesystem::path convergence_path() const { return options_.directory / "convergence.csv"; }
 
   void observe() {
     history_.record(state_, stepper_);

@@ -64,9 +64,8 @@ ProgramRun Bench::run_from(
   stepper.restart(state);
   state.energy.start = stepper.stored_energy().total();
   sim::note_extrema(stepper.now(), state);
-  const fs::path checkpoint = folder_ / name / "checkpoint";
-  fs::create_directories(checkpoint);
-  sim::write_checkpoint(checkpoint / "state.bin", state, sim::fingerprint(given, model));
+  sim::write_checkpoint(folder_ / name / "checkpoint", {state, {}, {}, {}},
+                        sim::fingerprint(given, model));
   return start({"--resume"}, name, limit);
 }
 
