@@ -42,10 +42,10 @@ SpinDrift spin_drift(const Bench& bench, const std::string& name, double step, d
   if (drift.run.exit_code != 0) return drift;
   const sim::Scenario scenario = sim::read_scenario(bench.folder() / (name + ".toml"));
   const sim::Model model = sim::build_model(scenario);
-  const auto state = sim::read_checkpoint(drift.run.results / "checkpoint" / "state.bin",
-                                          sim::fingerprint(scenario, model));
-  if (!state) throw std::runtime_error("the run left no checkpoint");
-  const Spin start = spin_of(model, sim::initial_state(model)), end = spin_of(model, state->y);
+  const auto last =
+      sim::read_checkpoint(drift.run.results / "checkpoint", sim::fingerprint(scenario, model), {});
+  if (!last) throw std::runtime_error("the run left no checkpoint");
+  const Spin start = spin_of(model, sim::initial_state(model)), end = spin_of(model, last->state.y);
   drift.energy = end.energy / start.energy - 1;
   drift.momentum = (end.momentum - start.momentum).norm() / start.momentum.norm();
   return drift;
