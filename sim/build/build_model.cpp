@@ -43,13 +43,14 @@ class Builder {
     read_bodies();
     make_rigid_bodies();
     make_tissues();
+    attach_nodes();
     number_blocks();
     carry_tissue_mass();
     make_colliders(scenario_, geometry_, model_);
     make_lines();
     make_loads();
     make_contacts(scenario_, model_);
-    model_.probes = make_probes(scenario_, model_, geometry_, surface_);
+    model_.probes = make_probes(scenario_, model_, geometry_, surface_, model_.warnings);
     model_.position_tolerance = position_tolerance(scenario_.integrator, model_);
     model_.detection_margin = detection_margin(model_);
     model_.trusted_motion = trusted_motion(model_);
@@ -136,29 +137,47 @@ class Builder {
                     flat.count, mesh.tets.cols(), body.name, mm.x(), mm.y(), mm.z()));
   }
 
-  /// Attached nodes to their rigid bodies, the others to blocks of their own; then the rigid
-  /// bodies' blocks.
-  void number_blocks() {
+  /// The nodes in each region belong to a rigid body from now on.
+  void attach_nodes() {
+    std::vector<std::vector<const Attachment*>> taken(model_.tissues.size());  // by tissue and node
     for (const Attachment& attachment : scenario_.attachments) {
       const auto b = static_cast<std::size_t>(body_index(attachment.body));
-      Tissue& tissue = model_.tissues[static_cast<std::size_t>(model_.bodies[b].tissue)];
-      const int rigid = model_.bodies[static_cast<std::size_t>(body_index(attachment.to))].rigid;
-      const RegionTest test(attachment.region, model_, geometry_);
-      const std::vector<char> on_surface =
-          surface_nodes(tissue, surface_[static_cast<std::size_t>(model_.bodies[b].tissue)]);
-      int count = 0;
-      for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
-        const Vec3 x = tissue.X.col(static_cast<Eigen::Index>(i));
-        if (!test.contains(x, on_surface[i] != 0)) continue;
-        ++count;
-        tissue.nodes[i].rigid = rigid;
-        tissue.nodes[i].local = x - model_.rigid_bodies[static_cast<std::size_t>(rigid)].rest.p;
-      }
-      if (count == 0)
-        throw InputError(attachment.where,
-                         fmt::format("no node of tissue `{}` lies in the region attached to `{}`",
-                                     attachment.body, attachment.to));
+      const auto t = static_cast<std::size_t>(model_.bodies[b].tissue);
+      taken[t].resize(model_.tissues[t].nodes.size());
+      attach(attachment, surface_[t], model_.tissues[t], taken[t]);
     }
+  }
+
+  /// @param taken  by node: the entry that has attached it, if any
+  void attach(const Attachment& attachment, const collision::Surface& surface, Tissue& tissue,
+              std::vector<const Attachment*>& taken) const {
+    const int rigid = model_.bodies[static_cast<std::size_t>(body_index(attachment.to))].rigid;
+    const RegionTest test(attachment.region, model_, geometry_);
+    const std::vector<char> on_surface = surface_nodes(tissue, surface);
+    int count = 0;
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+      const Vec3 x = tissue.X.col(static_cast<Eigen::Index>(i));
+      if (!test.contains(x, on_surface[i] != 0)) continue;
+      ++count;
+      if (taken[i] != nullptr && taken[i]->to != attachment.to)
+        throw InputError(
+            attachment.where,
+            fmt::format("the node of `{}` at ({:.3f} {:.3f} {:.3f}) mm is attached to `{}` and, by "
+                        "the [[attach]] at {}:{}, to `{}`: expected regions without common nodes",
+                        attachment.body, 1e3 * x.x(), 1e3 * x.y(), 1e3 * x.z(), attachment.to,
+                        taken[i]->where.file, taken[i]->where.line, taken[i]->to));
+      taken[i] = &attachment;
+      tissue.nodes[i].rigid = rigid;
+      tissue.nodes[i].local = x - model_.rigid_bodies[static_cast<std::size_t>(rigid)].rest.p;
+    }
+    if (count == 0)
+      throw InputError(attachment.where,
+                       fmt::format("no node of tissue `{}` lies in the region attached to `{}`",
+                                   attachment.body, attachment.to));
+  }
+
+  /// Blocks for the nodes that are not attached, then those of the rigid bodies.
+  void number_blocks() {
     int block = 0;
     for (Tissue& tissue : model_.tissues)
       for (NodeRef& node : tissue.nodes)
@@ -212,8 +231,8 @@ class Builder {
     }
   }
 
-  WeightedPoint resolve(const Anchor& anchor) const {
-    return anchored_point(anchor, body_index(anchor.body), model_, surface_);
+  WeightedPoint resolve(const Anchor& anchor) {
+    return anchored_point(anchor, body_index(anchor.body), model_, surface_, model_.warnings);
   }
 
   Vec3 start_position(const WeightedPoint& point) const {
@@ -314,7 +333,7 @@ class Builder {
     }
   }
 
-  WeightedPoint loaded_point(const ForceLoad& load) const {
+  WeightedPoint loaded_point(const ForceLoad& load) {
     if (const auto* anchor = std::get_if<Anchor>(&load.at)) return resolve(*anchor);
     const auto& [name, region] = std::get<TissueRegion>(load.at);
     const int tissue = model_.bodies[static_cast<std::size_t>(body_index(name))].tissue;

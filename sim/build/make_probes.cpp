@@ -17,6 +17,7 @@ struct Resolver {
   const Model& model;
   const std::vector<BodyGeometry>& geometry;
   const std::vector<collision::Surface>& surfaces;
+  std::vector<std::string>& warnings;
   const Probe& probe;  // for messages
 
   const BodyModel& body(const std::string& name) const {
@@ -24,8 +25,8 @@ struct Resolver {
   }
 
   Observed operator()(const PointProbe& point) const {
-    return ObservedPoint{
-        anchored_point(point.anchor, body_index(scenario, point.anchor.body), model, surfaces)};
+    return ObservedPoint{anchored_point(point.anchor, body_index(scenario, point.anchor.body),
+                                        model, surfaces, warnings)};
   }
 
   Observed operator()(const AngleProbe& angle) const {
@@ -114,11 +115,13 @@ struct Resolver {
 
 std::vector<ProbeModel> make_probes(const Scenario& scenario, const Model& model,
                                     const std::vector<BodyGeometry>& geometry,
-                                    const std::vector<collision::Surface>& surfaces) {
+                                    const std::vector<collision::Surface>& surfaces,
+                                    std::vector<std::string>& warnings) {
   std::vector<ProbeModel> probes;
   for (const Probe& probe : scenario.probes)
     probes.push_back(
-        {probe.name, std::visit(Resolver{scenario, model, geometry, surfaces, probe}, probe.what)});
+        {probe.name,
+         std::visit(Resolver{scenario, model, geometry, surfaces, warnings, probe}, probe.what)});
   return probes;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "collision/mesh/surface.hpp"
@@ -11,11 +12,17 @@ namespace articular::sim {
 /// By node of a tissue: 1 where it lies on the surface.
 std::vector<char> surface_nodes(const Tissue& tissue, const collision::Surface& surface);
 
-/// The point of a body that an anchor names. Blocks are numbered.
+/// The point of a body that an anchor names: of a rigid body the place itself; of tissue the place
+/// in its tetrahedron, beside it the nearest node of the surface, with a radius the nodes of the
+/// surface within that. Blocks are numbered.
 /// @param body      index of the anchor's body
 /// @param surfaces  one a tissue
+/// @param warnings  get one where a radius holds fewer than two nodes
+/// @throws InputError farther than an element from tissue, or a twentieth of its size from a rigid
+///         body
 WeightedPoint anchored_point(const Anchor& anchor, int body, const Model& model,
-                             const std::vector<collision::Surface>& surfaces);
+                             const std::vector<collision::Surface>& surfaces,
+                             std::vector<std::string>& warnings);
 
 /// The mean of a tissue's nodes in a region; empty where there are none. Blocks are numbered.
 /// @param tissue  index into Model::tissues

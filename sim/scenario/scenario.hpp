@@ -186,8 +186,8 @@ struct Attachment {
   Location where;
 };
 
-/// A point of a line or a load: a point of a rigid body, or the nearest surface node of a tissue,
-/// spread over the tissue's surface nodes within `radius` if radius > 0 (equal weights).
+/// A point of a line, a load or a probe, or with a radius > 0 the tissue's surface nodes within it:
+/// see anchored_point().
 struct Anchor {
   std::string body;
   Vec3 point = Vec3::Zero();  // [m], world at the start

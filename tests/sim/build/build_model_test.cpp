@@ -74,6 +74,29 @@ TEST(Model, ARigidBoneTakesOverTheMassAndInertiaOfAttachedTissue) {
                 0, 1e-15);
 }
 
+TEST(Model, ANodeAttachedToTwoBodiesIsRefusedWithBothEntries) {
+  Scenario s = scene(1e-3);
+  s.bodies = {block(), stand("wall"), stand("hand")};
+  s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, 0}),
+                   attach("block", "hand", {-1, -1, 0.001}, {1, 1, 1})};
+  EXPECT_EQ(num_attached(build_model(s)), 27);
+  s.attachments[1].region.box->first.z() = 0;  // the nodes in the middle, too
+  s.attachments[0].where = {"scene.toml", 12, 1};
+  s.attachments[1].where = {"scene.toml", 16, 1};
+  try {
+    build_model(s);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "scene.toml:16:1: the node of `block` at (-10.000 -10.000 0.000) mm is attached to "
+        "`hand` and, by the [[attach]] at scene.toml:12, to `wall`: expected regions "
+        "without common nodes");
+  }
+  s.attachments[1].to = "wall";  // twice the same says nothing new
+  EXPECT_EQ(num_attached(build_model(s)), 27);
+}
+
 TEST(Model, AForceOnARegionIsSharedEquallyByItsNodes) {
   Scenario s = scene(1e-3);
   s.bodies = {block()};
