@@ -24,7 +24,7 @@ constexpr double kOnFace = 1e-9;
 
 /// A point farther than this part of a rigid body's size from its surface is not meant: points of
 /// recorded muscles lie beside scanned bones by less.
-constexpr double kBesideBone = 1.0 / 20;
+constexpr double kBesideBone = 0.1;
 
 /// @param most  [m] that the point may lie from the surface  @param what  that is
 void refuse_far(const Anchor& anchor, const std::string& body, double distance, double most,
@@ -58,7 +58,7 @@ WeightedPoint point_of_rigid_body(const Anchor& anchor, const BodyModel& body,
     const double size = (body.X.rowwise().maxCoeff() - body.X.rowwise().minCoeff()).norm();
     const double distance = TriangleTree(body.X, body.triangles).distance(x);
     if (distance > kBesideBone * size && winding_number(body.X, body.triangles, x) < 0.5)
-      refuse_far(anchor, body.name, distance, kBesideBone * size, "a twentieth of its size");
+      refuse_far(anchor, body.name, distance, kBesideBone * size, "a tenth of its size");
   }
   return {{{rigid.block, body.rigid, anchor.point - rigid.rest.p}}, {1}};
 }
