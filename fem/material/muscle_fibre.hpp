@@ -21,7 +21,7 @@ class MuscleFibre {
   struct Constants {
     double max_stress = 0.3e6;   // σ_max [Pa], > 0
     double p1 = 0.05, p2 = 6.6;  // P1, P2 [-], > 0
-    double toe_end = 1.4;        // n* [-], > 1
+    double toe_end = 1.4;  // n* [-], > 1; times optimal_stretch it is the λ* of [Blemker 2005]
     double optimal_stretch = 1;  // λ_ofl [-], >= 1: no passive tension at rest
   };
   /// @throws std::invalid_argument naming a constant that is out of range

@@ -19,7 +19,7 @@ class ToeLinearFibre {
     double c3;                 // [Pa], > 0
     double c4;                 // [-], > 0, with c4 λ* < 700 (its exponential has to be a number)
     double c5;                 // [Pa], > 0
-    double toe_end;            // λ* [-], > 1
+    double toe_end;            // λ* [-], > 1, the stretch itself
     double active_stress = 0;  // σ_a [Pa], at full activation, not negative
   };
   /// @throws std::invalid_argument naming a constant that is out of range

@@ -18,7 +18,8 @@ namespace {
 /// Faces of a contact mesh within 80 degrees of `facing` take part.
 const double kFacingLimit = std::cos(80 * std::numbers::pi / 180);
 
-MeshData load(const MeshFile& file) {
+/// @param body  its name, for messages
+MeshData load(const MeshFile& file, const std::string& body) {
   MeshData mesh;
   std::error_code error;
   if (!file.made_by.empty() && !std::filesystem::exists(file.path, error))
@@ -27,7 +28,7 @@ MeshData load(const MeshFile& file) {
   try {
     mesh = read_mesh(file.path, file.unit);
   } catch (const InputError& error) {
-    throw InputError(file.where, error.what());
+    throw InputError(file.where, fmt::format("{} (mesh of body `{}`)", error.what(), body));
   }
   place(file.placement, mesh.X);
   return mesh;
@@ -36,9 +37,10 @@ MeshData load(const MeshFile& file) {
 /// Makes the mesh of a body's geometry, placed.
 struct MakeMesh {
   const Placement& placement;  // of a built-in one
+  const std::string& body;
 
   MeshData operator()(std::monostate) const { return {}; }
-  MeshData operator()(const MeshFile& file) const { return load(file); }
+  MeshData operator()(const MeshFile& file) const { return load(file, body); }
   MeshData operator()(const BoxGeometry& box) const { return placed(box_mesh(box)); }
   MeshData operator()(const HexahedronGeometry& block) const {
     return placed(hexahedron_mesh(block));
@@ -115,7 +117,7 @@ const Location& mesh_place(const Body& body) {
 
 BodyGeometry read_geometry(const Body& body) {
   BodyGeometry geometry;
-  geometry.mesh = std::visit(MakeMesh{body.placement}, body.geometry);
+  geometry.mesh = std::visit(MakeMesh{body.placement, body.name}, body.geometry);
   const bool tissue = body.kind == Body::Kind::Tissue;
   if (tissue && geometry.mesh.tets.cols() == 0)
     throw InputError(mesh_place(body),
@@ -124,7 +126,7 @@ BodyGeometry read_geometry(const Body& body) {
                                  body.name, mesh_name(body)));
   if (!tissue && geometry.mesh.X.cols() > 0) take_surface(geometry.mesh);
   for (const MeshFile& file : body.contact_meshes) {
-    MeshData part = load(file);
+    MeshData part = load(file, body.name);
     take_surface(part);
     if (part.triangles.cols() == 0)
       throw InputError(file.where, fmt::format("contact mesh {} of `{}` has no triangles",

@@ -6,6 +6,7 @@
 
 #include "sim/build/body_collider.hpp"
 #include "sim/build/body_geometry.hpp"
+#include "sim/build/coincident_bodies.hpp"
 #include "sim/build/contact_model.hpp"
 #include "sim/build/linear_solver.hpp"
 #include "sim/build/make_probes.hpp"
@@ -14,6 +15,7 @@
 #include "sim/build/weighted_points.hpp"
 #include "sim/lines/muscle_law.hpp"
 #include "sim/mesh/flat_elements.hpp"
+#include "sim/mesh/mesh_defects.hpp"
 #include "sim/model/newton_weights.hpp"
 #include "sim/model/tissue.hpp"
 
@@ -50,6 +52,7 @@ class Builder {
     make_lines();
     make_loads();
     make_contacts(scenario_, model_);
+    refuse_coincident_bodies(scenario_, model_);
     model_.probes = make_probes(scenario_, model_, geometry_, surface_, model_.warnings);
     model_.position_tolerance = position_tolerance(scenario_.integrator, model_);
     model_.detection_margin = detection_margin(model_);
@@ -123,6 +126,7 @@ class Builder {
       model_.tissues.push_back(
           make_tissue(scenario_, model_, geometry_, surface_.back(), static_cast<int>(b)));
       tell_flat_elements(scenario_.bodies[b], mesh);
+      tell_coincident_nodes(scenario_.bodies[b], mesh);
     }
   }
 
@@ -135,6 +139,19 @@ class Builder {
         fmt::format("{} of {} tetrahedra of `{}` are flat (height below 1/50 of an edge), the "
                     "flattest at ({:.3f} {:.3f} {:.3f}) mm: pressures beside them are uneven",
                     flat.count, mesh.tets.cols(), body.name, mm.x(), mm.y(), mm.z()));
+  }
+
+  /// A slit may be meant, so that this is no error.
+  void tell_coincident_nodes(const Body& body, const MeshData& mesh) {
+    const CoincidentNodes coincident = coincident_nodes(mesh.X);
+    if (coincident.count == 0) return;
+    const Vec3 mm = 1e3 * coincident.place;
+    model_.warnings.push_back(
+        prefix(body.where) +
+        fmt::format("{} of {} nodes of `{}` lie where another of its nodes lies, one at ({:.3f} "
+                    "{:.3f} {:.3f}) mm: nothing holds the tissue together there; merge them unless "
+                    "a slit is meant",
+                    coincident.count, mesh.X.cols(), body.name, mm.x(), mm.y(), mm.z()));
   }
 
   /// The nodes in each region belong to a rigid body from now on.

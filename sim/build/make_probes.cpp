@@ -42,6 +42,12 @@ struct Resolver {
         model.contacts.begin(), model.contacts.end(), [&](const ContactModel& candidate) {
           return std::minmax(candidate.a, candidate.b) == std::minmax(first, second);
         });
+    if (pair == model.contacts.end() && first == second)
+      throw InputError(probe.where,
+                       fmt::format("probe `{}` observes contact of `{}` with itself, but it does "
+                                   "not touch itself in this scene; expected two bodies, or a "
+                                   "[[contact]] with self = \"{}\"",
+                                   probe.name, contact.first, contact.first));
     if (pair != model.contacts.end())
       observed.contact = static_cast<int>(pair - model.contacts.begin());
     if (contact.region) observed.faces = faces_in(*contact.region, contact.first);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "sim/base/error.hpp"
+#include "sim/mesh/mesh_defects.hpp"
 #include "sim/mesh/mesh_readers.hpp"
 #include "sim/mesh/vtk_files.hpp"
 
@@ -78,6 +79,8 @@ MeshData read_mesh(const std::filesystem::path& file, double unit) {
   for (Eigen::Index a = 0; a < mesh.X.cols(); ++a)
     if (!mesh.X.col(a).allFinite())
       throw InputError({name}, "the position of point " + std::to_string(a) + " is not finite");
+  refuse_far_positions(name, mesh.X);
+  refuse_repeated_elements(name, mesh.tets);
   return mesh;
 }
 

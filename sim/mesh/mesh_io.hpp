@@ -25,7 +25,7 @@ struct MeshData {
 /// @param unit  metres per unit of the file
 /// @throws InputError naming the file (and line, for .inp) when it is missing, not readable as its
 ///         format, empty, holds other volume cells than linear tetrahedra, or a position that is
-///         not finite
+///         not finite or beyond 1e18 m, an element twice, or a node twice in an element
 MeshData read_mesh(const std::filesystem::path& file, double unit);
 
 /// Writes tetrahedra (and triangles, if there are both) with their cell arrays as .vtu, or

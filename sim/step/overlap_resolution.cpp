@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/build/build_model.hpp"
+#include "sim/build/coincident_bodies.hpp"
 #include "sim/contact/initial_overlap.hpp"
 #include "sim/statics/contact_hooks.hpp"
 #include "sim/statics/pseudo_time.hpp"
@@ -17,6 +18,8 @@ namespace {
 constexpr double kStepOfElement = 0.25;
 constexpr int kMostHalvings = 3;
 constexpr double kRoundOff = 1e-9;
+/// Of an element: surfaces that lie flush are no deeper in each other.
+constexpr double kFlush = 1e-6;
 /// Solutions in pseudo-time for one step.
 constexpr int kMostEquilibria = 50;
 /// Of the largest force, what is left unbalanced where tissue is held between bodies.
@@ -32,18 +35,6 @@ Eigen::VectorXd at_rest(const Model& model, const Eigen::VectorXd& y) {
 std::string names(const Model& model, const ContactModel& contact) {
   return fmt::format("`{}` and `{}`", model.bodies[static_cast<std::size_t>(contact.a)].name,
                      model.bodies[static_cast<std::size_t>(contact.b)].name);
-}
-
-/// Tissue that is tied to the other body belongs there.
-bool are_tied(const Model& model, const ContactModel& contact) {
-  const auto tied = [&](int tissue, int rigid) {
-    const BodyModel& body = model.bodies[static_cast<std::size_t>(tissue)];
-    const int index = model.bodies[static_cast<std::size_t>(rigid)].rigid;
-    return body.tissue >= 0 && index >= 0 &&
-           std::any_of(body.collider->nodes.begin(), body.collider->nodes.end(),
-                       [&](const NodeRef& node) { return node.rigid == index; });
-  };
-  return tied(contact.a, contact.b) || tied(contact.b, contact.a);
 }
 
 /// What lies so deep in another body that contact can't tell the way out is no start.
@@ -74,15 +65,23 @@ class OverlapResolver {
     hooks_ = contact_hooks(model, search_, dynamics_, margin_, rejected_);
   }
 
-  /// Deeper than they may be.
-  std::vector<ResolvedOverlap> overlaps(const Eigen::VectorXd& y) {
+  std::vector<OverlapAtStart> at_start(const Eigen::VectorXd& y) {
     const std::vector<double> depth = depths(at_rest(model_, y));
     // Where depths are averaged, facets of a round surface may cut into another and carry nothing.
     refuse_lost_bodies(model_, dynamics_.now().contact.point_depths());
-    std::vector<ResolvedOverlap> overlaps;
+    std::vector<OverlapAtStart> overlaps;
     for (std::size_t c = 0; c < depth.size(); ++c)
-      if (depth[c] > model_.contacts[c].max_penetration)
-        overlaps.push_back({static_cast<int>(c), depth[c], 0});
+      if (depth[c] > kFlush * least_size(model_.contacts[c]))
+        overlaps.push_back(
+            {static_cast<int>(c), depth[c], depth[c] > model_.contacts[c].max_penetration});
+    return overlaps;
+  }
+
+  /// Deeper than they may be.
+  std::vector<ResolvedOverlap> overlaps(const Eigen::VectorXd& y) {
+    std::vector<ResolvedOverlap> overlaps;
+    for (const OverlapAtStart& overlap : at_start(y))
+      if (overlap.is_set_apart) overlaps.push_back({overlap.contact, overlap.depth, 0});
     return overlaps;
   }
 
@@ -121,14 +120,19 @@ class OverlapResolver {
     return depths;
   }
 
+  /// Of the elements at both surfaces [m].
+  double least_size(const ContactModel& contact) const {
+    const auto size = [&](int body) {
+      return model_.bodies[static_cast<std::size_t>(body)].collider->size;
+    };
+    return std::min(size(contact.a), size(contact.b));
+  }
+
   double num_steps() const {
     double count = 1;
     for (const ResolvedOverlap& overlap : resolution_.overlaps) {
       const ContactModel& contact = model_.contacts[static_cast<std::size_t>(overlap.contact)];
-      const auto size = [&](int body) {
-        return model_.bodies[static_cast<std::size_t>(body)].collider->size;
-      };
-      const double step = kStepOfElement * std::min(size(contact.a), size(contact.b));
+      const double step = kStepOfElement * least_size(contact);
       count = std::max(count, std::ceil(overlap.before / step));
     }
     return count;
@@ -229,6 +233,12 @@ class OverlapResolver {
 };
 
 }  // namespace
+
+std::vector<OverlapAtStart> overlaps_at_start(const Scenario& scenario, const Model& model,
+                                              const Eigen::VectorXd& y) {
+  if (model.contacts.empty() || y.size() == 0) return {};
+  return OverlapResolver(model, step_settings(scenario), {}).at_start(y);
+}
 
 OverlapResolution resolve_overlaps(const Scenario& scenario, const Model& model, Eigen::VectorXd& y,
                                    const IterationWatch& watch) {

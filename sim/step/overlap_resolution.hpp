@@ -4,6 +4,18 @@
 
 namespace articular::sim {
 
+/// What contact finds before anything has moved.
+struct OverlapAtStart {
+  int contact = 0;            // index into Model::contacts
+  double depth = 0;           // [m] of the deepest point
+  bool is_set_apart = false;  // by resolve_overlaps(): deeper than the contact's max_penetration
+};
+
+/// Of every contact that is deeper than round-off: what resolve_overlaps() goes by.
+/// @throws SimulationError when contact can't tell the way out
+std::vector<OverlapAtStart> overlaps_at_start(const Scenario& scenario, const Model& model,
+                                              const Eigen::VectorXd& y);
+
 /// Bodies that overlap before anything has moved, as segmented anatomy does, are pushed apart as
 /// gently as can be: each contact is allowed the depth that it has, and the allowance shrinks to
 /// zero in steps of a quarter of an element (the shrink fit of structural analysis). In each,

@@ -5,19 +5,42 @@
 
 #include "sim/build/build_model.hpp"
 #include "sim/contact/initial_overlap.hpp"
+#include "sim/step/overlap_resolution.hpp"
+#include "sim/step/stepper.hpp"
 #include "tools/run/commands.hpp"
 
 namespace articular::tools {
 namespace {
 
+std::string names(const sim::Model& model, int a, int b) {
+  return fmt::format("`{}` and `{}`", model.bodies[static_cast<std::size_t>(a)].name,
+                     model.bodies[static_cast<std::size_t>(b)].name);
+}
+
+/// By the surfaces as drawn.
 void print(const sim::Model& model, const sim::InitialOverlap& overlap) {
-  const auto name = [&](int body) { return model.bodies[static_cast<std::size_t>(body)].name; };
   const sim::Vec3 mm = 1e3 * overlap.place;
   fmt::print(
-      "warning: `{}` and `{}` overlap at the start by {:.3g} mm, at ({:.3f} {:.3f} {:.3f}) mm; "
+      "warning: {} overlap at the start by {:.3g} mm, at ({:.3f} {:.3f} {:.3f}) mm; "
       "{} node{} in the other body\n",
-      name(overlap.a), name(overlap.b), 1e3 * overlap.depth, mm.x(), mm.y(), mm.z(),
+      names(model, overlap.a, overlap.b), 1e3 * overlap.depth, mm.x(), mm.y(), mm.z(),
       overlap.num_nodes, overlap.num_nodes == 1 ? " lies" : "s lie");
+}
+
+/// By contact, as `run` goes by it.
+void print(const sim::Model& model, const sim::OverlapAtStart& overlap) {
+  const sim::ContactModel& contact = model.contacts[static_cast<std::size_t>(overlap.contact)];
+  const std::string pair =
+      contact.a == contact.b
+          ? fmt::format("`{}` and itself", model.bodies[static_cast<std::size_t>(contact.a)].name)
+          : names(model, contact.a, contact.b);
+  fmt::print("warning: contact finds {} {:.3g} mm deep in each other at the start: {}\n", pair,
+             1e3 * overlap.depth,
+             overlap.is_set_apart
+                 ? std::string("`run` sets them apart first")
+                 : fmt::format("`run` starts so, pressed together, for it is below 1/100 of an "
+                               "element ({:.3g} mm)",
+                               1e3 * contact.max_penetration));
 }
 
 }  // namespace
@@ -36,12 +59,16 @@ void add_check_command(CLI::App& app, int& exit_code) {
   command->add_option("--set", arguments->overrides, "Override a value, as in run")
       ->allow_extra_args(false);
   command->footer(
-      "Runs nothing and writes nothing. Exit code 0: `run` will start; 2: it would not.");
+      "Runs nothing and writes nothing. Exit code 0: `run` will start; 2: it would not; 3: bodies "
+      "overlap so that `run` could not set them apart.");
   command->callback([arguments, &exit_code] {
-    const sim::Model model =
-        sim::build_model(sim::read_scenario(arguments->scenario, arguments->overrides));
+    const sim::Scenario scenario = sim::read_scenario(arguments->scenario, arguments->overrides);
+    const sim::Model model = sim::build_model(scenario);
     for (const std::string& warning : model.warnings) fmt::print("warning: {}\n", warning);
     for (const sim::InitialOverlap& overlap : sim::initial_overlaps(model)) print(model, overlap);
+    const sim::State start = sim::Stepper(model, sim::step_settings(scenario)).initial();
+    for (const sim::OverlapAtStart& overlap : sim::overlaps_at_start(scenario, model, start.y))
+      print(model, overlap);
     fmt::print("{}: ok\n", arguments->scenario.string());
     exit_code = 0;
   });

@@ -160,4 +160,23 @@ TEST(OverlapResolution, ABodyThatCannotFindTheWayOutIsRefused) {
   }
 }
 
+// One element a side: no node of either lies inside the other.
+TEST(OverlapResolution, AMicrometreOfOverlapIsFoundAndSurfacesThatLieFlushHaveNone) {
+  constexpr double kDepth = 1e-6;  // [m]
+  for (const double depth : {kDepth, 0.0}) {
+    Scenario s = contact_scene(1e-3);
+    s.bodies = {box_body("lower", Body::Kind::Tissue, Vec3::Constant(0.01), Vec3::Zero()),
+                box_body("upper", Body::Kind::Tissue, Vec3::Constant(0.01), {0, 0, 0.01 - depth})};
+    const Simulation run(s);
+    const auto overlaps = overlaps_at_start(s, run.model, run.state.y);
+    if (depth == 0) {
+      EXPECT_TRUE(overlaps.empty());
+      continue;
+    }
+    ASSERT_EQ(overlaps.size(), 1U);
+    EXPECT_NEAR(overlaps[0].depth, kDepth, 1e-3 * kDepth);
+    EXPECT_FALSE(overlaps[0].is_set_apart);  // less than 1/100 of an element
+  }
+}
+
 }  // namespace articular::sim::overlap_resolution_test
