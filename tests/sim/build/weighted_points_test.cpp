@@ -6,6 +6,7 @@
 #include <random>
 
 #include "sim/base/error.hpp"
+#include "sim/build/build_model.hpp"
 #include "tests/sim/support/scene.hpp"
 
 namespace articular::sim::weighted_points_test {
