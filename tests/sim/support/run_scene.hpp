@@ -28,6 +28,9 @@ name = "table"
 kind = "fixed"
 geometry = { box = { size = "20 20 4 mm", cells = [2, 2, 1], center = "0 0 -2.1 mm" } }
 [[body]]
+name = "frame"
+kind = "fixed"
+[[body]]
 name = "block"
 kind = "tissue"
 geometry = { box = { size = "10 10 10 mm", cells = [2, 2, 2], center = "0 0 5 mm" } }
@@ -47,7 +50,7 @@ max_force = "0.05 N"
 excitation = { time = ["0 s", "15.3 ms", "40 ms"], value = [0, 1, 0] }
 [[ligament]]
 name = "band"
-path = [{ body = "table", point = "0 9 20 mm" }, { body = "plate", point = "0 5 12 mm" }]
+path = [{ body = "frame", point = "0 9 20 mm" }, { body = "plate", point = "0 5 12 mm" }]
 stiffness = "5 N/m"
 damping = "0.01 N s/m"
 [[load]]

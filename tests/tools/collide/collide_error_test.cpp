@@ -27,6 +27,7 @@ class WrongCalls : public ::testing::TestWithParam<WrongCall> {
     write_vtk(folder_ / "good_0.vtk", tets, x);
     write_vtk(folder_ / "good_1.vtk", tets, x);
     write_vtk(folder_ / "good_2.vtk", tets, x);
+    for (const char* const name : {"two_0.vtk", "two_1.vtk"}) write_vtk(folder_ / name, tets, x);
     write_vtk(folder_ / "nodes_0.vtk", tets, x);
     write_vtk(folder_ / "nodes_1.vtk", tets.leftCols(1), x);
     write_vtk(folder_ / "tets_0.vtk", tets, x);
@@ -85,9 +86,9 @@ INSTANTIATE_TEST_SUITE_P(
         WrongCall{"NodeTwiceInOneTetrahedron", "twice.vtk", 2, "twice.vtk: tetrahedron 0"},
         WrongCall{"OtherNodeCount", "'nodes_*.vtk'", 2, "nodes_1.vtk: has 4 nodes, not the 5 of"},
         WrongCall{"OtherConnectivity", "'tets_*.vtk'", 2, "tets_1.vtk: tetrahedron 0 has other"},
-        WrongCall{"OtherNumberOfFrames", "'good_*.vtk' 'far_*.vtu'", 2, "3 frames"},
+        WrongCall{"OtherNumberOfFrames", "'good_*.vtk' 'two_*.vtk'", 2, "3 frames"},
         WrongCall{"NotFinite", "nan.vtu", 2, "nan.vtu: the position of point 3"},
-        WrongCall{"TooFarAway", "'far_*.vtu'", 2, "far_1.vtu: position of node 3"},
+        WrongCall{"TooFarAway", "'far_*.vtu'", 2, "far_1.vtu: point 3"},
         WrongCall{"NoPvd", "nothing.pvd", 2, "nothing.pvd"},
         WrongCall{"PvdThatIsNone", "text.pvd", 2, "text.pvd: not readable as .pvd"},
         WrongCall{"PvdOfBones", "bones.pvd", 2, "bones.pvd: lists no meshes with tetrahedra"},
