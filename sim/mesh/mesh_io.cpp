@@ -56,7 +56,8 @@ void drop_unused_nodes(MeshData& mesh) {
 MeshData read_mesh(const std::filesystem::path& file, double unit) {
   const std::string name = file.string();
   const std::string ending = lower_ending(file);
-  if (ending != ".inp" && ending != ".obj" && ending != ".ply" && !is_vtk_file_ending(ending))
+  if (ending != ".inp" && ending != ".obj" && ending != ".ply" && ending != ".vtk" &&
+      !is_vtk_file_ending(ending))
     throw InputError({name}, "unknown mesh format `" + ending +
                                  "`; known: .vtu, .vtp, .vtk, .stl, .obj, .ply, .inp");
   std::error_code error;
@@ -70,6 +71,7 @@ MeshData read_mesh(const std::filesystem::path& file, double unit) {
   MeshData mesh = ending == ".inp"   ? read_abaqus(file)
                   : ending == ".obj" ? read_obj(file)
                   : ending == ".ply" ? read_ply(file)
+                  : ending == ".vtk" ? read_legacy_vtk(file)
                                      : read_with_vtk(file);
   if (mesh.tets.cols() == 0 && mesh.triangles.cols() == 0)
     throw InputError({name}, "holds no tetrahedra and no surface triangles");

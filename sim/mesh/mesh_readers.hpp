@@ -26,7 +26,11 @@ MeshData read_obj(const std::filesystem::path& file);
 /// or binary of either byte order. Read here and not by VTK, which crashes on damaged files.
 MeshData read_ply(const std::filesystem::path& file);
 
-/// .vtu, .vtp, .vtk, .stl through VTK. Positions of .stl are in single precision, as in binary
+/// Legacy .vtk in text or binary, unstructured grids and polygonal data, with the vectors of cells.
+/// Read here and not by VTK, which trusts what a file claims to hold.
+MeshData read_legacy_vtk(const std::filesystem::path& file);
+
+/// .vtu, .vtp, .stl through VTK. Positions of .stl are in single precision, as in binary
 /// files.
 MeshData read_with_vtk(const std::filesystem::path& file);
 

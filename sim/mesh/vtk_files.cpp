@@ -2,7 +2,6 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkDataSetReader.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkLogger.h>
@@ -31,7 +30,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr std::array<std::string_view, 4> kEndings = {".vtu", ".vtp", ".vtk", ".stl"};
+constexpr std::array<std::string_view, 3> kEndings = {".vtu", ".vtp", ".stl"};
 
 /// VTK reads any bytes as triangles, so the count in a binary file is held against its size here.
 void check_stl(const std::string& file) {
@@ -155,12 +154,12 @@ vtkSmartPointer<vtkPointSet> read_vtk_file(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::string ending = file.extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (!is_vtk_file_ending(ending)) throw InputError({name}, "expected a file .vtu, .vtp or .stl");
   if (ending == ".stl") check_stl(name);
   const QuietVtk vtk;
   const vtkSmartPointer<vtkPointSet> set =
       ending == ".vtu"   ? read_with<vtkXMLUnstructuredGridReader>(name)
       : ending == ".vtp" ? read_with<vtkXMLPolyDataReader>(name)
-      : ending == ".vtk" ? read_with<vtkDataSetReader>(name)
                          : read_with<vtkSTLReader>(name);
   if (vtk.failed()) throw InputError({name}, "not readable as " + ending + ": " + vtk.message());
   if (set == nullptr)

@@ -32,7 +32,7 @@ class QuietVtk {
   int previous_verbosity_;
 };
 
-/// .vtu .vtp .vtk .stl, in lower case.
+/// .vtu .vtp .stl, in lower case.
 bool is_vtk_file_ending(std::string_view ending);
 
 /// @throws InputError in one line when VTK finds anything wrong with the file

@@ -7,5 +7,5 @@ find_dependency(nlohmann_json)
 find_dependency(tomlplusplus)
 find_dependency(SUNDIALS 6.4)
 find_dependency(VTK 9.1 COMPONENTS CommonCore CommonDataModel CommonExecutionModel IOXMLParser IOXML
-  IOLegacy IOGeometry FiltersCore)
+  IOGeometry FiltersCore)
 include(${CMAKE_CURRENT_LIST_DIR}/articular-sim-targets.cmake)
