@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "fem/material/any_material.hpp"
@@ -240,6 +241,46 @@ TEST(Equilibrium, WhatIsNoNumberIsNoEquilibrium) {
   const double expected = force(0.05);
   EXPECT_GT(expected, 0);
   EXPECT_NEAR(force(1), expected, 1e-5 * expected);
+}
+
+/// Of a muscle's law with fibres along z, whose volumetric part is a logarithm too.
+TissueMaterial muscle_material() {
+  fem::BlemkerMuscle<fem::LogVolumeChange>::Constants ground;
+  ground.c10 = 1e3;
+  ground.kappa = 500e3;
+  TissueMaterial material =
+      material_of(fem::BlemkerMuscle<>(fem::MuscleFibre(fem::MuscleFibre::Constants{}), ground));
+  material.element = TissueMaterial::Element::Smoothed;
+  material.fibres = Fibres{Vec3::UnitZ()};
+  return material;
+}
+
+/// The block's plate is turned by so much about the block's axis instead [rad].
+Scenario twisted_block(double step, double angle) {
+  Scenario s = pressed_block(step);
+  MotionLoad turn = shift("plate", 1, Vec3::Zero());
+  turn.motion.rotation = {Vec3::Zero(), Vec3(0, 0, angle)};
+  s.loads = {turn};
+  return s;
+}
+
+// One load step ends where ten do, or with an error: never as a result that is none.
+TEST(Equilibrium, NoLawAndNoMotionOfALargeStepGivesWhatIsNoNumber) {
+  const double half_turn = std::numbers::pi;
+  for (const bool is_muscle : {false, true})
+    for (const bool is_twist : {false, true}) {
+      const auto end = [&](double step) {
+        Scenario s = is_twist ? twisted_block(step, half_turn) : pressed_block(step);
+        if (is_muscle) s.bodies[0].material = muscle_material();
+        Simulation run(s);
+        run.advance(1);
+        EXPECT_TRUE(run.state.y.allFinite());
+        return run.stepper.stored_energy().elastic;
+      };
+      const double expected = end(0.1);
+      EXPECT_GT(expected, 0);
+      EXPECT_NEAR(end(1), expected, 1e-3 * expected) << is_muscle << is_twist;
+    }
 }
 
 TEST(Equilibrium, AForceBeyondNumbersIsNoEquilibrium) {
