@@ -28,8 +28,10 @@ double stiffness_factor(const Scenario& scenario, bool averaged) {
   return is_explicit ? kSoftFactor : kFirmFactor;
 }
 
-/// Of the elements at the surface: what friction at 0.7 of its limit creeps in the whole scene.
-constexpr double kCreep = 0.05;
+/// Of the elements at the surface: what friction at 0.7 of its limit creeps in a second, or in a
+/// thousand steps where these take longer. A finer step creeps no faster, and a scene of hours with
+/// long steps no farther than one of seconds.
+constexpr double kCreep = 0.05, kCreepTime = 1, kCreepSteps = 1000;
 
 /// Of the elements at the surface.
 constexpr double kMaxPenetration = 0.01;
@@ -94,7 +96,8 @@ void add_contact(const Scenario& scenario, int a, int b, const ContactPair& pair
   contact.law.friction = pair.friction;
   contact.law.damping = contact.share * pair.damping;
   contact.law.slip_velocity =
-      pair.slip_velocity.value_or(kCreep * std::min(A->size, B->size) / scenario.duration);
+      pair.slip_velocity.value_or(kCreep * std::min(A->size, B->size) /
+                                  std::max(kCreepTime, kCreepSteps * scenario.integrator.step));
   model.contacts.push_back(std::move(contact));
 }
 

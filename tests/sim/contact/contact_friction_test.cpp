@@ -468,6 +468,32 @@ TEST(Friction, WithTheDefaultSlipVelocityABlockCreepsByAFewHundredthsOfAnElement
   EXPECT_LT(distance, 0.06 * kWidth / 4);
 }
 
+// Nothing but the end of a scene depends on its duration.
+TEST(Friction, TheFirstStepsAreTheSameHoweverLongTheSceneIs) {
+  const auto after_steps = [](double duration) {
+    Scenario s = incline(Body::Kind::Tissue, 10 * kDegree, 1e-3);
+    s.contacts[0].slip_velocity.reset();
+    s.integrator.position_tolerance.reset();
+    s.duration = duration;
+    Simulation run(s);
+    run.advance(5e-3);
+    return run.state.y;
+  };
+  const Eigen::VectorXd expected = after_steps(0.1);
+  for (const double duration : {10.0, 1e3, 1e5}) EXPECT_EQ(after_steps(duration), expected);
+}
+
+// Of steps a hundred times shorter, too: a finer step must not slip more.
+TEST(Friction, TheDefaultSlipVelocityIsOfTheMeshAndGrowsShorterWithLongSteps) {
+  const auto slip = [](double step) {
+    Scenario s = incline(Body::Kind::Tissue, 0, step);
+    s.contacts[0].slip_velocity.reset();
+    return Simulation(s).model.contacts[0].law.slip_velocity;
+  };
+  EXPECT_EQ(slip(1e-5), slip(1e-3));
+  EXPECT_NEAR(slip(1), 1e-3 * slip(1e-3), 1e-18);
+}
+
 // A table that is driven sideways takes the block along, and then leaves it behind.
 TEST(Friction, ADrivenTableTakesABlockAlongAsFarAsFrictionCan) {
   for (const double acceleration : {0.5 * kFriction * kGravity, 2 * kFriction * kGravity}) {
