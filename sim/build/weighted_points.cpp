@@ -41,7 +41,7 @@ void refuse_far(const Anchor& anchor, const std::string& body, double distance, 
 /// 1983, IEEE Trans. Biomed. Eng. 30, for the solid angle of a triangle].
 double winding_number(const Positions& X, const Triangles& triangles, const Vec3& x) {
   double angle = 0;
-  for (const Eigen::Vector3i& triangle : triangles.colwise()) {
+  for (const auto& triangle : triangles.colwise()) {
     const Vec3 a = X.col(triangle[0]) - x, b = X.col(triangle[1]) - x, c = X.col(triangle[2]) - x;
     const double na = a.norm(), nb = b.norm(), nc = c.norm();
     angle += 2 * std::atan2(a.dot(b.cross(c)),
@@ -74,7 +74,7 @@ Eigen::Vector4d barycentric(const Positions& X, const Eigen::Vector4i& tet, cons
 /// In the tetrahedron that holds x; empty where none does.
 WeightedPoint inner_point(const Tissue& tissue, const Vec3& x) {
   WeightedPoint point;
-  for (const Eigen::Vector4i& tet : tissue.elements.tets().colwise()) {
+  for (const auto& tet : tissue.elements.tets().colwise()) {
     const Eigen::Vector4d parts = barycentric(tissue.X, tet, x);
     if (!(parts.minCoeff() > -kOnFace)) continue;
     for (int a = 0; a < 4; ++a) {
