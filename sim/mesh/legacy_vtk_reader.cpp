@@ -59,8 +59,16 @@ double number_from(const char* bytes, const NumberType& type) {
     case NumberType::Kind::Signed:
       break;
   }
-  const auto unused = static_cast<int>(64 - 8 * type.size);
-  return static_cast<double>(static_cast<std::int64_t>(bits << unused) >> unused);
+  switch (type.size) {
+    case 1:
+      return static_cast<std::int8_t>(bits);
+    case 2:
+      return static_cast<std::int16_t>(bits);
+    case 4:
+      return static_cast<std::int32_t>(bits);
+    default:
+      return static_cast<double>(static_cast<std::int64_t>(bits));
+  }
 }
 
 /// The file format is described in the "VTK File Formats" chapter of the VTK User's Guide. What a

@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongCall{"NoTetrahedra", "good_0.vtk surface.obj", 2, "surface.obj: holds no tetrahedra"},
         WrongCall{"UnknownFormat", "good_0.vtk file", 2, "unknown mesh format"},
         WrongCall{"Folder", ".", 2, "mesh"},
-        WrongCall{"DamagedMesh", "damaged.vtk", 2, "damaged.vtk: not readable"},
+        WrongCall{"DamagedMesh", "damaged.vtk", 2, "damaged.vtk:4: not readable"},
         WrongCall{"NodeTwiceInOneTetrahedron", "twice.vtk", 2, "twice.vtk: tetrahedron 0"},
         WrongCall{"OtherNodeCount", "'nodes_*.vtk'", 2, "nodes_1.vtk: has 4 nodes, not the 5 of"},
         WrongCall{"OtherConnectivity", "'tets_*.vtk'", 2, "tets_1.vtk: tetrahedron 0 has other"},
