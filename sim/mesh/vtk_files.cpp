@@ -157,10 +157,10 @@ vtkSmartPointer<vtkPointSet> read_vtk_file(const std::filesystem::path& file) {
   if (!is_vtk_file_ending(ending)) throw InputError({name}, "expected a file .vtu, .vtp or .stl");
   if (ending == ".stl") check_stl(name);
   const QuietVtk vtk;
-  vtkSmartPointer<vtkPointSet> set =
-      ending == ".vtu"   ? read_with<vtkXMLUnstructuredGridReader>(name)
-      : ending == ".vtp" ? read_with<vtkXMLPolyDataReader>(name)
-                         : read_with<vtkSTLReader>(name);
+  vtkSmartPointer<vtkPointSet> set = ending == ".vtu"
+                                         ? read_with<vtkXMLUnstructuredGridReader>(name)
+                                     : ending == ".vtp" ? read_with<vtkXMLPolyDataReader>(name)
+                                                        : read_with<vtkSTLReader>(name);
   if (vtk.failed()) throw InputError({name}, "not readable as " + ending + ": " + vtk.message());
   if (set == nullptr)
     throw InputError(
