@@ -66,6 +66,7 @@ const Moment& Dynamics::evaluate(const double* y, double t, const Conditions& co
   if (conditions.driven != nullptr)
     for (std::size_t b = 0; b < conditions.driven->size(); ++b)
       if (model_.rigid_bodies[b].motion) configuration.poses[b] = (*conditions.driven)[b];
+  moment_.step_start = conditions.step_start;
   moment_.begins_step = t == conditions.step_start;
   moment_.forces.setZero();
   moment_.largest_force = 0;

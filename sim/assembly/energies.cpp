@@ -1,5 +1,7 @@
 #include "sim/assembly/energies.hpp"
 
+#include "sim/model/carried_tissue.hpp"
+
 namespace articular::sim {
 
 double kinetic_energy(const Moment& now) {
@@ -22,6 +24,10 @@ double kinetic_energy(const Moment& now) {
     energy +=
         0.5 * velocity.angular.dot(world_inertia(model, now.configuration, r) * velocity.angular);
   }
+  for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b)
+    if (drives_tissue(model, model.rigid_bodies[b]))
+      energy += carried_kinetic_energy(model.rigid_bodies[b], now.configuration.poses[b],
+                                       now.configuration.velocities[b]);
   return energy;
 }
 

@@ -5,6 +5,7 @@
 /// Energies at one moment [J].
 namespace articular::sim {
 
+/// Of all that moves, tissue nodes that driven bodies carry among it.
 double kinetic_energy(const Moment& now);
 /// Of the tissues.
 double elastic_energy(const Moment& now);

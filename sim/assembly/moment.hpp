@@ -27,8 +27,8 @@ struct Moment {
   Configuration configuration;
   std::vector<TissueMoment> tissues;
   std::vector<LineState> lines;
-  /// Block forces [N]: 3 entries a block, reactions of fixed and driven bodies included; of held
-  /// bodies the part along their free freedoms.
+  /// Block forces [N]: 3 entries a block, those on fixed and driven bodies included, without the
+  /// inertia of what they carry; of held bodies the part along their free freedoms.
   Eigen::VectorXd forces;
   std::vector<Vec6> rigid_forces;  // on each rigid body that moves, held freedoms too
   /// The largest force on one node, body or line [N]: what a residual is small against. Infinite
@@ -36,6 +36,7 @@ struct Moment {
   double largest_force = 0;
   /// A step begins here: accelerations that jump are those after it, elsewhere those before it.
   bool begins_step = false;
+  double step_start = 0;  // of the step that it is in [s]
 };
 
 /// Of a tissue's fibres, in [0, 1]; 0 where no muscle activates them.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "sim/contact/contact_summary.hpp"
+#include "sim/model/carried_tissue.hpp"
 
 namespace articular::sim {
 namespace {
@@ -10,11 +11,15 @@ namespace {
 Vec6 reaction_of(const Moment& now, int rigid, bool step_begins) {
   const auto b = static_cast<std::size_t>(rigid);
   const RigidBody& held = now.model.rigid_bodies[b];
-  if (!held.unknown) return now.forces.segment<6>(3 * held.block);
+  const Instant at{now.configuration.t, step_begins};
+  if (!held.unknown) {
+    const Vec6 force = now.forces.segment<6>(3 * held.block);
+    if (!drives_tissue(now.model, held)) return force;
+    return force + inertia_of_carried(held, now.step_start, at);
+  }
   const Vec6& all = now.rigid_forces[b];
   if (now.model.is_static) return all - free_part(held, all);
-  return force_on_hold(held, now.configuration.poses[b], now.configuration.velocities[b],
-                       {now.configuration.t, step_begins}, all);
+  return force_on_hold(held, now.configuration.poses[b], now.configuration.velocities[b], at, all);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace articular::sim {
 
 /// Force [N] and moment [N m], about its reference point, that a fixed, driven or held body puts on
-/// what holds it.
+/// what holds it. The inertia of tissue that it carries is in it: see carried_tissue.hpp.
 Vec6 reaction_of(const Moment& now, int rigid);
 /// The same with the accelerations that a step from there begins with.
 Vec6 reaction_as_step_begins(const Moment& now, int rigid);

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "fem/sparse/pressure_term.hpp"
 #include "sim/model/newton_weights.hpp"
 
 namespace articular::sim {
@@ -34,6 +35,25 @@ std::vector<std::pair<int, Vec3>> free_nodes(const Model& model, const Configura
   return nodes;
 }
 
+/// Whether fixed or driven bodies hold three of its nodes that are not on one line: then no motion
+/// of the free ones is rigid.
+bool is_clamped(const Model& model, const BodyModel& body) {
+  constexpr double kOnOneLine = 1e-6;  // of the distance to the farthest
+  if (body.tissue < 0) return false;
+  const Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
+  std::vector<Vec3> held;
+  for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+    if (tissue.nodes[i].rigid >= model.layout.num_rigid)
+      held.emplace_back(tissue.X.col(static_cast<Eigen::Index>(i)));
+  if (held.empty()) return false;
+  Vec3 far = Vec3::Zero();
+  for (const Vec3& x : held)
+    if ((x - held[0]).norm() > far.norm()) far = x - held[0];
+  return std::any_of(held.begin(), held.end(), [&](const Vec3& x) {
+    return far.cross(x - held[0]).norm() > kOnOneLine * far.squaredNorm();
+  });
+}
+
 /// Appends the columns of a body: three translations, three turns by 1/radius about its centre.
 void append_motions(const Model& model, const Configuration& now, int b,
                     std::vector<BodyMotions>& bodies, std::vector<Eigen::VectorXd>& columns) {
@@ -41,7 +61,7 @@ void append_motions(const Model& model, const Configuration& now, int b,
   const bool is_rigid =
       body.rigid >= 0 && model.rigid_bodies[static_cast<std::size_t>(body.rigid)].unknown;
   const auto nodes = free_nodes(model, now, body);
-  if (!is_rigid && nodes.empty()) return;
+  if (!is_rigid && (nodes.empty() || is_clamped(model, body))) return;
   BodyMotions motions{.body = b};
   if (is_rigid) {
     const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
@@ -110,7 +130,10 @@ std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& 
     append_motions(model, dynamics.now().configuration, b, bodies, columns);
   if (columns.empty()) return std::nullopt;
 
-  const fem::BlockMatrix& K = dynamics.assemble({0, 0, 1}, fem::Tangent::Consistent).A;
+  const NewtonEquations stiffness = dynamics.assemble({0, 0, 1}, fem::Tangent::Consistent);
+  const fem::BlockMatrix& K = stiffness.A;
+  fem::PressureOperator by_pressure;
+  by_pressure.set(stiffness.pressure.terms);
   const auto n = static_cast<Eigen::Index>(columns.size());
   Eigen::MatrixXd projected(n, n);
   Eigen::VectorXd product, drive(n);
@@ -118,6 +141,7 @@ std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& 
   for (Eigen::Index j = 0; j < n; ++j) {
     const Eigen::VectorXd& column = columns[static_cast<std::size_t>(j)];
     K.multiply(column, product);
+    by_pressure.add_product(column, product);
     for (Eigen::Index i = 0; i < n; ++i)
       projected(i, j) = columns[static_cast<std::size_t>(i)].dot(product);
     drive[j] = column.dot(dynamics.now().forces.head(column.size()));

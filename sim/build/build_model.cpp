@@ -223,11 +223,10 @@ class Builder {
     }
   }
 
-  /// Tissue nodes attached to a rigid body add their mass to it; its centre of mass moves.
+  /// Tissue nodes attached to a body add their mass to it; a rigid one's centre of mass moves.
   void carry_tissue_mass() {
     for (std::size_t r = 0; r < model_.rigid_bodies.size(); ++r) {
       RigidBody& rigid = model_.rigid_bodies[r];
-      if (!rigid.unknown) continue;
       const Vec3 old_center = rigid.rest.p;
       for (const Tissue& tissue : model_.tissues)
         for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
@@ -235,6 +234,7 @@ class Builder {
             rigid.mass =
                 join(rigid.mass, {tissue.lumped_mass[static_cast<Eigen::Index>(i)],
                                   tissue.X.col(static_cast<Eigen::Index>(i)), Mat3::Zero()});
+      if (!rigid.unknown) continue;
       rigid.rest.p = reference_point(rigid);
       rigid.start.linear += rigid.start.angular.cross(rigid.rest.p - old_center);
       for (Tissue& tissue : model_.tissues)

@@ -10,15 +10,6 @@ Vec3 center_of_mass(const RigidBody& rigid, const Pose& pose) {
   return pose.R * (rigid.mass.center - rigid.rest.p);
 }
 
-/// ω × (ω × c) m and ω × I ω.
-Vec6 gyroscopic_force(const RigidBody& rigid, const Pose& pose, const Vec3& omega) {
-  const Mat6 mass = rigid_mass(rigid, pose);
-  Vec6 force;
-  force << rigid.mass.mass * omega.cross(omega.cross(center_of_mass(rigid, pose))),
-      omega.cross(mass.bottomRightCorner<3, 3>() * omega);
-  return force;
-}
-
 /// Of the rates of a rigid body's velocities, what its drive gives them: s̈, ω_f × R_f ω_D + R_f
 /// ω̇_D.
 Vec6 driven_part(const RigidBody& rigid, const Pose& pose, const RigidVelocity& velocity,
@@ -70,6 +61,14 @@ Mat6 rigid_mass(const RigidBody& rigid, const Pose& pose) {
   mass << rigid.mass.mass * Mat3::Identity(), -rigid.mass.mass * c, rigid.mass.mass * c,
       pose.R * rigid.mass.inertia * pose.R.transpose() - rigid.mass.mass * c * c;
   return mass;
+}
+
+Vec6 gyroscopic_force(const RigidBody& rigid, const Pose& pose, const Vec3& omega) {
+  const Mat6 mass = rigid_mass(rigid, pose);
+  Vec6 force;
+  force << rigid.mass.mass * omega.cross(omega.cross(center_of_mass(rigid, pose))),
+      omega.cross(mass.bottomRightCorner<3, 3>() * omega);
+  return force;
 }
 
 Vec6 rigid_acceleration(const RigidBody& rigid, const Pose& pose, const RigidVelocity& velocity,

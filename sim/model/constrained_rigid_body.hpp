@@ -37,6 +37,9 @@ void keep_free_part(const Model& model, Eigen::VectorXd& blocks);
 /// Mass matrix of a rigid body about the point of its pose [kg, kg m, kg m²].
 Mat6 rigid_mass(const RigidBody& rigid, const Pose& pose);
 
+/// m ω × (ω × c) and ω × I_p ω [N, N m].
+Vec6 gyroscopic_force(const RigidBody& rigid, const Pose& pose, const Vec3& omega);
+
 /// Rates v̇_f, ω̇_f of a rigid body's free freedoms [m/s², rad/s²] under block forces about its
 /// point.
 Vec6 rigid_acceleration(const RigidBody& rigid, const Pose& pose, const RigidVelocity& velocity,

@@ -43,7 +43,8 @@ struct RigidBody {
   // p: centre of mass (rigid), the held point, or the middle of the mesh's box (fixed); R = I.
   Pose rest;
   RigidVelocity start;  // at t = 0
-  MassProperties mass;  // with the tissue that it carries; centre at the start, world
+  /// With the tissue that it carries, of a fixed one that tissue alone; centre at the start, world.
+  MassProperties mass;
   std::optional<Hold> hold;
   std::optional<Motion>
       motion;  // driven: wholly, or of a held one what is held, see constrained_rigid_body.hpp
@@ -79,7 +80,7 @@ struct Tissue {
   std::optional<fem::Relaxation> relaxation;
   int first_internal_variable = 0;  // of the relaxation, among Layout::internal variables()
   Eigen::VectorXd lumped_mass;      // [kg], one a node
-  double mass_damping = 0;          // α [1/s]: a force −α m v on each node
+  double mass_damping = 0;          // α [1/s]: a force −α m v on each node that is not tied
   std::vector<NodeRef> nodes;       // what moves each node
   Positions X;                      // at the start, world [m]
   FibreDirections fibres;           // one an element, or none

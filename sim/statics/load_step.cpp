@@ -34,8 +34,13 @@ class LoadStep {
         reach_(std::isfinite(model.trusted_motion) ? model.trusted_motion : kLooseMotion) {}
 
   LoadStepResult take(Eigen::VectorXd& y) {
-    begin(y);
     LoadStepResult result;
+    if (model_.layout.num_unknown_blocks() == 0) {  // all is held
+      look(y, 0);
+      result.reached = true;
+      return result;
+    }
+    begin(y);
     result.loose = find_rigid_body_mode(model_, dynamics_);
     result.reached = !result.loose && balance(y);
     if (!result.reached)

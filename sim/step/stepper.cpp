@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/model/carried_tissue.hpp"
 #include "sim/scenario/curve.hpp"
 #include "sim/statics/contact_hooks.hpp"
 #include "sim/step/failure_diagnosis.hpp"
@@ -77,7 +78,7 @@ void Stepper::restart(const State& state) {
   Configuration now;
   read_state(model_, state.y.data(), state.t, now);
   find_contacts(now, state.next_margin);
-  dynamics_->evaluate(state.y.data(), state.t);
+  dynamics_->evaluate(state.y.data(), state.t, {.step_start = state.t});
 }
 
 void Stepper::find_contacts(const Configuration& where, double margin) {
@@ -286,6 +287,9 @@ void Stepper::account(State& after) {
         0.5 * (forces_before_.segment<3>(3 * rigid.block + 3) + f.segment<3>(3 * rigid.block + 3));
     ledger.motion_work -=
         force.dot(now.poses[b].p - start_.poses[b].p) + moment.dot(turn.angle() * turn.axis());
+    if (drives_tissue(model_, rigid))
+      ledger.motion_work += carried_kinetic_energy(rigid, now.poses[b], now.velocities[b]) -
+                            carried_kinetic_energy(rigid, start_.poses[b], start_.velocities[b]);
   }
   note_extrema(dynamics_->now(), after);
 }
@@ -330,7 +334,7 @@ void Stepper::fail(const State& state, double h) {
              : failure_diagnosis(model_, start_, dynamics_->now().configuration);
   // Back to the last state, for what the summary says of it.
   find_contacts(start_, state.next_margin);
-  dynamics_->evaluate(state.y.data(), state.t);
+  dynamics_->evaluate(state.y.data(), state.t, {.step_start = state.t});
   throw SimulationError(fmt::format(
       "the simulation cannot go on at t = {:.6g} s: {} of {:.3g} s{}; results are valid until then",
       state.t, words_for(why_), h, cause));

@@ -272,6 +272,31 @@ TEST(ContactDrag, ForcesAreEqualAndOppositeWithoutNetMoment) {
   EXPECT_LT(moment.norm(), 1e-14 * sum * kWidth);
 }
 
+/// Power of all contact forces of a scene [W].
+double contact_power(const Model& model, const Forces& now) {
+  const std::vector<Positions> forces = nodal_contact_forces(model, now.dynamics.now().contact);
+  const Configuration& configuration = now.dynamics.now().configuration;
+  double power = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    for (std::size_t i = 0; i < model.bodies[b].collider->nodes.size(); ++i)
+      power += forces[b]
+                   .col(static_cast<Eigen::Index>(i))
+                   .dot(configuration.velocity(model.bodies[b].collider->nodes[i]));
+  return power;
+}
+
+// What the forces take besides those of the depths, which have an energy.
+TEST(ContactDrag, TakesThePowerOfItsForces) {
+  const Model smooth = stack(0, 0), rough = stack(0.5, 0), damped = stack(0.5, 1e3);
+  const double elastic = contact_power(smooth, Forces(smooth));
+  for (const Model* model : {&rough, &damped}) {
+    const Forces now(*model);
+    const double taken = elastic - contact_power(*model, now);
+    EXPECT_GT(taken, 0);
+    EXPECT_NEAR(now.dynamics.now().contact.damping_power(), taken, 1e-9 * taken);
+  }
+}
+
 /// y = A w
 Eigen::VectorXd times(const fem::BlockMatrix& A, const Eigen::VectorXd& w) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(w.size());

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <vector>
 
 #include "sim/build/build_model.hpp"
@@ -137,6 +138,30 @@ TEST(ContactSearch, ABodyInTwoPiecesTellsOfItselfWhatTwoBodiesTell) {
   }
 }
 
+/// By node, of all bodies [Pa].
+std::vector<double> nodal_pressures_of(const Simulation& run) {
+  std::vector<double> all;
+  for (const SurfaceContact& surface :
+       surface_contacts(run.model, run.stepper.now().contact, run.now()))
+    all.insert(all.end(), surface.node_pressure.begin(), surface.node_pressure.end());
+  return all;
+}
+
+// Of two bodies one looks for the other, of a body with itself each piece does: means over the
+// patches around a node differ by a part that falls with the elements.
+TEST(ContactSearch, ABodyInTwoPiecesHasThePressuresOfTwoBodiesAtItsNodes) {
+  for (const auto response : {Scenario::Response::Pointwise, Scenario::Response::Averaged}) {
+    const TemporaryFolder of_two, of_one;
+    const Simulation apart(pressed(false, response, of_two)),
+        together(pressed(true, response, of_one));
+    const std::vector<double> two = nodal_pressures_of(apart), one = nodal_pressures_of(together);
+    ASSERT_EQ(one.size(), two.size());
+    const double largest = *std::max_element(two.begin(), two.end());
+    EXPECT_GT(largest, 0);
+    for (std::size_t i = 0; i < one.size(); ++i) EXPECT_NEAR(one[i], two[i], 0.03 * largest) << i;
+  }
+}
+
 /// A block over a wider table, which it is this deep in.
 Scenario on_a_table(double depth) {
   Scenario s = contact_scene(1e-3);
@@ -171,6 +196,44 @@ TEST(ContactSearch, OfAPairThatIsFoundTwiceTheOneThatReachesDeeperIsKept) {
   const std::vector<ContactCandidate> found = candidates_at(depth, margin);
   EXPECT_GT(found.size(), 32U);
   for (const ContactCandidate& candidate : found) EXPECT_GT(candidate.reach, depth);
+}
+
+// The lower edge of a block that is turned by 45 degrees dips into the top of a plate. Its faces
+// also look towards a side of the plate, within reach, which they came not through.
+TEST(ContactSearch, ASideThatIsOutsideTheOtherBodyIsNoCandidate) {
+  constexpr double kSide = 0.02, kDip = 4e-4, kMargin = 1e-6;
+  const Vec3 center(-1.2e-3, 0, kSide / std::numbers::sqrt2 - kDip);
+  Scenario s = contact_scene(1e-3);
+  s.contact_response = Scenario::Response::Pointwise;
+  s.bodies = {box_body("block", Body::Kind::Tissue, Vec3::Constant(kSide), center, {1, 1, 1}),
+              box_body("plate", Body::Kind::Fixed, {0.004, 0.03, 0.02}, {0, 0, -0.01}, {2, 8, 5})};
+  s.bodies[0].placement.rotation.y() = std::numbers::pi / 4;
+  s.bodies[0].placement.about = center;
+  const Model model = build_model(s);
+  ASSERT_FALSE(model.contacts[0].reversed);
+  ContactSearch search(model, {});
+  Configuration now;
+  read_state(model, initial_state(model).data(), 0, now);
+  search.find(now, kMargin);
+  ASSERT_EQ(search.candidates().size(), 1U);
+  const Collider& plate = *model.bodies[1].collider;
+  for (const ContactCandidate& candidate : search.candidates()[0].pairs)
+    for (const int node : plate.surface.faces.col(candidate.face))
+      EXPECT_NEAR(plate.X(2, node), 0, 1e-12);
+}
+
+// It is nowhere near the block at first.
+TEST(ContactSearch, ADrivenBodyIsFoundWhereItWasDrivenTo) {
+  Scenario s = on_a_table(-0.01);
+  s.loads = {shift("table", 1, {0, 0, 0.011})};
+  const Model model = build_model(s);
+  ContactSearch search(model, {});
+  Configuration now;
+  for (const double t : {0.0, 1.0}) {
+    read_state(model, initial_state(model).data(), t, now);
+    search.find(now, 1e-4);
+    EXPECT_EQ(search.candidates().empty(), t == 0) << t;
+  }
 }
 
 // Pressure begins the open depth in front of a face: pairs are found that far beyond the margin.

@@ -580,6 +580,12 @@ TEST(ContactPatch, InFrontOfTheFaceOrBesideItOrDeeperThanTheReachIsNoContact) {
                              {0.05, 10}, patch));
   EXPECT_FALSE(contact_patch(flat_triangle(small_triangle(0.1)), flat_triangle(large_face()), 1,
                              {10, 0.05}, patch));
+  // An allowance is taken from depths, and not added to the reach.
+  Mat3 tilted = small_triangle(0.1);
+  tilted(2, 0) = -0.3;
+  const FlatTriangle half_deep = flat_triangle(tilted);
+  EXPECT_TRUE(contact_patch(half_deep, flat_triangle(large_face()), 1, {0, 0.35, 0.15}, patch));
+  EXPECT_FALSE(contact_patch(half_deep, flat_triangle(large_face()), 1, {0, 0.25, 0.15}, patch));
   Mat3 beside = small_triangle(0.1);
   beside.row(0).array() += 100;
   EXPECT_FALSE(contact_patch(flat_triangle(beside), flat_triangle(large_face()), 1, kRange, patch));
