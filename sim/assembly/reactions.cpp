@@ -13,9 +13,9 @@ Vec6 reaction_of(const Moment& now, int rigid, bool step_begins) {
   const RigidBody& held = now.model.rigid_bodies[b];
   const Instant at{now.configuration.t, step_begins};
   if (!held.unknown) {
-    const Vec6 force = now.forces.segment<6>(3 * held.block);
-    if (!drives_tissue(now.model, held)) return force;
-    return force + inertia_of_carried(held, now.step_start, at);
+    Vec6 force = now.forces.segment<6>(3 * held.block);
+    if (drives_tissue(now.model, held)) force += inertia_of_carried(held, now.step_start, at);
+    return force;
   }
   const Vec6& all = now.rigid_forces[b];
   if (now.model.is_static) return all - free_part(held, all);

@@ -75,16 +75,6 @@ struct RunExtrema {
   double gravity_high = -std::numeric_limits<double>::infinity();
 };
 
-/// What the time integration took from motion, for warnings: see note_balance().
-struct DampedMotion {
-  double at_start = 0;       // kinetic energy at t = 0 [J]
-  double from_followed = 0;  // loss in steps that follow the motion [J]
-  double moving_time = 0;    // [s]
-  double t = 0;              // of the last step [s], and
-  double kinetic = 0;        // at its end [J]
-  double loss = 0;           // until then, of any kind [J]
-};
-
 /// All that changes: a copy of it at a checkpoint is a restart point.
 struct State {
   double t = 0;                // [s]
@@ -97,7 +87,6 @@ struct State {
   Counts counts;
   OverlapResolution overlap_resolution;
   RunExtrema extrema;
-  DampedMotion damped;
 };
 
 }  // namespace articular::sim

@@ -13,7 +13,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 9\n";
+constexpr char kMagic[] = "articular checkpoint 8\n";
 
 constexpr const char *kNewest = "state.bin", *kBefore = "previous.bin";
 
@@ -124,7 +124,6 @@ void each_of_checkpoint(AnyCheckpoint& checkpoint, const Visit& visit) {
   visit(state.energy);
   visit(state.counts);
   each_of_extrema(state.extrema, visit);
-  visit(state.damped);
   visit(state.overlap_resolution.solutions);
   visit(state.overlap_resolution.largest_motion);
   for (auto* extent : {&checkpoint.history, &checkpoint.series, &checkpoint.convergence}) {

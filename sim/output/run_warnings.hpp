@@ -8,8 +8,8 @@
 namespace articular::sim {
 
 /// What whoever reads the results must know: elements turned inside out, contact deeper than it can
-/// be followed, motion that the time integration took, energy that it made, bodies that nothing
-/// holds. A sentence each.
+/// be followed, energy that the time integration took or made, bodies that nothing holds. A
+/// sentence each.
 std::vector<std::string> run_warnings(const Model& model, const State& state,
                                       const Stepper& stepper);
 

@@ -193,7 +193,7 @@ class Run {
 
   void observe() {
     history_.record(state_, stepper_);
-    if (!is_static()) note_energy();
+    if (!is_static()) note_balance(numerical_loss(state_, stepper_.stored_energy()), state_);
     const bool end = state_.t >= scenario_.duration;
     if (frames_.due(state_.t) || end) output_frame();
     if (history_.num_pending_bytes() > kMostPendingBytes) write_tables();
@@ -202,13 +202,6 @@ class Run {
       write_checkpoint();
       stepper_.restart(state_);
     }
-  }
-
-  void note_energy() {
-    const StoredEnergy stored = stepper_.stored_energy();
-    const double loss = numerical_loss(state_, stored);
-    note_balance(loss, state_);
-    note_damping(loss, stored.kinetic, state_);
   }
 
   void output_frame() {

@@ -29,26 +29,6 @@ void note_balance(double numerical_loss, State& state) {
   state.extrema.made = std::max(state.extrema.made, -numerical_loss);
 }
 
-void note_damping(double numerical_loss, double kinetic, State& state) {
-  constexpr double kFollowed = 0.3;  // of the kinetic energy: (ω h)² of implicit Euler
-  constexpr double kMoving = 0.01;   // of the energy that was turned over
-  DampedMotion& damped = state.damped;
-  const double taken = numerical_loss - damped.loss;
-  if (std::abs(taken) <= kFollowed * std::max(damped.kinetic, kinetic))
-    damped.from_followed += taken;
-  if (kinetic > kMoving * turned_over(state)) damped.moving_time += state.t - damped.t;
-  damped.t = state.t;
-  damped.kinetic = kinetic;
-  damped.loss = numerical_loss;
-}
-
-double taken_from_results(const State& state) {
-  constexpr double kShare = 0.5;
-  const DampedMotion& damped = state.damped;
-  if (damped.at_start > kShare * turned_over(state)) return damped.loss;
-  return damped.moving_time > kShare * state.t ? damped.from_followed : 0;
-}
-
 void note_extrema(const Moment& now, State& state) {
   const Model& model = now.model;
   RunExtrema& extrema = state.extrema;
@@ -73,9 +53,7 @@ void note_extrema(const Moment& now, State& state) {
     extrema.contact = contact.contact;
     extrema.overlap_at = state.t;
   }
-  const double kinetic = kinetic_energy(now);
-  if (state.t == 0) state.damped.at_start = state.damped.kinetic = kinetic;
-  extrema.kinetic = std::max(extrema.kinetic, kinetic);
+  extrema.kinetic = std::max(extrema.kinetic, kinetic_energy(now));
   extrema.work = std::max(extrema.work, work_done(state.energy));
   const double gravity = gravity_energy(now);
   extrema.gravity_low = std::min(extrema.gravity_low, gravity);

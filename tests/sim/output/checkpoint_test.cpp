@@ -21,10 +21,6 @@ std::vector<double> numbers(const RunExtrema& e) {
           e.gravity_low,     e.gravity_high};
 }
 
-std::vector<double> numbers(const DampedMotion& d) {
-  return {d.at_start, d.from_followed, d.moving_time, d.t, d.kinetic, d.loss};
-}
-
 std::vector<std::int64_t> numbers(const Counts& c) {
   return {c.steps,
           c.rejected_newton,
@@ -66,7 +62,6 @@ State some_state() {
   s.counts.deep_pairs = 13;
   s.overlap_resolution = {{{1, 0.2, 0.3}, {2, 0.4, 0.5}}, 3, 0.6};
   s.extrema = {0.1, 2, 3, 0.4, 0.5, 6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2};
-  s.damped = {1.3, 1.4, 1.5, 1.6, 1.7, 1.8};
   return s;
 }
 
@@ -88,7 +83,6 @@ TEST(Checkpoint, KeepsEveryNumberOfAState) {
   EXPECT_EQ(numbers(read.energy), numbers(given.energy));
   EXPECT_EQ(numbers(read.counts), numbers(given.counts));
   EXPECT_EQ(numbers(read.extrema), numbers(given.extrema));
-  EXPECT_EQ(numbers(read.damped), numbers(given.damped));
   const OverlapResolution &found = read.overlap_resolution, &told = given.overlap_resolution;
   EXPECT_EQ(found.solutions, told.solutions);
   EXPECT_EQ(found.largest_motion, told.largest_motion);
