@@ -101,6 +101,11 @@ void insert(vtkCellArray& array, const Cells& cells) {
   }
 }
 
+std::recursive_mutex& error_output() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 }  // namespace
 
 /// Keeps the first error that VTK would print; warnings are dropped.
@@ -121,7 +126,8 @@ class QuietVtk::Window : public vtkOutputWindow {
 };
 
 QuietVtk::QuietVtk()
-    : previous_(vtkOutputWindow::GetInstance()),
+    : only_one_(error_output()),
+      previous_(vtkOutputWindow::GetInstance()),
       window_(vtkSmartPointer<Window>::New()),
       previous_verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
   vtkOutputWindow::SetInstance(window_);

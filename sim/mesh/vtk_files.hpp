@@ -5,6 +5,7 @@
 #include <vtkSmartPointer.h>
 
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -15,7 +16,8 @@
 /// all.
 namespace articular::sim {
 
-/// While it lives, VTK prints nothing: its first error is kept instead. One thread at a time.
+/// While it lives, VTK prints nothing: its first error is kept instead. VTK's error output is one
+/// for the whole process, so a second thread that makes one waits.
 class QuietVtk {
  public:
   QuietVtk();
@@ -27,6 +29,7 @@ class QuietVtk {
 
  private:
   class Window;
+  std::unique_lock<std::recursive_mutex> only_one_;
   vtkSmartPointer<vtkOutputWindow> previous_;
   vtkSmartPointer<Window> window_;
   int previous_verbosity_;

@@ -2,14 +2,9 @@
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLPolyDataReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 #include <cmath>
 #include <exception>
@@ -20,6 +15,7 @@
 #include <vector>
 
 #include "sim/mesh/frame_series.hpp"
+#include "sim/mesh/vtk_files.hpp"
 
 namespace articular::benchmarks {
 namespace {
@@ -40,14 +36,10 @@ std::string invalid_fields(vtkDataSetAttributes* fields, const std::string& file
   return {};
 }
 
-template <class Reader>
 std::string invalid_frame(const fs::path& path) {
   const std::string file = path.filename().string();
-  vtkNew<Reader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  vtkPointSet* set = reader->GetOutput();
-  if (reader->GetErrorCode() != 0 || set->GetNumberOfPoints() == 0) return file + ": can't be read";
+  const vtkSmartPointer<vtkPointSet> set = sim::read_vtk_file(path);
+  if (set->GetNumberOfPoints() == 0) return file + ": empty";
   if (!is_finite(set->GetPoints()->GetData())) return file + ": positions are not finite";
   const std::string points = invalid_fields(set->GetPointData(), file);
   return points.empty() ? invalid_fields(set->GetCellData(), file) : points;
@@ -94,12 +86,8 @@ std::string invalid_series(const fs::path& results) {
     for (const sim::SeriesEntry& part : sim::read_series(entry.path()))
       files.insert(results / part.file);
   }
-  for (const fs::path& file : files) {
-    const std::string broken = file.extension() == ".vtu"
-                                   ? invalid_frame<vtkXMLUnstructuredGridReader>(file)
-                                   : invalid_frame<vtkXMLPolyDataReader>(file);
-    if (!broken.empty()) return broken;
-  }
+  for (const fs::path& file : files)
+    if (const std::string broken = invalid_frame(file); !broken.empty()) return broken;
   return {};
 }
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 #include <vector>
 
 #include "sim/build/build_model.hpp"
@@ -198,28 +197,27 @@ TEST(ContactSearch, OfAPairThatIsFoundTwiceTheOneThatReachesDeeperIsKept) {
   for (const ContactCandidate& candidate : found) EXPECT_GT(candidate.reach, depth);
 }
 
-// The lower edge of a block that is turned by 45 degrees dips into the top of a plate. Its faces
-// also look towards a side of the plate, within reach, which they came not through.
+// A side of the block sinks in with it, and looks through the block towards the side of the table
+// that is nearest behind it. That one is outside the block.
 TEST(ContactSearch, ASideThatIsOutsideTheOtherBodyIsNoCandidate) {
-  constexpr double kSide = 0.02, kDip = 4e-4, kMargin = 1e-6;
-  const Vec3 center(-1.2e-3, 0, kSide / std::numbers::sqrt2 - kDip);
+  constexpr double kWidth = 0.006, kDip = 2e-4, kInFromSide = 1e-3;
   Scenario s = contact_scene(1e-3);
   s.contact_response = Scenario::Response::Pointwise;
-  s.bodies = {box_body("block", Body::Kind::Tissue, Vec3::Constant(kSide), center, {1, 1, 1}),
-              box_body("plate", Body::Kind::Fixed, {0.004, 0.03, 0.02}, {0, 0, -0.01}, {2, 8, 5})};
-  s.bodies[0].placement.rotation.y() = std::numbers::pi / 4;
-  s.bodies[0].placement.about = center;
+  s.bodies = {box_body("block", Body::Kind::Tissue, {kWidth, 0.02, 0.02},
+                       {kInFromSide + kWidth / 2, 0, 0.01 - kDip}, {1, 1, 1}),
+              box_body("table", Body::Kind::Fixed, {0.03, 0.03, 0.03}, {0.015, 0, -0.015})};
   const Model model = build_model(s);
   ASSERT_FALSE(model.contacts[0].reversed);
+  const Collider& table = *model.bodies[1].collider;
+  ASSERT_GT(depth_range(*model.bodies[0].collider, table, false).reach, kInFromSide + kWidth);
   ContactSearch search(model, {});
   Configuration now;
   read_state(model, initial_state(model).data(), 0, now);
-  search.find(now, kMargin);
+  search.find(now, 1e-6);
   ASSERT_EQ(search.candidates().size(), 1U);
-  const Collider& plate = *model.bodies[1].collider;
   for (const ContactCandidate& candidate : search.candidates()[0].pairs)
-    for (const int node : plate.surface.faces.col(candidate.face))
-      EXPECT_NEAR(plate.X(2, node), 0, 1e-12);
+    for (const int node : table.surface.faces.col(candidate.face))
+      EXPECT_NEAR(table.X(2, node), 0, 1e-12);
 }
 
 // It is nowhere near the block at first.

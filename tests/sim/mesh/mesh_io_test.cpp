@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <random>
+#include <thread>
 #include <vector>
 
 #include "sim/base/error.hpp"
@@ -362,6 +364,30 @@ TEST(MeshIo, CutOffFilesAreInputErrors) {
     const auto file = folder.file("cut.vtu", whole.substr(0, size));
     EXPECT_NE(error_of(file), "no error") << size << " of " << whole.size();
   }
+}
+
+/// VTK's error output is one for the process: without a lock, one thread loses its error to
+/// another.
+TEST(MeshIo, ThreadsThatReadDamagedFilesAtOnceEachGetTheirError) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "m.vtu", two_tetrahedra(), 1);
+  const std::string whole = content(folder / "m.vtu");
+  const auto cut = folder.file("cut.vtu", whole.substr(0, whole.size() / 2));
+  constexpr int kFiles = 200;
+  std::atomic<int> errors = 0, meshes = 0;
+  const auto read_all = [&] {
+    for (int i = 0; i < kFiles; ++i) {
+      try {
+        read_mesh(i % 2 == 0 ? cut : folder / "m.vtu", 1);
+        ++meshes;
+      } catch (const InputError&) {
+        ++errors;
+      }
+    }
+  };
+  { const std::jthread one(read_all), two(read_all); }
+  EXPECT_EQ(errors, kFiles);
+  EXPECT_EQ(meshes, kFiles);
 }
 
 TEST(MeshIo, AFailedWriteNamesTheFileAndLeavesNothing) {
