@@ -7,8 +7,8 @@
 
 namespace articular::sim {
 
-/// The keys of a scenario that `accuracy = "..."` stands for, each of which may be given beside it.
-/// A static analysis takes nothing of it but the step and the tolerance.
+/// The keys of a dynamic scenario that `accuracy = "..."` stands for, each of which may be given
+/// beside it.
 struct Preset {
   Integrator integrator;
   Scenario::Response contact_response = Scenario::Response::Averaged;

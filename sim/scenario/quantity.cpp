@@ -142,7 +142,7 @@ int take_exponent(std::string_view& rest) {
   if (!negative) skip(after, "+");
   const std::size_t n = count_digits(after);
   if (n == 0) return 0;
-  if (n > 4) throw Reason("out of range");
+  if (n > 4) throw Reason("out of range: an exponent has at most four digits");
   int exponent = 0;
   std::from_chars(after.data(), after.data() + n, exponent);
   rest = after.substr(n);
@@ -183,7 +183,8 @@ double value(const Decimal& number, const Unit& unit) {
   result *= unit.factor;
   // Squares of what is measured must be numbers too.
   constexpr double kMost = 1e100;
-  if (error != std::errc() || !(std::abs(result) <= kMost)) throw Reason("out of range");
+  if (error != std::errc() || !(std::abs(result) <= kMost))
+    throw Reason(fmt::format("out of range: at most {:g} in SI units", kMost));
   return result;
 }
 
@@ -232,7 +233,8 @@ class UnitParser {
     unit.factor *= std::pow(other.factor, power);
     const Dimension& d = unit.dimension;
     for (const int exponent : {d.mass, d.length, d.time, d.angle, unit.decimal})
-      if (std::abs(exponent) > kLargestExponent) throw Reason("out of range");
+      if (std::abs(exponent) > kLargestExponent)
+        throw Reason(fmt::format("out of range: powers of a unit up to {}", kLargestExponent));
   }
 
   Unit product() {

@@ -37,6 +37,29 @@ void check_motions_of_masses(const Scenario& scenario) {
   }
 }
 
+/// TOML has no way back from a [table] to the keys above it: a setting at the end of the file is a
+/// key of the last one.
+void refuse_settings_below_tables(const Node& root) {
+  constexpr std::string_view kSettings[] = {
+      "title",  "duration", "analysis", "accuracy", "contact_response", "contact_stiffness_factor",
+      "contact"};
+  const auto check = [&](const Node& node, const std::string& name) {
+    if (node.table() == nullptr) return;
+    for (const Member& member : node.table()->members)
+      if (std::find(std::begin(kSettings), std::end(kSettings), member.key) != std::end(kSettings))
+        throw InputError(member.key_where,
+                         fmt::format("`{}` is no key of {} but of the scenario: expected it above "
+                                     "the first [table] of the file",
+                                     member.key, name));
+  };
+  for (const Member& member : root.table()->members) {
+    if (member.key == "choice") continue;  // its keys are the user's
+    check(member.node, "[" + member.key + "]");
+    if (const Node::List* list = member.node.list())
+      for (const Node& entry : *list) check(entry, "[[" + member.key + "]]");
+  }
+}
+
 }  // namespace
 
 Scenario read_scenario(const std::filesystem::path& file,
@@ -52,6 +75,7 @@ Scenario read_scenario(const std::filesystem::path& file,
       {"choice", "title", "duration", "analysis", "accuracy", "contact_response",
        "contact_stiffness_factor", "contact", "integrator", "detection", "output", "body", "attach",
        "muscle", "muscle_table", "ligament", "load", "probe"});
+  refuse_settings_below_tables(root);
   Scenario scenario;
   scenario.choices = choices;
   scenario.file = file;

@@ -345,7 +345,7 @@ struct Detection {
 };
 
 struct Output {
-  double interval = 10e-3;  // [s] between frames
+  double interval = 10e-3;  // [s] between frames; of a static analysis the load step unless given
   LengthUnit length_unit;
   std::optional<std::filesystem::path> directory;
   bool contact_surfaces = false;  // a file of its own for the surface that each body touches with

@@ -28,7 +28,8 @@ void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& 
     return read_choice<Integrator::Scheme>(n, {kSchemes[0], kSchemes[1], kSchemes[2], kSchemes[3]});
   });
   if (analysis == Scenario::Analysis::Static)
-    table.refuse({"scheme"}, "a static analysis has no time integration");
+    table.refuse({"scheme", "position_tolerance", "element_tolerance"},
+                 "a static analysis has no time integration: it goes on until the forces balance");
   table.may("solver", integrator.solver, [](const Node& n) {
     return read_choice<Integrator::Solver>(
         n, {{"auto", Integrator::Solver::Auto},
@@ -105,7 +106,6 @@ nlohmann::ordered_json preset_as_json(const Scenario& scenario) {
   const Preset keys = preset(scenario.accuracy);
   nlohmann::ordered_json json{{"integrator.step", fmt::format("{} s", keys.integrator.step)},
                               {"integrator.element_tolerance", keys.integrator.element_tolerance}};
-  if (scenario.analysis == Scenario::Analysis::Static) return json;
   json["integrator.scheme"] = kSchemes[static_cast<int>(keys.integrator.scheme)].first;
   json["contact_response"] = kResponses[static_cast<int>(keys.contact_response)];
   if (keys.contact_stiffness_factor)
@@ -115,23 +115,17 @@ nlohmann::ordered_json preset_as_json(const Scenario& scenario) {
 
 }  // namespace
 
-void read_settings(const TableReader& document, Scenario& scenario) {
-  scenario.title = scenario.name;
-  document.may("title", scenario.title, read_text);
-  scenario.duration = read_quantity(document.at("duration"), kTime, kPositive);
+namespace {
+
+/// What time alone has: the preset's keys, each of which the scenario may give as well.
+void read_dynamics(const TableReader& document, Scenario& scenario) {
   document.may("accuracy", scenario.accuracy, [](const Node& n) {
     return read_choice<Accuracy>(n, {{"fast", Accuracy::Fast},
                                      {"balanced", Accuracy::Balanced},
                                      {"accurate", Accuracy::Accurate}});
   });
-  document.may("analysis", scenario.analysis, [](const Node& n) {
-    return read_choice<Scenario::Analysis>(
-        n, {{"dynamic", Scenario::Analysis::Dynamic}, {"static", Scenario::Analysis::Static}});
-  });
-  if (scenario.analysis == Scenario::Analysis::Static)
-    document.refuse({"contact_response", "contact_stiffness_factor"},
-                    "a static analysis averages depths");
   const Preset chosen = preset(scenario.accuracy);
+  scenario.integrator = chosen.integrator;
   scenario.contact_response = chosen.contact_response;
   document.may("contact_response", scenario.contact_response, [](const Node& n) {
     return read_choice<Scenario::Response>(n, {{"pointwise", Scenario::Response::Pointwise},
@@ -141,9 +135,34 @@ void read_settings(const TableReader& document, Scenario& scenario) {
   document.may("contact_stiffness_factor", scenario.contact_stiffness_factor, as_number(kPositive));
   if (scenario.contact_response != Scenario::Response::Averaged)
     document.refuse({"contact_stiffness_factor"}, "it is of averaged depths");
-  scenario.integrator = chosen.integrator;
+}
+
+void read_statics(const TableReader& document, Scenario& scenario) {
+  constexpr int kLoadSteps = 10;
+  document.refuse({"accuracy"}, "it is about motion in time, and the analysis is static");
+  document.refuse({"contact_response", "contact_stiffness_factor"},
+                  "a static analysis averages depths");
+  scenario.integrator.step = scenario.duration / kLoadSteps;
+}
+
+}  // namespace
+
+void read_settings(const TableReader& document, Scenario& scenario) {
+  scenario.title = scenario.name;
+  document.may("title", scenario.title, read_text);
+  scenario.duration = read_quantity(document.at("duration"), kTime, kPositive);
+  document.may("analysis", scenario.analysis, [](const Node& n) {
+    return read_choice<Scenario::Analysis>(
+        n, {{"dynamic", Scenario::Analysis::Dynamic}, {"static", Scenario::Analysis::Static}});
+  });
+  const bool is_static = scenario.analysis == Scenario::Analysis::Static;
+  if (is_static)
+    read_statics(document, scenario);
+  else
+    read_dynamics(document, scenario);
   if (const Node* node = document.find("integrator"))
     read_integrator(*node, scenario.analysis, scenario.integrator);
+  if (is_static) scenario.output.interval = scenario.integrator.step;
   if (const Node* node = document.find("detection")) read_detection(*node, scenario.detection);
   if (const Node* node = document.find("output")) read_output(*node, scenario.output);
 }
@@ -156,24 +175,27 @@ std::string settings_as_json(const Scenario& scenario) {
   json["title"] = scenario.title;
   for (const auto& [name, word] : scenario.choices) json["choice"][name] = word;
   json["duration_s"] = scenario.duration;
-  json["accuracy"] = kAccuracies[static_cast<int>(scenario.accuracy)];
-  json["accuracy_stands_for"] = preset_as_json(scenario);
-  json["analysis"] = scenario.analysis == Scenario::Analysis::Static ? "static" : "dynamic";
+  const bool is_static = scenario.analysis == Scenario::Analysis::Static;
+  if (!is_static) {
+    json["accuracy"] = kAccuracies[static_cast<int>(scenario.accuracy)];
+    json["accuracy_stands_for"] = preset_as_json(scenario);
+  }
+  json["analysis"] = is_static ? "static" : "dynamic";
   json["contact"] = contact_as_json(scenario);
-  json["contact_response"] = scenario.analysis == Scenario::Analysis::Static
-                                 ? "averaged"
-                                 : kResponses[static_cast<int>(scenario.contact_response)];
+  json["contact_response"] =
+      is_static ? "averaged" : kResponses[static_cast<int>(scenario.contact_response)];
   if (scenario.contact_stiffness_factor)
     json["contact_stiffness_factor"] = *scenario.contact_stiffness_factor;
   json["contact_parameters_set"] = contact_parameters_set(scenario);
-  json["integrator"] = {{"scheme", kSchemes[static_cast<int>(integrator.scheme)].first},
-                        {"step_s", integrator.step},
-                        {"solver", kSolvers[static_cast<int>(integrator.solver)]},
-                        {"max_iterations", integrator.max_iterations}};
-  if (integrator.position_tolerance)
-    json["integrator"]["position_tolerance_m"] = *integrator.position_tolerance;
-  else
-    json["integrator"]["position_tolerance_of_element"] = integrator.element_tolerance;
+  nlohmann::ordered_json& iteration = json["integrator"];
+  if (!is_static) iteration["scheme"] = kSchemes[static_cast<int>(integrator.scheme)].first;
+  iteration["step_s"] = integrator.step;
+  iteration["solver"] = kSolvers[static_cast<int>(integrator.solver)];
+  iteration["max_iterations"] = integrator.max_iterations;
+  if (!is_static && integrator.position_tolerance)
+    iteration["position_tolerance_m"] = *integrator.position_tolerance;
+  else if (!is_static)
+    iteration["position_tolerance_of_element"] = integrator.element_tolerance;
   json["detection"] = {
       {"tree", scenario.detection.tree == Detection::Tree::Buckets ? "buckets" : "blocks"}};
   json["output"] = {{"interval_s", output.interval},

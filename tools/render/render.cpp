@@ -130,14 +130,14 @@ int render(const RenderOptions& options) {
   const std::string what = seen.field.empty() ? "" : ", " + seen.field + " " + scene.range_text();
   std::size_t next = 0;
   for (const FrameEntry& entry : movie ? series.frames : pictures) {
-    const auto image = scene.draw(read_frame(series, entry));
+    const auto image = scene.draw(read_frame(series, entry), moment_of(series, entry.time));
     if (movie) movie->add(*image);
     if (next == pictures.size() || pictures[next].index != entry.index) continue;
     ++next;
     const fs::path file = folder / sim::frame_file_name(series.name, entry.index, ".png");
     write_png(file, *image);
-    fmt::print("wrote {} (frame {}, {:.6g} ms{})\n", file.string(), entry.index, entry.time * 1e3,
-               what);
+    fmt::print("wrote {} (frame {}, {}{})\n", file.string(), entry.index,
+               moment_of(series, entry.time), what);
   }
   if (movie) {
     movie->finish();

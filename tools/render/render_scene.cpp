@@ -324,7 +324,7 @@ void RenderScene::add_activation_scale() {
   add_text(*renderer_, "1", kBar.x + kBar.width, kBar.y - 0.024, {pixels(19), false, Align::Right});
 }
 
-vtkSmartPointer<vtkImageData> RenderScene::draw(const Frame& frame) {
+vtkSmartPointer<vtkImageData> RenderScene::draw(const Frame& frame, const std::string& moment) {
   const sim::QuietVtk vtk;
   renderer_->RemoveAllViewProps();
   for (const Part& part : frame.parts) {
@@ -333,7 +333,7 @@ vtkSmartPointer<vtkImageData> RenderScene::draw(const Frame& frame) {
     if (part.kind == PartKind::Lines) add_lines(part);
   }
   add_text(*renderer_, name_, 0.035, 0.945, {pixels(36), true});
-  add_text(*renderer_, fmt::format("t = {:.1f} ms", frame.time * 1e3), 0.035, 0.895, {pixels(27)});
+  add_text(*renderer_, moment, 0.035, 0.895, {pixels(27)});
   if (colours_ != nullptr) add_field_scale();
   renderer_->ResetCameraClippingRange();  // nothing is cut away, also not beside the focus
   window_->Render();

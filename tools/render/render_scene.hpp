@@ -31,8 +31,8 @@ class RenderScene {
   RenderScene(const RenderScene&) = delete;
   RenderScene& operator=(const RenderScene&) = delete;
 
-  /// RGB. @throws SystemError when the display can't draw
-  vtkSmartPointer<vtkImageData> draw(const Frame& frame);
+  /// RGB. @param moment  of the frame, in words @throws SystemError when the display can't draw
+  vtkSmartPointer<vtkImageData> draw(const Frame& frame, const std::string& moment);
 
   /// "0 to 120 kPa": what the colours mean.
   std::string range_text() const;

@@ -8,8 +8,12 @@
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "sim/base/error.hpp"
 #include "sim/mesh/vtk_files.hpp"
@@ -144,11 +148,28 @@ void add_values(const Part& part, Survey& survey) {
       std::max(survey.high_percentile, high_percentile(values, rest_value(survey.field)));
 }
 
+/// As the run's summary says, if there is one.
+std::optional<double> whole_load(const fs::path& run) {
+  std::ifstream in(run / "summary.json");
+  const auto summary = nlohmann::json::parse(in, nullptr, false);
+  const auto settings = summary.is_object() ? summary.find("settings") : summary.end();
+  if (settings == summary.end() || !settings->is_object() ||
+      settings->value("analysis", nlohmann::json()) != "static")
+    return std::nullopt;
+  const auto duration = settings->value("duration_s", nlohmann::json());
+  return duration.is_number() ? std::optional(duration.get<double>()) : std::nullopt;
+}
+
 }  // namespace
+
+std::string moment_of(const Series& series, double time) {
+  return series.whole_load ? fmt::format("load {:.4g} %", 100 * time / *series.whole_load)
+                           : fmt::format("t = {:.1f} ms", 1e3 * time);
+}
 
 Series open_series(const fs::path& run, const std::vector<std::string>& only) {
   const fs::path file = series_file(run);
-  Series series{file.stem().string(), file.parent_path(), {}};
+  Series series{file.stem().string(), file.parent_path(), {}, whole_load(file.parent_path())};
   std::map<int, FrameEntry> frames;
   std::vector<sim::SeriesEntry> entries = sim::read_series(file);
   check_only(file, only, entries);

@@ -29,7 +29,12 @@ struct Series {
   std::string name;  // of the scenario
   std::filesystem::path directory;
   std::vector<FrameEntry> frames;  // in the order of time
+  /// [s]; of a static analysis: its time only says how much of the load acts.
+  std::optional<double> whole_load;
 };
+
+/// When a frame is: "t = 20.0 ms", or of a static analysis "load 20 %".
+std::string moment_of(const Series& series, double time);
 
 /// @param run  the folder of a run with one .pvd in it, or the .pvd itself
 /// @param only  parts to keep, contact surfaces among them; empty: all but contact surfaces

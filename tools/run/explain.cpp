@@ -148,10 +148,10 @@ Json costs_as_json(const SceneCosts& costs, int unknowns, double model_bytes) {
   return json;
 }
 
-/// What the scenario's `accuracy` promises; its own settings may have changed that.
-std::string promise(const sim::Scenario& scenario) {
-  if (scenario.analysis == sim::Scenario::Analysis::Static)
-    return "in a static analysis `accuracy` sets the load step and the tolerance alone";
+/// What the scenario's `accuracy` promises; its own settings may have changed that. Nothing in a
+/// static analysis, which has no such preset.
+Json promise(const sim::Scenario& scenario) {
+  if (scenario.analysis == sim::Scenario::Analysis::Static) return nullptr;
   return sim::preset(scenario.accuracy).promise +
          " (scenarios/mandible/RESULTS.md), as far as the scenario's own keys leave it";
 }
@@ -240,10 +240,12 @@ void print(const Json& json) {
       "Contact parameters set by the scenario (slip_velocity): "
       "{}\n",
       json["settings"]["contact_parameters_set"].get<int>());
-  fmt::print("Accuracy: {}\n", json["promise"].get<std::string>());
-  fmt::print("  It stands for these keys, each of which the scenario may set:\n");
-  for (const auto& [key, value] : json["settings"]["accuracy_stands_for"].items())
-    fmt::print("  {} = {}\n", key, value.dump());
+  if (const Json& promise = json["promise"]; !promise.is_null()) {
+    fmt::print("Accuracy: {}\n", promise.get<std::string>());
+    fmt::print("  It stands for these keys, each of which the scenario may set:\n");
+    for (const auto& [key, value] : json["settings"]["accuracy_stands_for"].items())
+      fmt::print("  {} = {}\n", key, value.dump());
+  }
   fmt::print("Settings: {}\n", json["settings"].dump());
   for (const Json& warning : json["warnings"])
     fmt::print("warning: {}\n", warning.get<std::string>());

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <string>
 
+#include "sim/scenario/scenario.hpp"
 #include "sim/statics/equilibrium.hpp"
 #include "tools/process/status_line.hpp"
 
@@ -12,19 +13,20 @@ namespace articular::tools {
 /// ten seconds in which no step was done.
 class Progress {
  public:
-  explicit Progress(bool quiet);
-  void update(const sim::State& state, double duration);
+  Progress(const sim::Scenario& scenario, bool quiet);
+  void update(const sim::State& state);
   /// Of a static load step to t, or of overlap resolution (t = 0).
   void update(double t, const sim::NewtonIteration& iteration);
   void finish();
 
  private:
   static constexpr int kBarWidth = 24;
-  void print(const sim::State& state, double duration);
+  void print(const sim::State& state);
   void put(const std::string& line);
 
   using Clock = std::chrono::steady_clock;
-  bool quiet_;
+  bool quiet_, is_static_;
+  double duration_;  // [s]
   StatusLine status_;
   Clock::time_point start_ = Clock::now(), shown_ = Clock::now();
   double first_time_ = -1;  // simulated time at the first update [s]

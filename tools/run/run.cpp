@@ -53,10 +53,10 @@ int run_scenario(const RunArguments& arguments) {
         scenario.output.directory.value_or(std::filesystem::path("out") / scenario.name);
   options.resume = arguments.resume;
   options.overwrite = arguments.overwrite;
-  Progress progress(arguments.quiet);
+  Progress progress(scenario, arguments.quiet);
   options.is_to_stop = [] { return interrupted.load(); };
-  options.after_step = [&](const sim::State& state, double duration) {
-    progress.update(state, duration);
+  options.after_step = [&](const sim::State& state, double) {
+    progress.update(state);
     return interrupted.load();
   };
   options.after_iteration = [&](double t, const sim::NewtonIteration& iteration) {

@@ -79,6 +79,24 @@ INSTANTIATE_TEST_SUITE_P(
             "analysis = \"static\"\nduration = \"1 s\"\n@contact_response = \"pointwise\"\n" +
                 kBodies,
             "scenario: `contact_response` does not belong here: a static analysis averages depths"},
+        Mistake{"AccuracyOfStatics",
+                "analysis = \"static\"\nduration = \"1 s\"\n@accuracy = \"fast\"\n" + kBodies,
+                "scenario: `accuracy` does not belong here: it is about motion in time, and the "
+                "analysis is static"},
+        Mistake{"ToleranceOfStatics",
+                "analysis = \"static\"\nduration = \"1 s\"\n[integrator]\n@position_tolerance = "
+                "\"1 um\"\n" +
+                    kBodies,
+                "[integrator]: `position_tolerance` does not belong here: a static analysis has no "
+                "time integration: it goes on until the forces balance"},
+        Mistake{"SettingBelowATable", kBodies + "[output]\n@duration = \"1 s\"\n",
+                "`duration` is no key of [output] but of the scenario: expected it above the first "
+                "[table] of the file"},
+        Mistake{"SettingBelowAnEntry",
+                kStart + "[[body]]\nname = \"extra\"\n@analysis = "
+                         "\"static\"\n",
+                "`analysis` is no key of [[body]] but of the scenario: expected it above the first "
+                "[table] of the file"},
         Mistake{"MissingKey", "@title = \"x\"\n" + kBodies, "scenario: `duration` is missing"},
         Mistake{"MissingKeyInAnEntry", kStart + "@[[body]]\nname = \"extra\"\n",
                 "body `extra`: `kind` is missing"},

@@ -511,6 +511,28 @@ TEST_F(Defaults, AreThoseOfTheStructs) {
   EXPECT_EQ(nlohmann::json::parse(scenario.settings_json)["contact"], "every pair");
 }
 
+// Time only says how much of the load acts: the steps are parts of the whole.
+TEST_F(Defaults, OfAStaticAnalysisAreTenLoadStepsWithAFrameEach) {
+  for (const double duration : {0.5, 100.0}) {
+    const std::string given = "duration = \"" + std::to_string(duration) + " s\"\n";
+    std::string text = "analysis = \"static\"\n" + kStart;
+    text.replace(text.find("duration"),
+                 text.find('\n', text.find("duration")) + 1 - text.find("duration"), given);
+    const Scenario scenario = read(text);
+    EXPECT_DOUBLE_EQ(scenario.integrator.step, duration / 10);
+    EXPECT_EQ(scenario.output.interval, scenario.integrator.step);
+    const auto settings = nlohmann::json::parse(scenario.settings_json);
+    EXPECT_FALSE(settings.contains("accuracy"));
+    EXPECT_FALSE(settings["integrator"].contains("scheme"));
+  }
+  const Scenario set =
+      read("analysis = \"static\"\n" + kStart + "[integrator]\nstep = \"0.2 s\"\n");
+  EXPECT_EQ(set.output.interval, 0.2);
+  const Scenario both = read("analysis = \"static\"\n" + kStart +
+                             "[integrator]\nstep = \"0.2 s\"\n[output]\ninterval = \"0.3 s\"\n");
+  EXPECT_EQ(both.output.interval, 0.3);
+}
+
 TEST_F(Defaults, NoContactIsSaidByFalse) {
   const Scenario scenario = read("contact = false\n" + kStart);
   EXPECT_FALSE(scenario.contact);

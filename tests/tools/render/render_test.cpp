@@ -131,7 +131,7 @@ class Drawing : public testing::Test {
 TEST_F(Drawing, TheLastFrameIsDrawnAtTheSizeAskedFor) {
   const std::string said = print_of(options_);
   const auto file = run_ / "render/tiny_000002.png";
-  EXPECT_EQ(said, "wrote " + file.string() + " (frame 2, 20 ms, von_mises 0 to 3 kPa)\n");
+  EXPECT_EQ(said, "wrote " + file.string() + " (frame 2, t = 20.0 ms, von_mises 0 to 3 kPa)\n");
   const auto image = read_png(file);
   EXPECT_EQ(image->GetDimensions()[0], 320);
   EXPECT_EQ(image->GetDimensions()[1], 200);
@@ -139,6 +139,23 @@ TEST_F(Drawing, TheLastFrameIsDrawnAtTheSizeAskedFor) {
   image->GetScalarRange(range);
   EXPECT_GT(range[1] - range[0], 100) << "the picture is all of one colour";
   EXPECT_GT(num_red_pixels(*image), 30) << "no muscle is seen";
+}
+
+/// The words for 20 ms of a run with this summary.
+std::string moment_with(const std::string& summary) {
+  const TemporaryFolder run;
+  write_run(run.path());
+  run.file("summary.json", summary);
+  return moment_of(open_series(run.path()), 0.02);
+}
+
+TEST(Moments, OfAStaticAnalysisArePartsOfTheLoad) {
+  EXPECT_EQ(moment_with(R"({"settings": {"analysis": "static", "duration_s": 0.08}})"),
+            "load 25 %");
+  for (const char* const other :
+       {R"({"settings": {"analysis": "dynamic", "duration_s": 0.08}})", "{", "[]", "{}",
+        R"({"settings": 1})", R"({"settings": {"analysis": "static", "duration_s": "1 s"}})"})
+    EXPECT_EQ(moment_with(other), "t = 20.0 ms") << other;
 }
 
 TEST_F(Drawing, TheSamePictureTwice) {
