@@ -22,8 +22,8 @@ inline std::string prefix(const Location& where) {
   return text + ": ";
 }
 
-/// Bad input by the user (scenario, mesh, arguments): exit code 2. what() is one line that is
-/// enough by itself: file:line:column, what is wrong, what was expected.
+/// Bad input by the user (scenario, mesh, arguments): exit code 2. what() is one line for each
+/// mistake, enough by itself: file:line:column, what is wrong, what was expected.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}

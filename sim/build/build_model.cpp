@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "sim/base/mistakes.hpp"
 #include "sim/build/body_collider.hpp"
 #include "sim/build/body_geometry.hpp"
 #include "sim/build/coincident_bodies.hpp"
@@ -12,6 +13,7 @@
 #include "sim/build/make_probes.hpp"
 #include "sim/build/make_tissue.hpp"
 #include "sim/build/region.hpp"
+#include "sim/build/unit_doubts.hpp"
 #include "sim/build/weighted_points.hpp"
 #include "sim/lines/muscle_law.hpp"
 #include "sim/mesh/flat_elements.hpp"
@@ -57,6 +59,8 @@ class Builder {
     model_.position_tolerance = position_tolerance(scenario_.integrator, model_);
     model_.detection_margin = detection_margin(model_);
     model_.trusted_motion = trusted_motion(model_);
+    for (std::string& doubt : unit_doubts(scenario_, model_))
+      model_.warnings.push_back(std::move(doubt));
     model_.linear_solver = choose_linear_solver(scenario_, model_);
     return std::move(model_);
   }
@@ -69,14 +73,16 @@ class Builder {
   int body_index(const std::string& name) const { return sim::body_index(scenario_, name); }
 
   void read_bodies() {
+    Mistakes mistakes;
     for (const Body& body : scenario_.bodies) {
-      geometry_.push_back(read_geometry(body));
+      mistakes.in([&] { geometry_.push_back(read_geometry(body)); });
       BodyModel entry;
       entry.name = body.name;
       entry.kind = body.kind;
       entry.touches_as_drawn = body.contact_meshes.empty();
       model_.bodies.push_back(std::move(entry));
     }
+    mistakes.tell();
   }
 
   void make_rigid_bodies() {
@@ -157,12 +163,14 @@ class Builder {
   /// The nodes in each region belong to a rigid body from now on.
   void attach_nodes() {
     std::vector<std::vector<const Attachment*>> taken(model_.tissues.size());  // by tissue and node
+    Mistakes mistakes;
     for (const Attachment& attachment : scenario_.attachments) {
       const auto b = static_cast<std::size_t>(body_index(attachment.body));
       const auto t = static_cast<std::size_t>(model_.bodies[b].tissue);
       taken[t].resize(model_.tissues[t].nodes.size());
-      attach(attachment, surface_[t], model_.tissues[t], taken[t]);
+      mistakes.in([&] { attach(attachment, surface_[t], model_.tissues[t], taken[t]); });
     }
+    mistakes.tell();
   }
 
   /// @param taken  by node: the entry that has attached it, if any
@@ -301,44 +309,53 @@ class Builder {
     model_.muscles.push_back({.given = muscle});
   }
 
+  void make_line_muscle(const Muscle& muscle) {
+    Line line = make_line(muscle.name, muscle.path, muscle.where);
+    line.muscle = static_cast<int>(model_.muscles.size());
+    MuscleModel m{muscle, muscle.optimal_length.value_or(line.start_length),
+                  static_cast<int>(model_.lines.size())};
+    const double rest =
+        active_force_length(line.start_length, m.optimal_length, muscle.tendon_ratio).value;
+    if (muscle.force_length && rest < kLeastForceAtRest)
+      model_.warnings.push_back(
+          prefix(muscle.where) +
+          fmt::format("muscle `{}` can give only {:.1f} % of its active force at rest (length "
+                      "{:.1f} mm, optimal {:.1f} mm); does the table belong to this geometry?",
+                      muscle.name, 100 * rest, 1e3 * line.start_length, 1e3 * m.optimal_length));
+    model_.muscles.push_back(std::move(m));
+    model_.lines.push_back(std::move(line));
+  }
+
+  void make_ligament(const Ligament& ligament) {
+    Line line = make_line(ligament.name, ligament.path, ligament.where);
+    line.ligament = static_cast<int>(model_.ligaments.size());
+    double slack = line.start_length;
+    if (ligament.slack_length)
+      slack = *ligament.slack_length;
+    else if (ligament.slack_extension)
+      slack += *ligament.slack_extension;
+    else if (ligament.reference_strain)
+      slack /= 1 + *ligament.reference_strain;
+    if (!(slack > 0))
+      throw InputError(ligament.where,
+                       fmt::format("ligament `{}` has slack length {:g} mm; expected more than 0",
+                                   ligament.name, 1e3 * slack));
+    model_.ligaments.push_back({ligament, slack, static_cast<int>(model_.lines.size())});
+    model_.lines.push_back(std::move(line));
+  }
+
   void make_lines() {
-    for (const Muscle& muscle : scenario_.muscles) {
-      if (!muscle.tissue.empty()) {
-        make_fibre_muscle(muscle);
-        continue;
-      }
-      Line line = make_line(muscle.name, muscle.path, muscle.where);
-      line.muscle = static_cast<int>(model_.muscles.size());
-      MuscleModel m{muscle, muscle.optimal_length.value_or(line.start_length),
-                    static_cast<int>(model_.lines.size())};
-      const double rest =
-          active_force_length(line.start_length, m.optimal_length, muscle.tendon_ratio).value;
-      if (muscle.force_length && rest < kLeastForceAtRest)
-        model_.warnings.push_back(
-            prefix(muscle.where) +
-            fmt::format("muscle `{}` can give only {:.1f} % of its active force at rest (length "
-                        "{:.1f} mm, optimal {:.1f} mm); does the table belong to this geometry?",
-                        muscle.name, 100 * rest, 1e3 * line.start_length, 1e3 * m.optimal_length));
-      model_.muscles.push_back(std::move(m));
-      model_.lines.push_back(std::move(line));
-    }
-    for (const Ligament& ligament : scenario_.ligaments) {
-      Line line = make_line(ligament.name, ligament.path, ligament.where);
-      line.ligament = static_cast<int>(model_.ligaments.size());
-      double slack = line.start_length;
-      if (ligament.slack_length)
-        slack = *ligament.slack_length;
-      else if (ligament.slack_extension)
-        slack += *ligament.slack_extension;
-      else if (ligament.reference_strain)
-        slack /= 1 + *ligament.reference_strain;
-      if (!(slack > 0))
-        throw InputError(ligament.where,
-                         fmt::format("ligament `{}` has slack length {:g} mm; expected more than 0",
-                                     ligament.name, 1e3 * slack));
-      model_.ligaments.push_back({ligament, slack, static_cast<int>(model_.lines.size())});
-      model_.lines.push_back(std::move(line));
-    }
+    Mistakes mistakes;
+    for (const Muscle& muscle : scenario_.muscles)
+      mistakes.in([&] {
+        if (muscle.tissue.empty())
+          make_line_muscle(muscle);
+        else
+          make_fibre_muscle(muscle);
+      });
+    for (const Ligament& ligament : scenario_.ligaments)
+      mistakes.in([&] { make_ligament(ligament); });
+    mistakes.tell();
   }
 
   void make_loads() {

@@ -81,8 +81,10 @@ Scenario read_scenario(const std::filesystem::path& file,
   scenario.file = file;
   scenario.name = file.stem().string();
   const std::filesystem::path folder = file.parent_path();
-  read_settings(document, scenario);
-  scenario.bodies = read_bodies(document, folder);
+  Mistakes in_itself;
+  in_itself.in([&] { read_settings(document, scenario); });
+  in_itself.in([&] { scenario.bodies = read_bodies(document, folder); });
+  in_itself.tell();
   if (scenario.output.contact_surfaces) check_names_of_contact_surfaces(scenario.bodies);
   if (scenario.analysis == Scenario::Analysis::Static)
     for (const Body& body : scenario.bodies)
@@ -91,12 +93,14 @@ Scenario read_scenario(const std::filesystem::path& file,
                                                  "analysis is static: there is no motion in it",
                                                  body.name));
   const Context context{folder, scenario.bodies};
-  scenario.attachments = read_attachments(document, context);
-  scenario.muscles = read_muscles(document, context);
-  scenario.ligaments = read_ligaments(document, context, scenario.muscles);
-  scenario.loads = read_loads(document, context);
+  Mistakes on_bodies;  // what names them
+  on_bodies.in([&] { scenario.attachments = read_attachments(document, context); });
+  on_bodies.in([&] { scenario.muscles = read_muscles(document, context); });
+  on_bodies.in([&] { scenario.ligaments = read_ligaments(document, context, scenario.muscles); });
+  on_bodies.in([&] { scenario.loads = read_loads(document, context); });
+  on_bodies.in([&] { read_contacts(document, context, scenario); });
+  on_bodies.tell();
   if (scenario.analysis == Scenario::Analysis::Dynamic) check_motions_of_masses(scenario);
-  read_contacts(document, context, scenario);
   scenario.probes = read_probes(document, context, scenario.muscles, scenario.ligaments);
   scenario.settings_json = settings_as_json(scenario);
   scenario.content = plain_text(root);

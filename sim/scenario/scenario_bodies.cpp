@@ -276,45 +276,55 @@ Body read_body(const Node& node, const std::filesystem::path& folder) {
   return body;
 }
 
+void append_attachments(const Node& node, const Context& context,
+                        std::vector<Attachment>& attachments) {
+  const TableReader table(node, "[[attach]]", {"body", "to", "region", "mirror"});
+  for (const Side side : read_sides(table)) {
+    Context here = context;
+    here.side = side;
+    const Body& body = read_body_reference(table.at("body"), here);
+    const Body& rigid = read_body_reference(table.at("to"), here);
+    if (body.kind != Body::Kind::Tissue)
+      fail(table.at("body"),
+           fmt::format("only tissue can be attached, and body `{}` is none", body.name));
+    if (rigid.kind == Body::Kind::Tissue)
+      fail(table.at("to"),
+           fmt::format("expected a fixed or rigid body to attach to, body `{}` is tissue",
+                       rigid.name));
+    attachments.push_back(
+        {body.name, rigid.name, read_region(table.at("region"), here), node.where});
+  }
+}
+
 }  // namespace
 
 std::string_view freedom_name(std::size_t freedom) { return kFreedoms.at(freedom); }
 
 std::vector<Body> read_bodies(const TableReader& document, const std::filesystem::path& folder) {
   std::vector<Body> bodies;
-  for (const Node& node : entries(document, "body")) {
-    Body body = read_body(node, folder);
-    const Node& name = *node.find("name");
-    check_new_name(name, "body", body.name, bodies);
-    // Frames are written as frames/BODY_000000.vtu, and lines_000000.vtp holds muscles and
-    // ligaments.
-    if (body.name == "lines") fail(name, "a body cannot be called `lines`; results use that name");
-    bodies.push_back(std::move(body));
-  }
+  Mistakes mistakes;
+  for (const Node& node : entries(document, "body"))
+    mistakes.in([&] {
+      Body body = read_body(node, folder);
+      const Node& name = *node.find("name");
+      check_new_name(name, "body", body.name, bodies);
+      // Frames are written as frames/BODY_000000.vtu, and lines_000000.vtp holds muscles and
+      // ligaments.
+      if (body.name == "lines")
+        fail(name, "a body cannot be called `lines`; results use that name");
+      bodies.push_back(std::move(body));
+    });
+  mistakes.tell();
   if (bodies.empty()) throw InputError(document.node().where, "the scenario has no [[body]]");
   return bodies;
 }
 
 std::vector<Attachment> read_attachments(const TableReader& document, const Context& context) {
   std::vector<Attachment> attachments;
-  for (const Node& node : entries(document, "attach")) {
-    const TableReader table(node, "[[attach]]", {"body", "to", "region", "mirror"});
-    for (const Side side : read_sides(table)) {
-      Context here = context;
-      here.side = side;
-      const Body& body = read_body_reference(table.at("body"), here);
-      const Body& rigid = read_body_reference(table.at("to"), here);
-      if (body.kind != Body::Kind::Tissue)
-        fail(table.at("body"),
-             fmt::format("only tissue can be attached, and body `{}` is none", body.name));
-      if (rigid.kind == Body::Kind::Tissue)
-        fail(table.at("to"),
-             fmt::format("expected a fixed or rigid body to attach to, body `{}` is tissue",
-                         rigid.name));
-      attachments.push_back(
-          {body.name, rigid.name, read_region(table.at("region"), here), node.where});
-    }
-  }
+  Mistakes mistakes;
+  for (const Node& node : entries(document, "attach"))
+    mistakes.in([&] { append_attachments(node, context, attachments); });
+  mistakes.tell();
   return attachments;
 }
 

@@ -208,44 +208,56 @@ Ligament read_ligament(const TableReader& table, const Context& context) {
   return ligament;
 }
 
+void append_muscles(const Node& node, const Context& context, std::vector<Muscle>& muscles) {
+  const TableReader table(node, label(node, "muscle"),
+                          {"name", "mirror", "tissue", "path", "max_force", "optimal_length",
+                           "max_length_ratio", "tendon_ratio", "passive_fraction", "max_velocity",
+                           "force_length", "activation_time", "deactivation_time", "excitation"});
+  for (const Side side : read_sides(table)) {
+    Context here = context;
+    here.side = side;
+    Muscle muscle = read_muscle(table, here);
+    check_new_name(table.at("name"), "muscle", muscle.name, muscles);
+    muscles.push_back(std::move(muscle));
+  }
+}
+
+void append_ligaments(const Node& node, const Context& context, const std::vector<Muscle>& muscles,
+                      std::vector<Ligament>& ligaments) {
+  const TableReader table(
+      node, label(node, "ligament"),
+      {"name", "mirror", "path", "stiffness", "stiffness_per_strain", "toe_strain", "damping",
+       "slack_length", "slack_extension", "reference_strain"});
+  for (const Side side : read_sides(table)) {
+    Context here = context;
+    here.side = side;
+    Ligament ligament = read_ligament(table, here);
+    check_new_name(table.at("name"), "ligament", ligament.name, ligaments);
+    check_new_name(table.at("name"), "line (muscle or ligament)", ligament.name, muscles);
+    ligaments.push_back(std::move(ligament));
+  }
+}
+
 }  // namespace
 
 std::vector<Muscle> read_muscles(const TableReader& document, const Context& context) {
   std::vector<Muscle> muscles;
-  for (const Node& node : entries(document, "muscle")) {
-    const TableReader table(node, label(node, "muscle"),
-                            {"name", "mirror", "tissue", "path", "max_force", "optimal_length",
-                             "max_length_ratio", "tendon_ratio", "passive_fraction", "max_velocity",
-                             "force_length", "activation_time", "deactivation_time", "excitation"});
-    for (const Side side : read_sides(table)) {
-      Context here = context;
-      here.side = side;
-      Muscle muscle = read_muscle(table, here);
-      check_new_name(table.at("name"), "muscle", muscle.name, muscles);
-      muscles.push_back(std::move(muscle));
-    }
-  }
-  for (const Node& node : entries(document, "muscle_table")) append_table(node, context, muscles);
+  Mistakes mistakes;
+  for (const Node& node : entries(document, "muscle"))
+    mistakes.in([&] { append_muscles(node, context, muscles); });
+  for (const Node& node : entries(document, "muscle_table"))
+    mistakes.in([&] { append_table(node, context, muscles); });
+  mistakes.tell();
   return muscles;
 }
 
 std::vector<Ligament> read_ligaments(const TableReader& document, const Context& context,
                                      const std::vector<Muscle>& muscles) {
   std::vector<Ligament> ligaments;
-  for (const Node& node : entries(document, "ligament")) {
-    const TableReader table(
-        node, label(node, "ligament"),
-        {"name", "mirror", "path", "stiffness", "stiffness_per_strain", "toe_strain", "damping",
-         "slack_length", "slack_extension", "reference_strain"});
-    for (const Side side : read_sides(table)) {
-      Context here = context;
-      here.side = side;
-      Ligament ligament = read_ligament(table, here);
-      check_new_name(table.at("name"), "ligament", ligament.name, ligaments);
-      check_new_name(table.at("name"), "line (muscle or ligament)", ligament.name, muscles);
-      ligaments.push_back(std::move(ligament));
-    }
-  }
+  Mistakes mistakes;
+  for (const Node& node : entries(document, "ligament"))
+    mistakes.in([&] { append_ligaments(node, context, muscles, ligaments); });
+  mistakes.tell();
   return ligaments;
 }
 

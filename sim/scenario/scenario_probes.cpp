@@ -182,6 +182,20 @@ void check_forces(const std::vector<Probe>& probes) {
   }
 }
 
+void append_probes(const Node& node, const Context& context, const Names& lines,
+                   std::vector<Probe>& probes) {
+  const TableReader table(node, label(node, "probe"),
+                          {"name", "kind", "body", "point", "axis", "bodies", "line", "region",
+                           "part", "whole", "direction", "proximal", "distal", "side", "mirror"});
+  for (const Side side : read_sides(table)) {
+    Context here = context;
+    here.side = side;
+    Probe probe = read_probe(table, here, lines);
+    check_new_name(table.at("name"), "probe", probe.name, probes);
+    probes.push_back(std::move(probe));
+  }
+}
+
 }  // namespace
 
 std::vector<Probe> read_probes(const TableReader& document, const Context& context,
@@ -192,18 +206,10 @@ std::vector<Probe> read_probes(const TableReader& document, const Context& conte
     if (muscle.tissue.empty()) lines.push_back(muscle.name);
   for (const Ligament& ligament : ligaments) lines.push_back(ligament.name);
   std::vector<Probe> probes;
-  for (const Node& node : entries(document, "probe")) {
-    const TableReader table(node, label(node, "probe"),
-                            {"name", "kind", "body", "point", "axis", "bodies", "line", "region",
-                             "part", "whole", "direction", "proximal", "distal", "side", "mirror"});
-    for (const Side side : read_sides(table)) {
-      Context here = context;
-      here.side = side;
-      Probe probe = read_probe(table, here, lines);
-      check_new_name(table.at("name"), "probe", probe.name, probes);
-      probes.push_back(std::move(probe));
-    }
-  }
+  Mistakes mistakes;
+  for (const Node& node : entries(document, "probe"))
+    mistakes.in([&] { append_probes(node, context, lines, probes); });
+  mistakes.tell();
   check_forces(probes);
   return probes;
 }

@@ -67,6 +67,8 @@ class Stepper {
   std::vector<ConvergenceRow> take_convergence() { return std::exchange(convergence_, {}); }
   /// Bodies that nothing holds, though nothing drives them either: they stay where they were.
   const std::vector<RigidBodyMode>& indifferent() const { return indifferent_; }
+  /// What no force resists where things are now, see find_rigid_body_mode().
+  std::optional<RigidBodyMode> loose() { return find_rigid_body_mode(model_, *dynamics_); }
 
  private:
   void find_contacts(const Configuration& where, double margin);

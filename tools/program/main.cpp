@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <sstream>
+#include <string>
 
 #include "sim/base/error.hpp"
 #include "sim/base/version.hpp"
@@ -19,7 +21,9 @@ namespace {
 constexpr int kBug = 1, kBadInput = 2, kCannotGoOn = 3, kSystemFailed = 4;
 
 int report(const char* message, int exit_code) {
-  std::fprintf(stderr, "articular: %s\n", message);
+  std::istringstream lines(message);  // one for each mistake
+  for (std::string line; std::getline(lines, line);)
+    std::fprintf(stderr, "articular: %s\n", line.c_str());
   return exit_code;
 }
 

@@ -8,6 +8,7 @@
 #include "sim/step/overlap_resolution.hpp"
 #include "sim/step/stepper.hpp"
 #include "tools/run/commands.hpp"
+#include "tools/run/scene_table.hpp"
 
 namespace articular::tools {
 namespace {
@@ -65,8 +66,15 @@ void add_check_command(CLI::App& app, int& exit_code) {
     const sim::Scenario scenario = sim::read_scenario(arguments->scenario, arguments->overrides);
     const sim::Model model = sim::build_model(scenario);
     for (const std::string& warning : model.warnings) fmt::print("warning: {}\n", warning);
+    sim::Stepper stepper(model, sim::step_settings(scenario));
+    const sim::State start = stepper.initial();
+    fmt::print("{}", scene_table(scenario, model, stepper));
+    if (const auto loose = stepper.loose())
+      fmt::print("\nAt the start{} nothing{} resists: {}\n",
+                 model.contacts.empty() ? "" : ", where nothing presses yet,",
+                 model.is_static ? "" : " but inertia", loose->words);
+    fmt::print("\n");
     for (const sim::InitialOverlap& overlap : sim::initial_overlaps(model)) print(model, overlap);
-    const sim::State start = sim::Stepper(model, sim::step_settings(scenario)).initial();
     for (const sim::OverlapAtStart& overlap : sim::overlaps_at_start(scenario, model, start.y))
       print(model, overlap);
     fmt::print("{}: ok\n", arguments->scenario.string());

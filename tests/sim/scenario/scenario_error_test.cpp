@@ -488,4 +488,24 @@ TEST_F(ScenarioFiles, AFolderIsNoScenario) {
   EXPECT_EQ(refusal_of(folder_), folder_.string() + ": expected a scenario file, found a folder");
 }
 
+using AllMistakes = ScenarioTest;
+
+TEST_F(AllMistakes, OfSettingsAndBodiesAreToldAtOnce) {
+  EXPECT_EQ(refusal("duration = 1\n" + kBodies +
+                    "[[body]]\nname = \"extra\"\n[[body]]\nname = \"skull\"\nkind = \"fixed\"\n"),
+            "jaw.toml:1:12: `duration`: expected a quantity with its unit, such as \"0.6 s\", "
+            "found the number 1\n"
+            "jaw.toml:21:1: body `extra`: `kind` is missing\n"
+            "jaw.toml:24:8: `name`: a second body is called `skull`, the first is at jaw.toml:3");
+}
+
+TEST_F(AllMistakes, OfEntriesThatNameBodiesAreToldAtOnce) {
+  const std::string message = refusal(
+      muscle("max_velocity = 1\n") + ligament("stiffness = \"1 N\"\n").substr(kStart.size()) +
+      "[[attach]]\nbody = \"dics_left\"\nto = \"skull\"\nregion = {}\n");
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 2) << message;
+  for (const char* part : {"max_velocity", "stiffness", "did you mean `disc_left`?"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
 }  // namespace articular::sim::scenario_error_test

@@ -473,9 +473,9 @@ TEST_F(CompleteScenario, RecordsItsSettingsAsJson) {
   EXPECT_EQ(json["output"]["checkpoint_interval_s"], 0.1);
 }
 
-// Cut, swap and repeat pieces of a valid file: the result is read, or refused in one line that
-// starts with the file. Both must happen often.
-TEST_F(CompleteScenario, DamagedFilesAreReadOrRefusedInOneLine) {
+// Cut, swap and repeat pieces of a valid file: the result is read, or refused in lines that start
+// with the file. Both must happen often.
+TEST_F(CompleteScenario, DamagedFilesAreReadOrRefusedWithTheirPlaces) {
   std::mt19937 random(5);
   int accepted = 0, refused = 0;
   for (int i = 0; i < 400; ++i) {
@@ -490,8 +490,9 @@ TEST_F(CompleteScenario, DamagedFilesAreReadOrRefusedInOneLine) {
     const std::string message = refusal(text);
     ++(message.empty() ? accepted : refused);
     if (message.empty()) continue;
-    EXPECT_TRUE(message.starts_with("jaw.toml:")) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    std::istringstream lines(message);
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_TRUE(line.starts_with("jaw.toml:")) << message;
   }
   EXPECT_GT(accepted, 10);
   EXPECT_GT(refused, 100);

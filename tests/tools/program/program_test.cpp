@@ -70,6 +70,70 @@ TEST(Check, TellsWhichBodiesOverlapAtTheStartAndByHowMuch) {
       << result.out;
 }
 
+TEST(Check, ShowsWhatWasUnderstood) {
+  const TemporaryFolder folder;
+  folder.file("scene.toml", kScene + R"(
+[[body]]
+name = "bone"
+kind = "rigid"
+geometry = { box = { size = "2 2 2 mm", cells = [1, 1, 1], center = "20 0 0 mm" } }
+density = "2 g/cm^3"
+[[attach]]
+body = "disc"
+to = "floor"
+region = { box = ["-9 -9 -2.1 mm", "9 9 -1.9 mm"] }
+[[muscle]]
+name = "lip"
+path = [{ body = "floor", point = "20 0 10 mm" }, { body = "bone", point = "20 0 1 mm" }]
+max_force = "3 N"
+optimal_length = "6 mm"
+[[ligament]]
+name = "band"
+path = [{ body = "floor", point = "30 0 0 mm" }, { body = "bone", point = "21 0 0 mm" }]
+stiffness = "2 N/mm"
+slack_length = "8 mm"
+)");
+  const ProgramResult result = run_program(folder, "check scene.toml");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const std::string row :
+       {"disc                 tissue       4.0 x 4.0 x 4.0 at (0.0 0.0 0.0)                 0.064  "
+        "   "
+        "0.064        48   45.0",
+        "bone                 rigid        2.0 x 2.0 x 2.0 at (20.0 0.0 0.0)                0.008  "
+        "   "
+        "0.016         -      -",
+        "disc                 to floor                9 of 27 nodes, between (-2.0 -2.0 -2.0) and "
+        "(2.0 2.0 -2.0) mm",
+        "9.00  ( 0.00  0.00 -1.00)", "3 N, 6.00 mm",
+        "9.00  (-1.00  0.00  0.00)          2  8.00 mm, +12.50 %",
+        "At the start, where nothing presses yet, nothing but inertia resists: "})
+    EXPECT_NE(result.out.find(row), std::string::npos) << row << "\n" << result.out;
+}
+
+TEST(Check, DoubtsUnits) {
+  const TemporaryFolder folder;
+  folder.file("scene.toml",
+              with(with(kScene, "1 g/cm^3", "1000 g/cm^3"), "4 4 4 mm", "1600 4 4 mm"));
+  const ProgramResult result = run_program(folder, "check scene.toml");
+  EXPECT_EQ(result.exit_code, 0);
+  for (const std::string doubt :
+       {"scene.toml:6:1: `disc` is 1.6e+03 mm long; is its unit the one that was meant?",
+        "`disc` has a density of 1e+06 kg/m^3, 1e+03 times that of water"})
+    EXPECT_NE(result.out.find(doubt), std::string::npos) << result.out;
+}
+
+TEST(Check, TellsOfAllMistakesAtOnce) {
+  const TemporaryFolder folder;
+  folder.file("scene.toml", with(with(kScene, "2 ms", "2 mm"), "density", "densty"));
+  const ProgramResult result = run_program(folder, "check scene.toml");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("articular: scene.toml:2:12: `duration`"), std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("\narticular: scene.toml:9:1: body `disc`: unknown key `densty`"),
+            std::string::npos)
+      << result.err;
+}
+
 TEST_P(BadInputs, GiveOneClearLineAndExitCode2AndWriteNothing) {
   const TemporaryFolder folder;
   folder.file("scene.toml", GetParam().scene);

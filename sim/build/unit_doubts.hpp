@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/model/model.hpp"
+
+namespace articular::sim {
+
+/// Sizes, densities, stiffnesses and forces that no tissue, bone or tool has: most often a unit was
+/// meant otherwise. One line each, with the place in the scenario.
+std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& model);
+
+}  // namespace articular::sim

@@ -1,0 +1,67 @@
+// Which sizes, densities, stiffnesses and forces are doubted.
+#include "sim/build/unit_doubts.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/build/build_model.hpp"
+#include "tests/sim/support/scene.hpp"
+
+namespace articular::sim::unit_doubts_test {
+
+/// A block of cartilage, a bone and a muscle between bone and floor.
+Scenario usual() {
+  Scenario s = scene(1e-3);
+  Body bone = box_body("bone", Body::Kind::Rigid, {0.1, 0.1, 0.1}, {1, 0, 0});
+  bone.density = 1800;
+  s.bodies = {box_body("block", Body::Kind::Tissue, {0.02, 0.02, 0.02}), bone, stand("floor")};
+  Muscle muscle;
+  muscle.name = "masseter";
+  muscle.path = {anchor("bone", {1, 0, 0}), anchor("floor", {1, 0, 0.3})};
+  muscle.max_force = 300;
+  s.muscles = {muscle};
+  return s;
+}
+
+std::size_t num_doubts(const Scenario& s) { return build_model(s).warnings.size(); }
+
+TEST(UnitDoubts, AreNoneOfWhatIsUsual) { EXPECT_EQ(num_doubts(usual()), 0U); }
+
+TEST(UnitDoubts, AreOfSizeBothWays) {
+  for (const double factor : {1e-3, 1e3}) {
+    Scenario s = usual();
+    std::get<BoxGeometry>(s.bodies[0].geometry).size *= factor;
+    s.contact = false;
+    EXPECT_EQ(num_doubts(s), 1U) << factor;
+  }
+}
+
+TEST(UnitDoubts, AreOfDensityBothWays) {
+  for (const std::size_t body : {0U, 1U})
+    for (const double factor : {1e-3, 1e3}) {
+      Scenario s = usual();
+      s.bodies[body].density = *s.bodies[body].density * factor;
+      EXPECT_EQ(num_doubts(s), 1U) << body << " " << factor;
+    }
+}
+
+TEST(UnitDoubts, AreOfStiffnessBothWays) {
+  for (const double young : {1.0, 1e15}) {
+    Scenario s = usual();
+    s.bodies[0].material = linear(young, 0.3);
+    EXPECT_EQ(num_doubts(s), 1U) << young;
+  }
+}
+
+TEST(UnitDoubts, AreOfAMusclesForce) {
+  Scenario s = usual();
+  s.muscles[0].max_force = 3e5;
+  EXPECT_EQ(num_doubts(s), 1U);
+}
+
+TEST(UnitDoubts, AFloorMayBeAsLargeAsItLikes) {
+  Scenario s = usual();
+  s.bodies.push_back(box_body("plate", Body::Kind::Fixed, {50, 50, 1}, {0, 0, -2}));
+  EXPECT_EQ(num_doubts(s), 0U);
+}
+
+}  // namespace articular::sim::unit_doubts_test

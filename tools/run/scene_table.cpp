@@ -1,0 +1,201 @@
+#include "tools/run/scene_table.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "sim/model/mass_properties.hpp"
+
+namespace articular::tools {
+namespace {
+
+/// So that no zero is written with a minus.
+double rounded(double x, double unit) { return unit * std::round(x / unit) + 0.0; }
+
+std::string in_mm(const Vec3& x) {
+  const Vec3 mm = (1e3 * x).unaryExpr([](double value) { return rounded(value, 0.1); });
+  return fmt::format("({:.1f} {:.1f} {:.1f})", mm.x(), mm.y(), mm.z());
+}
+
+/// In world coordinates at the start [m]; none of a body that only carries points.
+Positions nodes_of(const sim::Model& model, const sim::BodyModel& body) {
+  if (body.tissue >= 0) return model.tissues[static_cast<std::size_t>(body.tissue)].X;
+  return body.X.colwise() + model.rigid_bodies[static_cast<std::size_t>(body.rigid)].rest.p;
+}
+
+/// Each edge once each way.
+bool is_closed(const Triangles& triangles) {
+  std::set<std::pair<int, int>> open;
+  for (const auto& t : triangles.colwise())
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      if (open.erase({b, a}) == 0 && !open.insert({a, b}).second) return false;
+    }
+  return open.empty() && triangles.cols() > 0;
+}
+
+double volume(const Positions& X, const Tetrahedra& tets) {
+  double sum = 0;
+  for (const auto& t : tets.colwise()) {
+    const Vec3 a = X.col(t[0]);
+    sum += (X.col(t[1]) - a).cross(X.col(t[2]) - a).dot(X.col(t[3]) - a) / 6;
+  }
+  return sum;
+}
+
+/// Least angle between two faces of a tetrahedron [deg]: 71 of a regular one.
+double least_dihedral(const Positions& X, const Eigen::Ref<const Eigen::Vector4i>& tet) {
+  double least = std::numbers::pi;
+  for (int a = 0; a < 4; ++a)
+    for (int b = a + 1; b < 4; ++b) {  // along the edge of the other two
+      const Vec3 p = X.col(tet[a]), q = X.col(tet[b]);
+      int others[2], n = 0;
+      for (int c = 0; c < 4; ++c)
+        if (c != a && c != b) others[n++] = c;
+      const Vec3 edge = q - p, u = edge.cross(X.col(tet[others[0]]) - p),
+                 v = edge.cross(X.col(tet[others[1]]) - p);
+      least = std::min(least, std::atan2(u.cross(v).norm(), u.dot(v)));
+    }
+  return least * 180 / std::numbers::pi;
+}
+
+std::string kind_of(const sim::Model& model, const sim::BodyModel& body) {
+  if (body.tissue >= 0) return "tissue";
+  const sim::RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
+  return rigid.unknown ? (rigid.hold ? "rigid, held" : "rigid") : rigid.motion ? "driven" : "fixed";
+}
+
+std::string or_none(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4g}", *value) : "-";
+}
+
+std::string body_row(const sim::Model& model, const sim::BodyModel& body) {
+  const Positions X = nodes_of(model, body);
+  std::string place = "-";
+  if (X.cols() > 0) {
+    const Vec3 low = X.rowwise().minCoeff(), high = X.rowwise().maxCoeff(), mm = 1e3 * (high - low);
+    place = fmt::format("{:.1f} x {:.1f} x {:.1f} at {}", mm.x(), mm.y(), mm.z(),
+                        in_mm(0.5 * (low + high)));
+  }
+  std::optional<double> cubic_metres, kilograms, angle;
+  std::string elements = "-";
+  if (body.tissue >= 0) {
+    const sim::Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
+    const Tetrahedra& tets = tissue.elements.tets();
+    cubic_metres = volume(X, tets);
+    kilograms = tissue.lumped_mass.sum();
+    elements = fmt::format("{}", tets.cols());
+    angle = 180;
+    for (const auto& tet : tets.colwise()) angle = std::min(*angle, least_dihedral(X, tet));
+  } else {
+    const sim::RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
+    if (is_closed(body.triangles))
+      cubic_metres = sim::solid_mass_properties(body.X, body.triangles, 1).mass;
+    if (rigid.unknown) kilograms = rigid.mass.mass;
+  }
+  return fmt::format("  {:<20} {:<12} {:<44} {:>9} {:>9} {:>9} {:>6}\n", body.name,
+                     kind_of(model, body), place,
+                     or_none(cubic_metres ? std::optional(*cubic_metres * 1e6) : std::nullopt),
+                     or_none(kilograms ? std::optional(*kilograms * 1e3) : std::nullopt), elements,
+                     angle ? fmt::format("{:.1f}", *angle) : "-");
+}
+
+std::string bodies(const sim::Model& model) {
+  std::string text = fmt::format("  {:<20} {:<12} {:<44} {:>9} {:>9} {:>9} {:>6}\n", "body", "kind",
+                                 "box at its middle [mm]", "cm^3", "g", "elements", "angle");
+  for (const sim::BodyModel& body : model.bodies) text += body_row(model, body);
+  return text +
+         "  g: of a rigid body with the tissue that it carries. angle: the least one between two "
+         "faces of an element [deg]; below 10 is poor\n";
+}
+
+std::string attachments(const sim::Scenario& scenario, const sim::Model& model) {
+  std::set<std::pair<std::string, std::string>> told;
+  std::string text;
+  for (const sim::Attachment& attachment : scenario.attachments) {
+    if (!told.insert({attachment.body, attachment.to}).second) continue;
+    const sim::BodyModel& body =
+        model.bodies[static_cast<std::size_t>(sim::body_index(scenario, attachment.body))];
+    const int rigid =
+        model.bodies[static_cast<std::size_t>(sim::body_index(scenario, attachment.to))].rigid;
+    const sim::Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
+    Eigen::AlignedBox3d box;
+    int count = 0;
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+      if (tissue.nodes[i].rigid != rigid) continue;
+      box.extend(Vec3(tissue.X.col(static_cast<Eigen::Index>(i))));
+      ++count;
+    }
+    text +=
+        fmt::format("  {:<20} to {:<20} {} of {} nodes, between {} and {} mm\n", attachment.body,
+                    attachment.to, count, tissue.nodes.size(), in_mm(box.min()), in_mm(box.max()));
+  }
+  return text;
+}
+
+/// From the first point of a line to the last.
+Vec3 direction(const sim::Line& line, const sim::Configuration& now) {
+  const auto place = [&](const sim::WeightedPoint& point) {
+    Vec3 x = Vec3::Zero();
+    for (std::size_t k = 0; k < point.nodes.size(); ++k)
+      x += point.weights[k] * now.position(point.nodes[k]);
+    return x;
+  };
+  return (place(line.path.back()) - place(line.path.front())).normalized();
+}
+
+std::string line_row(const sim::Line& line, const sim::Moment& start, const std::string& rest) {
+  const Vec3 d = direction(line, start.configuration).unaryExpr([](double value) {
+    return rounded(value, 0.01);
+  });
+  const auto l = static_cast<std::size_t>(&line - start.model.lines.data());
+  return fmt::format("  {:<28} {:>8.2f}  ({:5.2f} {:5.2f} {:5.2f})  {:>9.4g}  {}\n", line.name,
+                     1e3 * line.start_length, d.x(), d.y(), d.z(), start.lines[l].tension, rest);
+}
+
+std::string line_head(const std::string& what, const std::string& rest) {
+  return fmt::format("  {:<28} {:>8}  {:<19}  {:>9}  {}\n", what, "mm", "direction", "N at start",
+                     rest);
+}
+
+std::string muscles(const sim::Model& model, const sim::Moment& start) {
+  std::string text = line_head("muscle", "largest active force, optimal length");
+  for (const sim::MuscleModel& muscle : model.muscles)
+    text += muscle.line < 0 ? fmt::format("  {:<28} the fibres of `{}`\n", muscle.given.name,
+                                          muscle.given.tissue)
+                            : line_row(model.lines[static_cast<std::size_t>(muscle.line)], start,
+                                       fmt::format("{:.4g} N, {:.2f} mm", muscle.given.max_force,
+                                                   1e3 * muscle.optimal_length));
+  return text;
+}
+
+std::string ligaments(const sim::Model& model, const sim::Moment& start) {
+  std::string text = line_head("ligament", "slack length, strain at the start");
+  for (const sim::LigamentModel& ligament : model.ligaments) {
+    const sim::Line& line = model.lines[static_cast<std::size_t>(ligament.line)];
+    text += line_row(line, start,
+                     fmt::format("{:.2f} mm, {:+.2f} %", 1e3 * ligament.slack_length,
+                                 100 * (line.start_length / ligament.slack_length - 1)));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string scene_table(const sim::Scenario& scenario, const sim::Model& model,
+                        const sim::Stepper& start) {
+  std::string text = bodies(model);
+  if (!scenario.attachments.empty()) text += "\n" + attachments(scenario, model);
+  if (!model.muscles.empty()) text += "\n" + muscles(model, start.now());
+  if (!model.ligaments.empty()) text += "\n" + ligaments(model, start.now());
+  return text;
+}
+
+}  // namespace articular::tools
