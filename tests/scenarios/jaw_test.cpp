@@ -115,7 +115,8 @@ TEST(JawOpening, WithoutDiscsTheCondyleTakesAnotherPath) {
              std::holds_alternative<sim::LineProbe>(probe.what);
     });
   };
-  const std::vector<std::string> overrides = {"integrator.step=4 ms", "duration=0.3 s"};
+  const std::vector<std::string> overrides = {"accuracy=fast", "integrator.step=4 ms",
+                                              "duration=0.3 s"};
   const ScenarioResults bare = run_changed("mandible/opening.toml", overrides, without_discs);
   const ScenarioResults whole = run_scenario("mandible/opening.toml", overrides);
   const std::string z = "condyle_left.position.z [mm]";

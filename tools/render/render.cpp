@@ -1,23 +1,20 @@
 #include "tools/render/render.hpp"
 
 #include <fmt/format.h>
-#include <vtkNew.h>
-#include <vtkPNGWriter.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <CLI/CLI.hpp>
-#include <Eigen/Geometry>
 #include <cmath>
 #include <map>
 #include <memory>
 
-#include "sim/base/atomic_file.hpp"
 #include "sim/base/error.hpp"
 #include "sim/output/frame_writer.hpp"
 #include "tools/render/movie.hpp"
 #include "tools/render/nearest.hpp"
+#include "tools/render/picture.hpp"
 #include "tools/render/render_scene.hpp"
 #include "tools/render/render_series.hpp"
+#include "tools/render/setup_picture.hpp"
 #include "tools/render/virtual_display.hpp"
 
 namespace articular::tools {
@@ -26,47 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kSmallest = 64, kLargest = 8192;  // [pixel]
-
-/// Where the eye is, seen from the scene: towards the body's left, back and top.
-ViewAxes view_axes(const std::string& view, const std::string& up_axis) {
-  static const std::map<std::string, Vec3> kDirections = {{"front", {0, -1, 0}},
-                                                          {"back", {0, 1, 0}},
-                                                          {"left", {1, 0, 0}},
-                                                          {"right", {-1, 0, 0}},
-                                                          {"top", {0, 0, 1}},
-                                                          {"bottom", {0, 0, -1}},
-                                                          {"three-quarter", {0.62, -0.80, 0.30}}};
-  std::set<std::string> names;
-  for (const auto& [name, direction] : kDirections) names.insert(name);
-  const auto found = kDirections.find(view);
-  if (found == kDirections.end())
-    throw sim::InputError("--view: " + unknown_name("view", view, names));
-  if (up_axis != "y" && up_axis != "z")
-    throw sim::InputError("--up: unknown axis `" + up_axis + "`; expected y or z");
-
-  Mat3 body;  // columns: left, posterior, up
-  if (up_axis == "z")
-    body = Mat3::Identity();
-  else
-    body << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  const Vec3 to_eye = body * found->second.normalized();
-  // From above and below the front of the body is at the top of the picture.
-  const bool vertical = std::abs(found->second.z()) > 0.9;
-  const Vec3 upwards = body * (vertical ? Vec3(0, -1, 0) : Vec3(0, 0, 1));
-  const Vec3 right = upwards.cross(to_eye).normalized();
-  return {right, to_eye.cross(right), to_eye};
-}
-
-void write_png(const fs::path& file, vtkImageData& image) {
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(&image);
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray& bytes = *writer->GetResult();
-  const auto* const start = reinterpret_cast<const char*>(bytes.GetPointer(0));
-  sim::write_text_file(file,
-                       std::string(start, static_cast<std::size_t>(bytes.GetNumberOfValues())));
-}
 
 /// The frames to draw as pictures, a part of series.frames.
 std::vector<FrameEntry> chosen_frames(const Series& series, const RenderOptions& options) {
@@ -81,13 +37,6 @@ std::vector<FrameEntry> chosen_frames(const Series& series, const RenderOptions&
       {series.directory.string()},
       fmt::format("there is no frame {}; there are {} frames, {} to {}", *options.frame,
                   series.frames.size(), series.frames.front().index, series.frames.back().index));
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw sim::SystemError(folder.string() + ": the folder can't be made: " + error.message());
 }
 
 void check(const RenderOptions& options) {
@@ -110,6 +59,7 @@ std::string parse_size(const std::string& text, RenderOptions& options) {
 int render(const RenderOptions& options) {
   // 1. What is there, and is it what was asked for?
   check(options);
+  if (options.run.extension() == ".toml") return render_setup(options);
   const ViewAxes axes = view_axes(options.view, options.up);
   const Series series = open_series(options.run, options.only);
   const std::vector<FrameEntry> pictures = chosen_frames(series, options);
@@ -148,17 +98,23 @@ int render(const RenderOptions& options) {
 
 void add_render_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<RenderOptions>();
-  CLI::App& command = *app.add_subcommand("render", "Draw frames of a run as pictures or a movie");
-  command.add_option("run", options->run, "Folder of a run (or its .pvd)")
+  CLI::App& command =
+      *app.add_subcommand("render", "Draw frames of a run, or the set-up of a scenario");
+  command
+      .add_option("run", options->run,
+                  "Folder of a run (or its .pvd): pictures or a movie of its frames. A scenario "
+                  "(.toml): bodies, attached nodes, ends of muscles and ligaments before any run")
       ->required()
-      ->type_name("DIR");
+      ->type_name("DIR|SCENARIO");
   command.add_option("--field", options->field, "What colours the tissue [von_mises]");
   CLI::Option* const frame =
       command.add_option("--frame", options->frame, "Number of the frame to draw [the last]");
   command.add_flag("--all", options->all, "Draw every frame")->excludes(frame);
   command.add_option("--movie", options->movie, "Write a movie: .ogv, or .mp4 with ffmpeg")
       ->type_name("FILE");
-  command.add_option("--out", options->out, "Folder for the pictures [DIR/render]")
+  command
+      .add_option("--out", options->out,
+                  "Folder for the pictures [DIR/render; of a scenario the working folder]")
       ->type_name("DIR");
   command.add_option("--focus", options->focus, "Body that shall fill the picture [all of them]")
       ->type_name("BODY");

@@ -12,7 +12,7 @@ class App;
 namespace articular::tools {
 
 struct RenderOptions {
-  std::filesystem::path run;      // its folder, or the .pvd itself
+  std::filesystem::path run;      // its folder, or the .pvd itself; or a scenario file
   std::string field;              // "": von_mises, else contact_pressure, else the first there is
   std::optional<int> frame;       // by number; none: the last
   bool all = false;               // every frame
@@ -26,8 +26,9 @@ struct RenderOptions {
   int width = 1600, height = 1000;  // [pixel]
 };
 
-/// Draws frames of a run into OUT/NAME_000123.png, and says on stdout what was written. Every
-/// picture and movie appears whole or not at all.
+/// Draws frames of a run, or with a scenario file its set-up (see setup_picture.hpp), into
+/// OUT/NAME_000123.png, and says on stdout what was written. Every picture and movie appears whole
+/// or not at all.
 /// @return 0
 /// @throws InputError for a folder without frames, an unknown field, part, frame, view or movie
 /// format;

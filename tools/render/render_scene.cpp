@@ -232,7 +232,7 @@ void RenderScene::add_bone(const Part& part) {
   vtkProperty& property = *add_surface(*vtkPolyData::SafeDownCast(part.set)).GetProperty();
   set_colour(property, kIvory);
   const bool something_inside = !survey_.coloured.empty();
-  if (survey_.fixed_bones.contains(part.name) && something_inside)
+  if (marks_ || (survey_.fixed_bones.contains(part.name) && something_inside))
     property.SetOpacity(kFixedBoneOpacity);
 }
 
@@ -288,7 +288,7 @@ void RenderScene::add_tubes(vtkPointSet& lines, bool muscles) {
     mapper->SelectColorArray(kShown);
     mapper->SetLookupTable(activation_colours_);
     mapper->UseLookupTableScalarRangeOn();
-    add_activation_scale();
+    if (!marks_) add_activation_scale();
   } else {
     mapper->ScalarVisibilityOff();
   }
@@ -324,6 +324,63 @@ void RenderScene::add_activation_scale() {
   add_text(*renderer_, "1", kBar.x + kBar.width, kBar.y - 0.024, {pixels(19), false, Align::Right});
 }
 
+void RenderScene::add_marks() {
+  const auto add = [&](const std::vector<Vec3>& corners, int per_cell, const Rgb& colour) {
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> cells;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (i % static_cast<std::size_t>(per_cell) == 0) cells->InsertNextCell(per_cell);
+      cells->InsertCellPoint(points->InsertNextPoint(corners[i].data()));
+    }
+    vtkNew<vtkPolyData> set;
+    set->SetPoints(points);
+    if (per_cell == 1)
+      set->SetVerts(cells);
+    else
+      set->SetLines(cells);
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(set);
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    vtkProperty& property = *actor->GetProperty();
+    set_colour(property, colour);
+    property.SetPointSize(static_cast<float>(pixels(8)));
+    property.SetLineWidth(static_cast<float>(pixels(4)));
+    property.LightingOff();
+    renderer_->AddActor(actor);
+  };
+  for (const Marks::Points& points : marks_->points) add(points.at, 1, points.colour);
+  for (const Marks::Segment& s : marks_->segments) add({s.from, s.to}, 2, s.colour);
+  add_text(*renderer_, marks_->legend, 0.5, 0.035, {pixels(21), false, Align::Centre});
+  add_labels();
+}
+
+/// Where two would cover each other, the one further down is moved below the other.
+void RenderScene::add_labels() {
+  struct Placed {
+    double x, y, half_width;
+    std::string text;
+  };
+  constexpr double kLine = 0.026, kLetter = 0.008;  // of the picture
+  std::vector<Placed> placed;
+  for (const Marks::Label& label : marks_->labels) {
+    renderer_->SetWorldPoint(label.at.x(), label.at.y(), label.at.z(), 1);
+    renderer_->WorldToView();
+    const double* const view = renderer_->GetViewPoint();  // from -1 to 1
+    placed.push_back({0.5 * (1 + view[0]), 0.5 * (1 + view[1]),
+                      0.5 * kLetter * static_cast<double>(label.text.size()), label.text});
+  }
+  std::sort(placed.begin(), placed.end(),
+            [](const Placed& a, const Placed& b) { return a.y > b.y; });
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    Placed& label = placed[i];
+    for (std::size_t j = 0; j < i; ++j)  // those above, from the top down
+      if (std::abs(label.x - placed[j].x) < label.half_width + placed[j].half_width)
+        label.y = std::min(label.y, placed[j].y - kLine);
+    add_text(*renderer_, label.text, label.x, label.y, {pixels(21), true, Align::Centre});
+  }
+}
+
 vtkSmartPointer<vtkImageData> RenderScene::draw(const Frame& frame, const std::string& moment) {
   const sim::QuietVtk vtk;
   renderer_->RemoveAllViewProps();
@@ -335,6 +392,7 @@ vtkSmartPointer<vtkImageData> RenderScene::draw(const Frame& frame, const std::s
   add_text(*renderer_, name_, 0.035, 0.945, {pixels(36), true});
   add_text(*renderer_, moment, 0.035, 0.895, {pixels(27)});
   if (colours_ != nullptr) add_field_scale();
+  if (marks_) add_marks();
   renderer_->ResetCameraClippingRange();  // nothing is cut away, also not beside the focus
   window_->Render();
   vtkNew<vtkWindowToImageFilter> capture;

@@ -87,6 +87,7 @@ class ViewFit {
   double depth() const;
   /// Diagonal of the box around all points.
   double diagonal() const { return (high_ - low_).norm(); }
+  Vec3 middle() const { return 0.5 * (low_ + high_); }
 
  private:
   ViewAxes axes_;

@@ -141,6 +141,70 @@ TEST_F(Drawing, TheLastFrameIsDrawnAtTheSizeAskedFor) {
   EXPECT_GT(num_red_pixels(*image), 30) << "no muscle is seen";
 }
 
+/// A block that is attached below, and a muscle to its top.
+constexpr const char* kSetup = R"(
+duration = "1 ms"
+[[body]]
+name = "floor"
+kind = "fixed"
+geometry = { box = { size = "8 8 1 mm", cells = [1, 1, 1], center = "0 0 -2.6 mm" } }
+[[body]]
+name = "block"
+kind = "tissue"
+density = "1 g/cm^3"
+material = { law = "linear", young_modulus = "5 MPa", poisson_ratio = 0.3 }
+geometry = { box = { size = "4 4 4 mm", cells = [2, 2, 2] } }
+[[body]]
+name = "post"
+kind = "fixed"
+[[attach]]
+body = "block"
+to = "floor"
+region = { box = ["-9 -9 -2.1 mm", "9 9 -1.9 mm"] }
+[[muscle]]
+name = "lip"
+path = [{ body = "post", point = "0 0 8 mm" }, { body = "block", point = "0 0 2 mm", radius = "2.5 mm" }]
+max_force = "3 N"
+)";
+
+int num_blue_pixels(vtkImageData& image) {
+  const auto* const bytes = static_cast<const unsigned char*>(image.GetScalarPointer());
+  int count = 0;
+  for (vtkIdType i = 0; i < image.GetNumberOfPoints(); ++i)
+    count += bytes[3 * i + 2] > 2 * bytes[3 * i] && bytes[3 * i + 2] > 2 * bytes[3 * i + 1] ? 1 : 0;
+  return count;
+}
+
+TEST_F(Drawing, AScenarioIsDrawnBeforeAnyRunWithWhatIsAttached) {
+  const TemporaryFolder folder;
+  options_.width = 960;
+  options_.height = 600;
+  options_.out = folder.path();
+  options_.run = folder.file("block.toml", kSetup);
+  EXPECT_EQ(print_of(options_), "wrote " + (folder / "block_setup.png").string() + "\n");
+  const auto with = read_png(folder / "block_setup.png");
+  std::string text = kSetup;
+  text.erase(text.find("[[attach]]"), text.find("[[muscle]]") - text.find("[[attach]]"));
+  text.erase(text.find("[[muscle]]"));
+  options_.run = folder.file("bare.toml", text);
+  print_of(options_);
+  const auto bare = read_png(folder / "bare_setup.png");
+  EXPECT_GT(num_red_pixels(*with), num_red_pixels(*bare) + 20);
+  EXPECT_GT(num_blue_pixels(*with), num_blue_pixels(*bare) + 5);
+}
+
+TEST_F(Drawing, AScenarioHasNoFrames) {
+  const TemporaryFolder folder;
+  options_.out = folder.path();
+  options_.run = folder.file("block.toml", kSetup);
+  options_.frame = 0;
+  EXPECT_THROW(render(options_), sim::InputError);
+  options_.frame.reset();
+  options_.focus = "blok";
+  EXPECT_THROW(render(options_), sim::InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "block_setup.png"));
+}
+
 /// The words for 20 ms of a run with this summary.
 std::string moment_with(const std::string& summary) {
   const TemporaryFolder run;
