@@ -131,9 +131,25 @@ class Builder {
       model_.bodies[b].tissue = static_cast<int>(model_.tissues.size());
       model_.tissues.push_back(
           make_tissue(scenario_, model_, geometry_, surface_.back(), static_cast<int>(b)));
+      tell_locking(scenario_.bodies[b], model_.tissues.back());
       tell_flat_elements(scenario_.bodies[b], mesh);
       tell_coincident_nodes(scenario_.bodies[b], mesh);
     }
+  }
+
+  /// Linear tetrahedra can't keep their volume and yet bend [Hughes, The Finite Element
+  /// Method, 4.4].
+  void tell_locking(const Body& body, const Tissue& tissue) {
+    constexpr double kMost = 0.45;  // of Poisson's ratio
+    const double K = tissue.bulk_modulus, G = tissue.shear_modulus;
+    const double nu = (3 * K - 2 * G) / (6 * K + 2 * G);
+    if (tissue.elements.smoothed() != nullptr || !(nu > kMost * (1 + 1e-9))) return;
+    model_.warnings.push_back(
+        prefix(body.material->where) +
+        fmt::format(
+            "plain elements of `{}` lock at Poisson's ratio {:.5g}: it bends and bulges less "
+            "than it should; element = \"smoothed\" does not",
+            body.name, nu));
   }
 
   void tell_flat_elements(const Body& body, const MeshData& mesh) {

@@ -6,14 +6,22 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "fem/solver/processor.hpp"
 #include "sim/assembly/solver_setup.hpp"
 #include "sim/base/version.hpp"
+#include "sim/output/checkpoint.hpp"
 #include "sim/output/run_warnings.hpp"
 
 namespace articular::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+#ifdef __clang__
+constexpr const char* kCompiler = __VERSION__;
+#else
+constexpr const char* kCompiler = "g++ " __VERSION__;
+#endif
 
 Json sizes(const Model& model) {
   std::int64_t elements = 0, collision_elements = 0;
@@ -106,6 +114,7 @@ std::string summary_json(const Scenario& scenario, const Model& model, const Sta
                          const std::string& outcome) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
+  const fem::Processor processor = fem::processor();
   std::vector<std::string> warnings = model.warnings;
   for (std::string& warning : run_warnings(model, state, stepper))
     warnings.push_back(std::move(warning));
@@ -135,6 +144,10 @@ std::string summary_json(const Scenario& scenario, const Model& model, const Sta
       {"evaluations", evaluations(state.counts.evaluations)},
       {"peak_memory_MB", static_cast<double>(usage.ru_maxrss) / 1024},
       {"warnings", warnings},
+      {"inputs", fingerprint(scenario, model)},
+      {"processor",
+       {{"instruction_set", processor.instruction_set}, {"blas_kernels", processor.blas_kernels}}},
+      {"build", {{"compiler", kCompiler}, {"flags", ARTICULAR_FLAGS}}},
       {"versions",
        {{"articular", kVersion},
         {"SUNDIALS", SUNDIALS_VERSION},

@@ -2,10 +2,13 @@
 #include "sim/model/model.hpp"
 #include "sim/scenario/curve.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <tuple>
 
 #include "tests/sim/support/scene.hpp"
 
@@ -95,6 +98,22 @@ TEST(Model, ANodeAttachedToTwoBodiesIsRefusedWithBothEntries) {
   }
   s.attachments[1].to = "wall";  // twice the same says nothing new
   EXPECT_EQ(num_attached(build_model(s)), 27);
+}
+
+TEST(Model, PlainElementsThatLockGiveAWarningAndOthersNone) {
+  using Element = TissueMaterial::Element;
+  for (const auto& [element, nu, warnings] :
+       {std::tuple(Element::Plain, 0.45, 0U), std::tuple(Element::Plain, 0.451, 1U),
+        std::tuple(Element::Plain, 0.499, 1U), std::tuple(Element::Smoothed, 0.499, 0U)}) {
+    Scenario s = scene(1e-3);
+    s.bodies = {block()};
+    s.bodies[0].material = neo_hookean(1e5, nu);
+    s.bodies[0].material->element = element;
+    const Model model = build_model(s);
+    EXPECT_EQ(model.warnings.size(), warnings) << nu;
+    const std::string ratio = fmt::format("ratio {};", nu);
+    EXPECT_EQ(warnings == 1 && model.warnings[0].find(ratio) != std::string::npos, warnings == 1);
+  }
 }
 
 TEST(Model, AForceOnARegionIsSharedEquallyByItsNodes) {

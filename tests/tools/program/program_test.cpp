@@ -70,6 +70,25 @@ TEST(Check, TellsWhichBodiesOverlapAtTheStartAndByHowMuch) {
       << result.out;
 }
 
+nlohmann::json summary_of(const TemporaryFolder& folder, const std::string& arguments) {
+  EXPECT_EQ(run_program(folder, kRun + " --overwrite " + arguments).exit_code, 0) << arguments;
+  return nlohmann::json::parse(content(folder / "out/summary.json"));
+}
+
+TEST(Run, SummaryNamesWhatTheLastBitsDependOn) {
+  const TemporaryFolder folder;
+  folder.file("scene.toml", kScene);
+  const auto first = summary_of(folder, ""), again = summary_of(folder, ""),
+             other = summary_of(folder, "--set body.disc.density='2 g/cm^3'");
+  EXPECT_EQ(first.at("inputs"), again.at("inputs"));
+  EXPECT_NE(first.at("inputs"), other.at("inputs"));
+  const std::set<std::string> sets = {"sse2", "avx2", "avx512f"};
+  EXPECT_TRUE(sets.contains(first.at("processor").at("instruction_set")));
+  EXPECT_FALSE(first.at("processor").at("blas_kernels").get<std::string>().empty());
+  EXPECT_NE(first.at("build").at("compiler").get<std::string>().find('.'), std::string::npos);
+  EXPECT_NE(first.at("build").at("flags").get<std::string>().find("-O"), std::string::npos);
+}
+
 TEST(Check, ShowsWhatWasUnderstood) {
   const TemporaryFolder folder;
   folder.file("scene.toml", kScene + R"(
