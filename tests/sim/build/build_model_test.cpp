@@ -111,7 +111,7 @@ TEST(Model, PlainElementsThatLockGiveAWarningAndOthersNone) {
     s.bodies[0].material->element = element;
     const Model model = build_model(s);
     EXPECT_EQ(model.warnings.size(), warnings) << nu;
-    const std::string ratio = fmt::format("ratio {};", nu);
+    const std::string ratio = fmt::format("ratio {}:", nu);
     EXPECT_EQ(warnings == 1 && model.warnings[0].find(ratio) != std::string::npos, warnings == 1);
   }
 }
