@@ -28,4 +28,12 @@ class Mistakes {
   std::string lines_;
 };
 
+/// Reads each item; then tells of all that are wrong. @throws InputError
+template <class Items, class Read>
+void read_each(const Items& items, Read&& read) {
+  Mistakes mistakes;
+  for (const auto& item : items) mistakes.in([&] { read(item); });
+  mistakes.tell();
+}
+
 }  // namespace articular::sim

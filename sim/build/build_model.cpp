@@ -73,16 +73,15 @@ class Builder {
   int body_index(const std::string& name) const { return sim::body_index(scenario_, name); }
 
   void read_bodies() {
-    Mistakes mistakes;
+    read_each(scenario_.bodies,
+              [&](const Body& body) { geometry_.push_back(read_geometry(body)); });
     for (const Body& body : scenario_.bodies) {
-      mistakes.in([&] { geometry_.push_back(read_geometry(body)); });
       BodyModel entry;
       entry.name = body.name;
       entry.kind = body.kind;
       entry.touches_as_drawn = body.contact_meshes.empty();
       model_.bodies.push_back(std::move(entry));
     }
-    mistakes.tell();
   }
 
   void make_rigid_bodies() {
@@ -179,14 +178,12 @@ class Builder {
   /// The nodes in each region belong to a rigid body from now on.
   void attach_nodes() {
     std::vector<std::vector<const Attachment*>> taken(model_.tissues.size());  // by tissue and node
-    Mistakes mistakes;
-    for (const Attachment& attachment : scenario_.attachments) {
+    read_each(scenario_.attachments, [&](const Attachment& attachment) {
       const auto b = static_cast<std::size_t>(body_index(attachment.body));
       const auto t = static_cast<std::size_t>(model_.bodies[b].tissue);
       taken[t].resize(model_.tissues[t].nodes.size());
-      mistakes.in([&] { attach(attachment, surface_[t], model_.tissues[t], taken[t]); });
-    }
-    mistakes.tell();
+      attach(attachment, surface_[t], model_.tissues[t], taken[t]);
+    });
   }
 
   /// @param taken  by node: the entry that has attached it, if any

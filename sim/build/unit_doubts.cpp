@@ -39,7 +39,7 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
     const BodyModel& made = model.bodies[b];
     const Tissue* const tissue =
         is_tissue ? &model.tissues[static_cast<std::size_t>(made.tissue)] : nullptr;
-    const double size = extent(is_tissue ? tissue->X : made.X);
+    const double size = extent(start_positions(model, made));
     if (size > 0 && !is_usual(size, kExtent))
       doubt(body.where, fmt::format("`{}` is {:.3g} mm long", body.name, 1e3 * size));
     if (body.density && !is_usual(*body.density, is_tissue ? kTissueDensity : kRigidDensity))

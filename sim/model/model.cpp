@@ -33,4 +33,9 @@ Eigen::VectorXd initial_state(const Model& model) {
   return y;
 }
 
+Positions start_positions(const Model& model, const BodyModel& body) {
+  if (body.tissue >= 0) return model.tissues[static_cast<std::size_t>(body.tissue)].X;
+  return body.X.colwise() + model.rigid_bodies[static_cast<std::size_t>(body.rigid)].rest.p;
+}
+
 }  // namespace articular::sim

@@ -249,6 +249,9 @@ struct Model {
 /// y at t = 0.
 Eigen::VectorXd initial_state(const Model& model);
 
+/// Nodes of a body's mesh at the start, world [m]; none of a body that only carries points.
+Positions start_positions(const Model& model, const BodyModel& body);
+
 /// A muscle's activation after a long time of the excitation that it has at t.
 double steady_activation(const MuscleModel& muscle, double t);
 

@@ -84,7 +84,7 @@ void write_rigid_body(const Model& model, const Configuration& now, int body_ind
   }
   const Pose& pose = now.poses[b];
   const Positions x = (pose.R * body.X).colwise() + pose.p;
-  const Positions start = body.X.colwise() + model.rigid_bodies[b].rest.p;
+  const Positions start = start_positions(model, body);
   const RigidVelocity& velocity = now.velocities[b];
   Eigen::MatrixXd v(3, x.cols());
   for (Eigen::Index i = 0; i < x.cols(); ++i)

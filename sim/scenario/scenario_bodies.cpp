@@ -302,29 +302,23 @@ std::string_view freedom_name(std::size_t freedom) { return kFreedoms.at(freedom
 
 std::vector<Body> read_bodies(const TableReader& document, const std::filesystem::path& folder) {
   std::vector<Body> bodies;
-  Mistakes mistakes;
-  for (const Node& node : entries(document, "body"))
-    mistakes.in([&] {
-      Body body = read_body(node, folder);
-      const Node& name = *node.find("name");
-      check_new_name(name, "body", body.name, bodies);
-      // Frames are written as frames/BODY_000000.vtu, and lines_000000.vtp holds muscles and
-      // ligaments.
-      if (body.name == "lines")
-        fail(name, "a body cannot be called `lines`; results use that name");
-      bodies.push_back(std::move(body));
-    });
-  mistakes.tell();
+  read_each(entries(document, "body"), [&](const Node& node) {
+    Body body = read_body(node, folder);
+    const Node& name = *node.find("name");
+    check_new_name(name, "body", body.name, bodies);
+    // Frames are written as frames/BODY_000000.vtu, and lines_000000.vtp holds muscles and
+    // ligaments.
+    if (body.name == "lines") fail(name, "a body cannot be called `lines`; results use that name");
+    bodies.push_back(std::move(body));
+  });
   if (bodies.empty()) throw InputError(document.node().where, "the scenario has no [[body]]");
   return bodies;
 }
 
 std::vector<Attachment> read_attachments(const TableReader& document, const Context& context) {
   std::vector<Attachment> attachments;
-  Mistakes mistakes;
-  for (const Node& node : entries(document, "attach"))
-    mistakes.in([&] { append_attachments(node, context, attachments); });
-  mistakes.tell();
+  read_each(entries(document, "attach"),
+            [&](const Node& node) { append_attachments(node, context, attachments); });
   return attachments;
 }
 

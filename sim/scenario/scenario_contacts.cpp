@@ -57,19 +57,15 @@ void read_contacts(const TableReader& document, const Context& context, Scenario
   if (node->list() == nullptr)
     fail(*node, fmt::format("expected false or entries that start with [[contact]], found {}",
                             found(*node)));
-  Mistakes mistakes;
-  for (const Node& element : *node->list())
-    mistakes.in([&] {
-      ContactPair pair = read_contact(element, context, scenario.analysis);
-      for (const ContactPair& other : scenario.contacts)
-        if (std::minmax(pair.a, pair.b) == std::minmax(other.a, other.b))
-          throw InputError(
-              element.where,
-              fmt::format("[[contact]]: the pair `{}`, `{}` is given twice, first at {}", pair.a,
-                          pair.b, place(other.where)));
-      scenario.contacts.push_back(std::move(pair));
-    });
-  mistakes.tell();
+  read_each(*node->list(), [&](const Node& element) {
+    ContactPair pair = read_contact(element, context, scenario.analysis);
+    for (const ContactPair& other : scenario.contacts)
+      if (std::minmax(pair.a, pair.b) == std::minmax(other.a, other.b))
+        throw InputError(element.where,
+                         fmt::format("[[contact]]: the pair `{}`, `{}` is given twice, first at {}",
+                                     pair.a, pair.b, place(other.where)));
+    scenario.contacts.push_back(std::move(pair));
+  });
 }
 
 }  // namespace articular::sim

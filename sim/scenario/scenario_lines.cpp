@@ -254,10 +254,8 @@ std::vector<Muscle> read_muscles(const TableReader& document, const Context& con
 std::vector<Ligament> read_ligaments(const TableReader& document, const Context& context,
                                      const std::vector<Muscle>& muscles) {
   std::vector<Ligament> ligaments;
-  Mistakes mistakes;
-  for (const Node& node : entries(document, "ligament"))
-    mistakes.in([&] { append_ligaments(node, context, muscles, ligaments); });
-  mistakes.tell();
+  read_each(entries(document, "ligament"),
+            [&](const Node& node) { append_ligaments(node, context, muscles, ligaments); });
   return ligaments;
 }
 

@@ -130,15 +130,12 @@ void check_not_driven(const Node& node, const std::string& body, const std::vect
 
 std::vector<Load> read_loads(const TableReader& document, const Context& context) {
   std::vector<Load> loads;
-  Mistakes mistakes;
-  for (const Node& node : entries(document, "load"))
-    mistakes.in([&] {
-      Load load = read_load(node, context);
-      if (const auto* motion = std::get_if<MotionLoad>(&load))
-        check_not_driven(*node.find("body"), motion->body, loads);
-      loads.push_back(std::move(load));
-    });
-  mistakes.tell();
+  read_each(entries(document, "load"), [&](const Node& node) {
+    Load load = read_load(node, context);
+    if (const auto* motion = std::get_if<MotionLoad>(&load))
+      check_not_driven(*node.find("body"), motion->body, loads);
+    loads.push_back(std::move(load));
+  });
   return loads;
 }
 

@@ -206,10 +206,8 @@ std::vector<Probe> read_probes(const TableReader& document, const Context& conte
     if (muscle.tissue.empty()) lines.push_back(muscle.name);
   for (const Ligament& ligament : ligaments) lines.push_back(ligament.name);
   std::vector<Probe> probes;
-  Mistakes mistakes;
-  for (const Node& node : entries(document, "probe"))
-    mistakes.in([&] { append_probes(node, context, lines, probes); });
-  mistakes.tell();
+  read_each(entries(document, "probe"),
+            [&](const Node& node) { append_probes(node, context, lines, probes); });
   check_forces(probes);
   return probes;
 }

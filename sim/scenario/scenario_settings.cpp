@@ -113,10 +113,6 @@ nlohmann::ordered_json preset_as_json(const Scenario& scenario) {
   return json;
 }
 
-}  // namespace
-
-namespace {
-
 /// What time alone has: the preset's keys, each of which the scenario may give as well.
 void read_dynamics(const TableReader& document, Scenario& scenario) {
   document.may("accuracy", scenario.accuracy, [](const Node& n) {

@@ -20,21 +20,6 @@
 namespace articular::tools {
 namespace {
 
-/// Least angle between two faces of a tetrahedron [deg].
-double least_dihedral_deg(const std::array<Vec3, 4>& p) {
-  std::array<Vec3, 4> normal;  // of the face opposite each corner, inward
-  for (std::size_t a = 0; a < 4; ++a) {
-    const Vec3 &i = p[(a + 1) % 4], &j = p[(a + 2) % 4], &k = p[(a + 3) % 4];
-    normal[a] = (j - i).cross(k - i).normalized();
-    if (normal[a].dot(p[a] - i) < 0) normal[a] = -normal[a];
-  }
-  double least = std::numbers::pi;
-  for (std::size_t a = 0; a < 4; ++a)
-    for (std::size_t b = 0; b < a; ++b)
-      least = std::min(least, std::acos(std::clamp(-normal[a].dot(normal[b]), -1.0, 1.0)));
-  return least * 180 / std::numbers::pi;
-}
-
 double mean_edge(const TetMesh& mesh) {
   std::set<std::pair<int, int>> edges;
   for (const auto& tet : mesh.tets.colwise())
@@ -112,13 +97,29 @@ double largest_distance(const TetMesh& mesh, const Triangles& faces, const Shell
 
 }  // namespace
 
+double least_dihedral_deg(const Positions& X, const Eigen::Ref<const Eigen::Vector4i>& tet) {
+  std::array<Vec3, 4> p;
+  for (int a = 0; a < 4; ++a) p[static_cast<std::size_t>(a)] = X.col(tet[a]);
+  std::array<Vec3, 4> normal;  // of the face opposite each corner, inward
+  for (std::size_t a = 0; a < 4; ++a) {
+    const Vec3 &i = p[(a + 1) % 4], &j = p[(a + 2) % 4], &k = p[(a + 3) % 4];
+    normal[a] = (j - i).cross(k - i).normalized();
+    if (normal[a].dot(p[a] - i) < 0) normal[a] = -normal[a];
+  }
+  double least = std::numbers::pi;
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      least = std::min(least, std::acos(std::clamp(-normal[a].dot(normal[b]), -1.0, 1.0)));
+  return least * 180 / std::numbers::pi;
+}
+
 MeshQuality mesh_quality(const TetMesh& mesh, const Shell& shell) {
   MeshQuality quality;
   std::vector<double> angles;
   for (const auto& tet : mesh.tets.colwise()) {
     std::array<Vec3, 4> p;
     for (int a = 0; a < 4; ++a) p[static_cast<std::size_t>(a)] = mesh.X.col(tet(a));
-    angles.push_back(least_dihedral_deg(p));
+    angles.push_back(least_dihedral_deg(mesh.X, tet));
     quality.volume += (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]) / 6;
   }
   std::sort(angles.begin(), angles.end());

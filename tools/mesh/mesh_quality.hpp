@@ -17,6 +17,9 @@ struct MeshQuality {
                                        // the shell and from the shell's points to the former
 };
 
+/// Least angle between two faces of a tetrahedron [deg]: 71 of a regular one.
+double least_dihedral_deg(const Positions& X, const Eigen::Ref<const Eigen::Vector4i>& tet);
+
 MeshQuality mesh_quality(const TetMesh& mesh, const Shell& shell);
 
 }  // namespace articular::tools

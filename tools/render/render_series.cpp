@@ -127,14 +127,6 @@ void check_only(const fs::path& file, const std::vector<std::string>& only,
       throw sim::InputError({file.string()}, "--only: " + unknown_name("part", name, names));
 }
 
-void add_points(vtkPointSet& set, ViewFit& fit) {
-  for (vtkIdType i = 0; i < set.GetNumberOfPoints(); ++i) {
-    Vec3 p;
-    set.GetPoint(i, p.data());
-    fit.add(p);
-  }
-}
-
 void add_values(const Part& part, Survey& survey) {
   const std::vector<double> values = nodal_values(*part.set, survey.field);
   if (values.empty()) return;
@@ -238,6 +230,14 @@ void ViewFit::add(const Vec3& p) {
   back_ = std::min(back_, w);
   low_ = low_.cwiseMin(p);
   high_ = high_.cwiseMax(p);
+}
+
+void add_points(vtkPointSet& set, ViewFit& fit) {
+  for (vtkIdType i = 0; i < set.GetNumberOfPoints(); ++i) {
+    Vec3 p;
+    set.GetPoint(i, p.data());
+    fit.add(p);
+  }
 }
 
 Vec3 ViewFit::eye() const {

@@ -96,6 +96,8 @@ class ViewFit {
   Vec3 low_ = Vec3::Constant(1e300), high_ = Vec3::Constant(-1e300);
 };
 
+void add_points(vtkPointSet& set, ViewFit& fit);
+
 /// Gathered over all frames.
 struct Survey {
   std::set<std::string> fields;       // scalar and vector fields of tissue, or else of bones

@@ -15,7 +15,6 @@
 #include "sim/build/build_model.hpp"
 #include "sim/mesh/vtk_files.hpp"
 #include "sim/model/configuration.hpp"
-#include "sim/model/state.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/render_scene.hpp"
 #include "tools/render/virtual_display.hpp"
@@ -37,13 +36,6 @@ void refuse_frames(const RenderOptions& options) {
                           "--frame, --movie, --field, --only; or the folder of a run");
 }
 
-Vec3 place(const sim::WeightedPoint& point, const sim::Configuration& now) {
-  Vec3 x = Vec3::Zero();
-  for (std::size_t k = 0; k < point.nodes.size(); ++k)
-    x += point.weights[k] * now.position(point.nodes[k]);
-  return x;
-}
-
 vtkSmartPointer<vtkPointSet> lines_of(const sim::Model& model, const sim::Configuration& now,
                                       double unit) {
   vtkNew<vtkPoints> points;
@@ -53,7 +45,7 @@ vtkSmartPointer<vtkPointSet> lines_of(const sim::Model& model, const sim::Config
   for (const sim::Line& line : model.lines) {
     paths->InsertNextCell(static_cast<int>(line.path.size()));
     for (const sim::WeightedPoint& point : line.path) {
-      const Vec3 x = place(point, now) / unit;
+      const Vec3 x = now.position(point) / unit;
       paths->InsertCellPoint(points->InsertNextPoint(x.data()));
     }
     kind->InsertNextValue(line.muscle >= 0 ? 0 : 1);
@@ -73,10 +65,9 @@ Frame start_of(const sim::Model& model, const sim::Configuration& now, double un
       frame.parts.push_back({body.name, PartKind::Tissue,
                              sim::make_grid(tissue.X, unit, tissue.elements.tets(), {})});
     } else if (body.X.cols() > 0) {
-      const Positions X =
-          body.X.colwise() + model.rigid_bodies[static_cast<std::size_t>(body.rigid)].rest.p;
       frame.parts.push_back(
-          {body.name, PartKind::Bone, sim::make_surface(X, unit, body.triangles)});
+          {body.name, PartKind::Bone,
+           sim::make_surface(start_positions(model, body), unit, body.triangles)});
     }
   }
   if (!model.lines.empty())
@@ -108,7 +99,7 @@ void add_line_ends(const sim::Model& model, const sim::Configuration& now, doubl
   Marks::Points ends{{}, kLineEnd};
   for (const sim::Line& line : model.lines)
     for (const sim::WeightedPoint* point : {&line.path.front(), &line.path.back()})
-      ends.at.emplace_back(place(*point, now) / unit);
+      ends.at.emplace_back(now.position(*point) / unit);
   marks.points.push_back(std::move(ends));
 }
 
@@ -178,8 +169,7 @@ int render_setup(const RenderOptions& options) {
   for (const Part& part : frame.parts) {
     if (!options.focus.empty() && part.name != options.focus) continue;
     focus_found = true;
-    for (vtkIdType i = 0; i < part.set->GetNumberOfPoints(); ++i)
-      fit.add(Vec3(part.set->GetPoint(i)));
+    add_points(*part.set, fit);
   }
   if (!focus_found)
     throw sim::InputError({options.run.string()},

@@ -5,13 +5,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "sim/model/mass_properties.hpp"
+#include "tools/mesh/mesh_quality.hpp"
 
 namespace articular::tools {
 namespace {
@@ -22,12 +23,6 @@ double rounded(double x, double unit) { return unit * std::round(x / unit) + 0.0
 std::string in_mm(const Vec3& x) {
   const Vec3 mm = (1e3 * x).unaryExpr([](double value) { return rounded(value, 0.1); });
   return fmt::format("({:.1f} {:.1f} {:.1f})", mm.x(), mm.y(), mm.z());
-}
-
-/// In world coordinates at the start [m]; none of a body that only carries points.
-Positions nodes_of(const sim::Model& model, const sim::BodyModel& body) {
-  if (body.tissue >= 0) return model.tissues[static_cast<std::size_t>(body.tissue)].X;
-  return body.X.colwise() + model.rigid_bodies[static_cast<std::size_t>(body.rigid)].rest.p;
 }
 
 /// Each edge once each way.
@@ -41,31 +36,6 @@ bool is_closed(const Triangles& triangles) {
   return open.empty() && triangles.cols() > 0;
 }
 
-double volume(const Positions& X, const Tetrahedra& tets) {
-  double sum = 0;
-  for (const auto& t : tets.colwise()) {
-    const Vec3 a = X.col(t[0]);
-    sum += (X.col(t[1]) - a).cross(X.col(t[2]) - a).dot(X.col(t[3]) - a) / 6;
-  }
-  return sum;
-}
-
-/// Least angle between two faces of a tetrahedron [deg]: 71 of a regular one.
-double least_dihedral(const Positions& X, const Eigen::Ref<const Eigen::Vector4i>& tet) {
-  double least = std::numbers::pi;
-  for (int a = 0; a < 4; ++a)
-    for (int b = a + 1; b < 4; ++b) {  // along the edge of the other two
-      const Vec3 p = X.col(tet[a]), q = X.col(tet[b]);
-      int others[2], n = 0;
-      for (int c = 0; c < 4; ++c)
-        if (c != a && c != b) others[n++] = c;
-      const Vec3 edge = q - p, u = edge.cross(X.col(tet[others[0]]) - p),
-                 v = edge.cross(X.col(tet[others[1]]) - p);
-      least = std::min(least, std::atan2(u.cross(v).norm(), u.dot(v)));
-    }
-  return least * 180 / std::numbers::pi;
-}
-
 std::string kind_of(const sim::Model& model, const sim::BodyModel& body) {
   if (body.tissue >= 0) return "tissue";
   const sim::RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
@@ -77,7 +47,7 @@ std::string or_none(const std::optional<double>& value) {
 }
 
 std::string body_row(const sim::Model& model, const sim::BodyModel& body) {
-  const Positions X = nodes_of(model, body);
+  const Positions X = start_positions(model, body);
   std::string place = "-";
   if (X.cols() > 0) {
     const Vec3 low = X.rowwise().minCoeff(), high = X.rowwise().maxCoeff(), mm = 1e3 * (high - low);
@@ -89,11 +59,12 @@ std::string body_row(const sim::Model& model, const sim::BodyModel& body) {
   if (body.tissue >= 0) {
     const sim::Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
     const Tetrahedra& tets = tissue.elements.tets();
-    cubic_metres = volume(X, tets);
+    const std::vector<double>& volume = tissue.elements.rest_volume();
+    cubic_metres = std::accumulate(volume.begin(), volume.end(), 0.0);
     kilograms = tissue.lumped_mass.sum();
     elements = fmt::format("{}", tets.cols());
     angle = 180;
-    for (const auto& tet : tets.colwise()) angle = std::min(*angle, least_dihedral(X, tet));
+    for (const auto& tet : tets.colwise()) angle = std::min(*angle, least_dihedral_deg(X, tet));
   } else {
     const sim::RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
     if (is_closed(body.triangles))
@@ -142,13 +113,7 @@ std::string attachments(const sim::Scenario& scenario, const sim::Model& model) 
 
 /// From the first point of a line to the last.
 Vec3 direction(const sim::Line& line, const sim::Configuration& now) {
-  const auto place = [&](const sim::WeightedPoint& point) {
-    Vec3 x = Vec3::Zero();
-    for (std::size_t k = 0; k < point.nodes.size(); ++k)
-      x += point.weights[k] * now.position(point.nodes[k]);
-    return x;
-  };
-  return (place(line.path.back()) - place(line.path.front())).normalized();
+  return (now.position(line.path.back()) - now.position(line.path.front())).normalized();
 }
 
 std::string line_row(const sim::Line& line, const sim::Moment& start, const std::string& rest) {

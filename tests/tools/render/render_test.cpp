@@ -101,14 +101,18 @@ vtkSmartPointer<vtkImageData> read_png(const std::filesystem::path& file) {
   return reader->GetOutput();
 }
 
-/// Pixels where red stands out: muscles, but neither background nor bones.
-int num_red_pixels(vtkImageData& image) {
+/// Pixels where one channel stands out: of red, muscles, but neither background nor bones.
+int num_pixels_of(int channel, vtkImageData& image) {
   const auto* const bytes = static_cast<const unsigned char*>(image.GetScalarPointer());
   int count = 0;
-  for (vtkIdType i = 0; i < image.GetNumberOfPoints(); ++i)
-    count += bytes[3 * i] > 2 * bytes[3 * i + 1] && bytes[3 * i] > 2 * bytes[3 * i + 2] ? 1 : 0;
+  for (vtkIdType i = 0; i < image.GetNumberOfPoints(); ++i) {
+    const auto of = [&](int shift) { return bytes[3 * i + (channel + shift) % 3]; };
+    count += of(0) > 2 * of(1) && of(0) > 2 * of(2) ? 1 : 0;
+  }
   return count;
 }
+int num_red_pixels(vtkImageData& image) { return num_pixels_of(0, image); }
+int num_blue_pixels(vtkImageData& image) { return num_pixels_of(2, image); }
 
 /// Drawing needs a display, or Xvfb to make one.
 class Drawing : public testing::Test {
@@ -166,14 +170,6 @@ name = "lip"
 path = [{ body = "post", point = "0 0 8 mm" }, { body = "block", point = "0 0 2 mm", radius = "2.5 mm" }]
 max_force = "3 N"
 )";
-
-int num_blue_pixels(vtkImageData& image) {
-  const auto* const bytes = static_cast<const unsigned char*>(image.GetScalarPointer());
-  int count = 0;
-  for (vtkIdType i = 0; i < image.GetNumberOfPoints(); ++i)
-    count += bytes[3 * i + 2] > 2 * bytes[3 * i] && bytes[3 * i + 2] > 2 * bytes[3 * i + 1] ? 1 : 0;
-  return count;
-}
 
 TEST_F(Drawing, AScenarioIsDrawnBeforeAnyRunWithWhatIsAttached) {
   const TemporaryFolder folder;
