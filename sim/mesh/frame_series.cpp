@@ -1,17 +1,15 @@
 #include "sim/mesh/frame_series.hpp"
 
-#include <vtkSmartPointer.h>
-#include <vtkXMLDataElement.h>
-#include <vtkXMLUtilities.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 
 #include "sim/base/error.hpp"
 #include "sim/mesh/mesh_readers.hpp"
-#include "sim/mesh/vtk_files.hpp"
+#include "sim/mesh/xml_events.hpp"
 
 namespace articular::sim {
 namespace {
@@ -40,17 +38,22 @@ std::string shortest(double value) {
   return {text.data(), end};
 }
 
-std::string attribute(vtkXMLDataElement& element, const char* name) {
-  const char* const text = element.GetAttribute(name);
-  return text != nullptr ? text : "";
-}
-
 /// 123 from "frames/condyle_left_000123.vtp".
 std::optional<int> index_in_name(const std::string& file) {
   const std::string stem = std::filesystem::path(file).stem().string();
   const std::size_t underscore = stem.rfind('_');
   if (underscore == std::string::npos) return std::nullopt;
   return parse_integer(std::string_view(stem).substr(underscore + 1));
+}
+
+SeriesEntry entry(const std::string& pvd, const XmlAttributes& attributes) {
+  const std::string file = attribute(attributes, "file"), time = attribute(attributes, "timestep");
+  const std::optional<int> index = index_in_name(file);
+  const std::optional<double> seconds = parse_number(time);
+  if (!index)
+    throw InputError({pvd}, "`" + one_line(file) + "` is not a frame PART_000123.vtu or .vtp");
+  if (!seconds) throw InputError({pvd}, "timestep `" + one_line(time) + "` is not a number");
+  return {*seconds, *index, attribute(attributes, "name"), file};
 }
 
 constexpr const char* kHead =
@@ -70,23 +73,17 @@ bool is_contact_surface(const SeriesEntry& entry) { return entry.part.ends_with(
 std::vector<SeriesEntry> read_series(const std::filesystem::path& pvd) {
   const std::string name = pvd.string();
   if (!std::filesystem::exists(pvd)) throw InputError({name}, "no such series of frames");
-  const QuietVtk vtk;
-  const auto root =
-      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(name.c_str()));
-  vtkXMLDataElement* const collection =
-      root != nullptr ? root->FindNestedElementWithName("Collection") : nullptr;
-  if (collection == nullptr)
-    throw InputError({name}, "not readable as .pvd" + (vtk.failed() ? ": " + vtk.message() : ""));
+  std::ifstream in(pvd, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(in), {});
   std::vector<SeriesEntry> entries;
-  for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
-    vtkXMLDataElement& element = *collection->GetNestedElement(i);
-    const std::string file = attribute(element, "file"), time = attribute(element, "timestep");
-    const std::optional<int> index = index_in_name(file);
-    const std::optional<double> seconds = parse_number(time);
-    if (!index) throw InputError({name}, "`" + file + "` is not a frame PART_000123.vtu or .vtp");
-    if (!seconds) throw InputError({name}, "timestep `" + time + "` is not a number");
-    entries.push_back({*seconds, *index, attribute(element, "name"), file});
-  }
+  bool has_collection = false;
+  read_xml(name, ".pvd", text,
+           {.start = [&](const std::string& element, const XmlAttributes& attributes, std::size_t) {
+             if (element == "Collection") has_collection = true;
+             if (element == "DataSet" && has_collection) entries.push_back(entry(name, attributes));
+             return XmlNext::Continue;
+           }});
+  if (!has_collection) throw InputError({name}, "not readable as .pvd: it holds no <Collection>");
   // A part that stands still is listed in later frames with its first file: the frame's number is
   // that of its newest file.
   std::map<double, int> newest;

@@ -1,41 +1,41 @@
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 
 #include "sim/base/error.hpp"
 #include "sim/mesh/cell_collector.hpp"
 #include "sim/mesh/mesh_readers.hpp"
+#include "sim/mesh/number_type.hpp"
 
 namespace articular::sim {
 namespace {
 
 constexpr std::uint64_t kMostNodes = 1ULL << 31;  // nodes have numbers of 32 bits
 
-struct NumberType {
+struct NamedType {
   const char* name;
-  std::size_t size;  // [byte] in binary files
-  enum class Kind { Signed, Unsigned, Real } kind;
+  NumberType type;
 };
 
-constexpr NumberType kNumberTypes[] = {{"char", 1, NumberType::Kind::Signed},
-                                       {"signed_char", 1, NumberType::Kind::Signed},
-                                       {"unsigned_char", 1, NumberType::Kind::Unsigned},
-                                       {"short", 2, NumberType::Kind::Signed},
-                                       {"unsigned_short", 2, NumberType::Kind::Unsigned},
-                                       {"int", 4, NumberType::Kind::Signed},
-                                       {"unsigned_int", 4, NumberType::Kind::Unsigned},
-                                       {"long", 8, NumberType::Kind::Signed},
-                                       {"unsigned_long", 8, NumberType::Kind::Unsigned},
-                                       {"vtkidtype", 4, NumberType::Kind::Signed},
-                                       {"vtktypeint64", 8, NumberType::Kind::Signed},
-                                       {"vtktypeuint64", 8, NumberType::Kind::Unsigned},
-                                       {"float", 4, NumberType::Kind::Real},
-                                       {"double", 8, NumberType::Kind::Real}};
+using enum NumberType::Kind;
+constexpr NumberType kInt{4, Signed}, kByte{1, Unsigned}, kFloat{4, Real};
+constexpr NamedType kNumberTypes[] = {{"char", {1, Signed}},
+                                      {"signed_char", {1, Signed}},
+                                      {"unsigned_char", kByte},
+                                      {"short", {2, Signed}},
+                                      {"unsigned_short", {2, Unsigned}},
+                                      {"int", kInt},
+                                      {"unsigned_int", {4, Unsigned}},
+                                      {"long", {8, Signed}},
+                                      {"unsigned_long", {8, Unsigned}},
+                                      {"vtkidtype", kInt},
+                                      {"vtktypeint64", {8, Signed}},
+                                      {"vtktypeuint64", {8, Unsigned}},
+                                      {"float", kFloat},
+                                      {"double", {8, Real}}};
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
@@ -43,32 +43,6 @@ std::string lower(std::string_view text) {
   std::string result(text);
   for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return result;
-}
-
-/// Of big-endian bytes.
-double number_from(const char* bytes, const NumberType& type) {
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < type.size; ++i)
-    bits = bits << 8 | static_cast<unsigned char>(bytes[i]);
-  switch (type.kind) {
-    case NumberType::Kind::Real:
-      return type.size == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(bits))
-                            : std::bit_cast<double>(bits);
-    case NumberType::Kind::Unsigned:
-      return static_cast<double>(bits);
-    case NumberType::Kind::Signed:
-      break;
-  }
-  switch (type.size) {
-    case 1:
-      return static_cast<std::int8_t>(bits);
-    case 2:
-      return static_cast<std::int16_t>(bits);
-    case 4:
-      return static_cast<std::int32_t>(bits);
-    default:
-      return static_cast<double>(static_cast<std::int64_t>(bits));
-  }
 }
 
 /// The file format is described in the "VTK File Formats" chapter of the VTK User's Guide. What a
@@ -129,8 +103,8 @@ class LegacyVtkFile {
 
   NumberType number_type() {
     const std::string name = word();
-    for (const NumberType& type : kNumberTypes)
-      if (name == type.name) return type;
+    for (const NamedType& known : kNumberTypes)
+      if (name == known.name) return known.type;
     fail("unknown type of numbers `" + one_line(name) + "`");
   }
 
@@ -154,7 +128,7 @@ class LegacyVtkFile {
       return value;
     }
     if (left() < type.size) fail("it ends too early");
-    const double value = number_from(bytes_.data() + at_, type);
+    const double value = number_from(bytes_.data() + at_, type, std::endian::big);
     at_ += type.size;
     return value;
   }
@@ -199,7 +173,7 @@ class LegacyVtkFile {
     else if (section == "cells" && is_grid_)
       connectivity_ = read_cells();
     else if (section == "cell_types" && is_grid_)
-      types_ = integers(count("cells"), kNumberTypes[5], "types of cells");
+      types_ = integers(count("cells"), kInt, "types of cells");
     else if (section == "polygons" && !is_grid_)
       add(vtk_cell::kPolygon, read_cells());
     else if (section == "triangle_strips" && !is_grid_)
@@ -232,7 +206,7 @@ class LegacyVtkFile {
     const std::size_t before = at_;
     if (word() == "offsets") return read_offsets(first, second);  // since version 5
     at_ = before;
-    const std::vector<std::int64_t> list = integers(second, kNumberTypes[5], "cells");
+    const std::vector<std::int64_t> list = integers(second, kInt, "cells");
     Connectivity cells;
     cells.begin.push_back(0);
     for (std::size_t i = 0; i < list.size();) {
@@ -334,14 +308,14 @@ class LegacyVtkFile {
     if (kind == "lookup_table") {
       word_view();
       const std::uint64_t colours = count("colours");
-      numbers(4 * colours, is_text_ ? kNumberTypes[12] : kNumberTypes[2], "a table of colours");
+      numbers(4 * colours, is_text_ ? kFloat : kByte, "a table of colours");
       return;
     }
     const std::string name(word_view());
     if (kind == "color_scalars") {
       const std::uint64_t components = count("components");
       check_size(components);
-      numbers(components * num_tuples_, is_text_ ? kNumberTypes[12] : kNumberTypes[2], "colours");
+      numbers(components * num_tuples_, is_text_ ? kFloat : kByte, "colours");
       return;
     }
     std::uint64_t components = kind == "vectors" || kind == "normals" ? 3

@@ -14,6 +14,15 @@
 namespace articular::sim {
 namespace {
 
+struct Reader {
+  std::string_view ending;
+  MeshData (*read)(const std::filesystem::path& file);
+};
+constexpr Reader kReaders[] = {{".vtu", read_vtk_xml_mesh}, {".vtp", read_vtk_xml_mesh},
+                               {".vtk", read_legacy_vtk},   {".stl", read_stl},
+                               {".obj", read_obj},          {".ply", read_ply},
+                               {".inp", read_abaqus}};
+
 std::string lower_ending(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -56,8 +65,9 @@ void drop_unused_nodes(MeshData& mesh) {
 MeshData read_mesh(const std::filesystem::path& file, double unit) {
   const std::string name = file.string();
   const std::string ending = lower_ending(file);
-  if (ending != ".inp" && ending != ".obj" && ending != ".ply" && ending != ".vtk" &&
-      !is_vtk_file_ending(ending))
+  const auto reader = std::find_if(std::begin(kReaders), std::end(kReaders),
+                                   [&](const Reader& known) { return known.ending == ending; });
+  if (reader == std::end(kReaders))
     throw InputError({name}, "unknown mesh format `" + ending +
                                  "`; known: .vtu, .vtp, .vtk, .stl, .obj, .ply, .inp");
   std::error_code error;
@@ -68,11 +78,7 @@ MeshData read_mesh(const std::filesystem::path& file, double unit) {
   if (std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) == 0)
     throw InputError({name}, "the mesh file is empty");
 
-  MeshData mesh = ending == ".inp"   ? read_abaqus(file)
-                  : ending == ".obj" ? read_obj(file)
-                  : ending == ".ply" ? read_ply(file)
-                  : ending == ".vtk" ? read_legacy_vtk(file)
-                                     : read_with_vtk(file);
+  MeshData mesh = reader->read(file);
   if (mesh.tets.cols() == 0 && mesh.triangles.cols() == 0)
     throw InputError({name}, "holds no tetrahedra and no surface triangles");
   check_indices(name, mesh);

@@ -20,8 +20,7 @@ struct MeshData {
 
 /// Reads .vtu, .vtp, .vtk, .stl, .obj, .ply or Abaqus .inp (*NODE, *ELEMENT TYPE=C3D4; others
 /// skipped), by the file's ending. Nodes that no cell uses are dropped; coincident vertices of .stl
-/// are merged. Positions are in double precision, but for .stl, which VTK reads in single
-/// precision.
+/// are merged. Positions are in double precision, but for binary .stl, which has single.
 /// @param unit  metres per unit of the file
 /// @throws InputError naming the file (and line, for .inp) when it is missing, not readable as its
 ///         format, empty, holds other volume cells than linear tetrahedra, or a position that is

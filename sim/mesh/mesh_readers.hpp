@@ -30,9 +30,12 @@ MeshData read_ply(const std::filesystem::path& file);
 /// Read here and not by VTK, which trusts what a file claims to hold.
 MeshData read_legacy_vtk(const std::filesystem::path& file);
 
-/// .vtu, .vtp, .stl through VTK. Positions of .stl are in single precision, as in binary
-/// files.
-MeshData read_with_vtk(const std::filesystem::path& file);
+/// .vtu and .vtp, with the vectors of cells: see vtk_xml_file.hpp.
+MeshData read_vtk_xml_mesh(const std::filesystem::path& file);
+
+/// Stereolithography, text or binary (which has single precision). Corners at one place become one
+/// node. Read here and not by VTK, which reads any bytes as triangles.
+MeshData read_stl(const std::filesystem::path& file);
 
 /// One finite number, nothing before or after it; empty if it is none.
 std::optional<double> parse_number(std::string_view text);

@@ -16,10 +16,17 @@ std::vector<std::string_view> words(std::string_view line) {
   return parts;
 }
 
+/// A word for a message. Before its first vertex a file may be anything, and nothing of it is
+/// shown.
+std::string found(std::string_view word, const std::vector<double>& coordinates) {
+  return coordinates.size() < 3 ? "a word" : "`" + one_line(word) + "`";
+}
+
 /// The vertex of a corner `7`, `7/1`, `7//3` or `-1` (the last vertex so far), counted from 0.
-int corner(std::string_view text, int num_vertices, const Location& where) {
+int corner(std::string_view text, const std::vector<double>& coordinates, const Location& where) {
+  const int num_vertices = static_cast<int>(coordinates.size() / 3);
   const std::optional<int> number = parse_integer(text.substr(0, text.find('/')));
-  if (!number) throw InputError(where, "`" + std::string(text) + "` is not a corner of a face");
+  if (!number) throw InputError(where, found(text, coordinates) + " is not a corner of a face");
   const int index = *number > 0 ? *number - 1 : num_vertices + *number;
   if (*number == 0 || index < 0)
     throw InputError(where, "unknown vertex " + std::to_string(*number));
@@ -44,15 +51,14 @@ MeshData read_obj(const std::filesystem::path& file) {
       for (std::size_t i = 1; i < 4; ++i) {
         const std::optional<double> value = parse_number(parts[i]);
         if (!value)
-          throw InputError(where, "`" + std::string(parts[i]) + "` is not a finite number");
+          throw InputError(where, found(parts[i], coordinates) + " is not a finite number");
         coordinates.push_back(*value);
       }
     } else if (parts[0] == "f") {
       if (parts.size() < 4) throw InputError(where, "a face needs 3 corners or more");
-      const int num_vertices = static_cast<int>(coordinates.size() / 3);
       std::vector<int> polygon;
       for (std::size_t i = 1; i < parts.size(); ++i) {
-        polygon.push_back(corner(parts[i], num_vertices, where));
+        polygon.push_back(corner(parts[i], coordinates, where));
         if (polygon.back() > last_vertex) {
           last_vertex = polygon.back();
           last_vertex_line = where.line;

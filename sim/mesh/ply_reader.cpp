@@ -3,26 +3,22 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <limits>
 #include <sstream>
 
 #include "sim/base/error.hpp"
 #include "sim/mesh/mesh_readers.hpp"
+#include "sim/mesh/number_type.hpp"
 
 namespace articular::sim {
 namespace {
 
 enum class Encoding { Text, LittleEndian, BigEndian };
 
-struct Number {
-  std::size_t size = 0;  // [byte]; 0: no such type
-  enum class Kind { Signed, Unsigned, Real } kind = Kind::Signed;
-};
-
-Number number_type(const std::string& name) {
-  using enum Number::Kind;
+/// Of size 0 where there is no such type.
+NumberType number_type(const std::string& name) {
+  using enum NumberType::Kind;
   if (name == "char" || name == "int8") return {1, Signed};
   if (name == "uchar" || name == "uint8") return {1, Unsigned};
   if (name == "short" || name == "int16") return {2, Signed};
@@ -36,8 +32,8 @@ Number number_type(const std::string& name) {
 
 struct Property {
   std::string name;
-  Number count;  // of a list; size 0: a single number
-  Number value;
+  NumberType count;  // of a list; size 0: a single number
+  NumberType value;
 };
 
 struct Element {
@@ -49,7 +45,9 @@ struct Element {
 class PlyFile {
  public:
   explicit PlyFile(const std::filesystem::path& file)
-      : file_(file.string()), in_(file_, std::ios::binary) {}
+      : file_(file.string()),
+        in_(file_, std::ios::binary),
+        num_bytes_(std::filesystem::file_size(file)) {}
 
   MeshData read() {
     read_header();
@@ -87,7 +85,10 @@ class PlyFile {
       } else if (word == "element") {
         Element element;
         if (!(words >> element.name >> element.count) || element.count < 0)
-          fail("`" + line + "` is not an element with its count");
+          fail("`" + one_line(line) + "` is not an element with its count");
+        if (static_cast<std::uint64_t>(element.count) > num_bytes_)
+          fail("it claims " + std::to_string(element.count) + " of `" + one_line(element.name) +
+               "`, which is more than it has bytes");
         elements_.push_back(element);
       } else if (word == "property") {
         if (elements_.empty()) fail("a property stands before any element");
@@ -105,44 +106,30 @@ class PlyFile {
     if (type == "list") {
       words >> type;
       result.count = number_type(type);
-      if (result.count.size == 0 || result.count.kind == Number::Kind::Real)
-        fail("`" + line + "` is not a list");
+      if (result.count.size == 0 || result.count.kind == NumberType::Kind::Real)
+        fail("`" + one_line(line) + "` is not a list");
       words >> type;
     }
     result.value = number_type(type);
-    if (result.value.size == 0 || !(words >> result.name)) fail("`" + line + "` is not a property");
+    if (result.value.size == 0 || !(words >> result.name))
+      fail("`" + one_line(line) + "` is not a property");
     return result;
   }
 
-  double read_number(const Number& type) {
+  double read_number(const NumberType& type) {
     if (layout_ == Encoding::Text) {
       std::string word;
       in_ >> word;
       const std::optional<double> value = parse_number(word);
       if (!value)
-        fail(word.empty() ? "it ends too early" : "`" + word + "` is not a finite number");
+        fail(word.empty() ? "it ends too early"
+                          : "`" + one_line(word) + "` is not a finite number");
       return *value;
     }
     std::array<char, 8> bytes{};
     if (!in_.read(bytes.data(), static_cast<std::streamsize>(type.size))) fail("it ends too early");
-    if ((layout_ == Encoding::LittleEndian) != (std::endian::native == std::endian::little))
-      std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(type.size));
-    if (type.kind == Number::Kind::Real)
-      return type.size == 4 ? static_cast<double>(as<float>(bytes)) : as<double>(bytes);
-    if (type.kind == Number::Kind::Unsigned)
-      return type.size == 1   ? as<std::uint8_t>(bytes)
-             : type.size == 2 ? as<std::uint16_t>(bytes)
-                              : as<std::uint32_t>(bytes);
-    return type.size == 1   ? as<std::int8_t>(bytes)
-           : type.size == 2 ? as<std::int16_t>(bytes)
-                            : as<std::int32_t>(bytes);
-  }
-
-  template <class T>
-  static T as(const std::array<char, 8>& bytes) {
-    T value{};
-    std::memcpy(&value, bytes.data(), sizeof value);
-    return value;
+    return number_from(bytes.data(), type,
+                       layout_ == Encoding::BigEndian ? std::endian::big : std::endian::little);
   }
 
   void read_element(const Element& element) {
@@ -178,6 +165,7 @@ class PlyFile {
 
   std::string file_;
   std::ifstream in_;
+  std::uint64_t num_bytes_;
   Encoding layout_ = Encoding::Text;
   std::vector<Element> elements_;
   std::vector<double> coordinates_;

@@ -3,70 +3,65 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkIdTypeArray.h>
+#include <vtkFieldData.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkSTLReader.h>
-#include <vtkTypeInt32Array.h>
+#include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
 
 #include "sim/base/atomic_file.hpp"
 #include "sim/base/error.hpp"
+#include "sim/mesh/vtk_xml_file.hpp"
 
 namespace articular::sim {
 namespace {
 
-constexpr std::array<std::string_view, 3> kEndings = {".vtu", ".vtp", ".stl"};
-
-/// VTK reads any bytes as triangles, so the count in a binary file is held against its size here.
-void check_stl(const std::string& file) {
-  constexpr std::uintmax_t kHeader = 84, kTriangle = 50;  // [byte]
-  std::array<char, kHeader> header{};
-  std::ifstream(file, std::ios::binary).read(header.data(), kHeader);
-  const std::string_view text(header.data(), header.size());
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first != std::string_view::npos && text.substr(first).starts_with("solid")) return;
-  std::uint32_t count = 0;
-  std::memcpy(&count, header.data() + 80, sizeof count);
-  if (std::filesystem::file_size(file) < kHeader + kTriangle * count)
-    throw InputError({file},
-                     "not readable as .stl: neither text (`solid ...`) nor as long as its " +
-                         std::to_string(count) + " triangles");
-}
-
-/// VTK trusts the offsets of a file; a mesh must not be walked before they are known to be sound.
-bool is_sound(vtkCellArray* cells) {
-  if (cells == nullptr) return true;
-  vtkDataArray* const offsets = cells->GetOffsetsArray();
-  double previous = 0;
-  for (vtkIdType i = 0; i < offsets->GetNumberOfTuples(); ++i) {
-    const double offset = offsets->GetComponent(i, 0);
-    if (offset < previous) return false;
-    previous = offset;
+vtkSmartPointer<vtkCellArray> make_cells(const VtkXmlCells& cells) {
+  auto array = vtkSmartPointer<vtkCellArray>::New();
+  for (std::size_t e = 0; e + 1 < cells.begin.size(); ++e) {
+    array->InsertNextCell(static_cast<int>(cells.begin[e + 1] - cells.begin[e]));
+    for (std::int64_t i = cells.begin[e]; i < cells.begin[e + 1]; ++i)
+      array->InsertCellPoint(cells.nodes[static_cast<std::size_t>(i)]);
   }
-  return previous <= static_cast<double>(cells->GetNumberOfConnectivityIds());
+  return array;
 }
 
-template <class Reader>
-vtkSmartPointer<vtkPointSet> read_with(const std::string& file) {
-  vtkNew<Reader> reader;
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  return vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
+void add_fields(const std::vector<VtkXmlField>& fields, vtkDataSetAttributes& to) {
+  for (const VtkXmlField& field : fields) {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(field.name.c_str());
+    array->SetNumberOfComponents(static_cast<int>(field.components));
+    array->SetNumberOfTuples(static_cast<vtkIdType>(field.values.size() / field.components));
+    std::copy(field.values.begin(), field.values.end(), array->GetPointer(0));
+    to.AddArray(array);
+  }
+}
+
+vtkSmartPointer<vtkPointSet> make_cells_of(const VtkXmlContent& content) {
+  if (content.is_grid) {
+    vtkNew<vtkUnsignedCharArray> types;
+    for (const int type : content.types)
+      types->InsertNextValue(static_cast<unsigned char>(std::clamp(type, 0, 255)));
+    auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    grid->SetCells(types, make_cells(content.cells));
+    return grid;
+  }
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetVerts(make_cells(content.vertices));
+  surface->SetLines(make_cells(content.lines));
+  surface->SetPolys(make_cells(content.polygons));
+  surface->SetStrips(make_cells(content.strips));
+  return surface;
 }
 
 template <class Writer>
@@ -152,35 +147,23 @@ std::string QuietVtk::message() const {
   return text;
 }
 
-bool is_vtk_file_ending(std::string_view ending) {
-  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
-}
-
 vtkSmartPointer<vtkPointSet> read_vtk_file(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (!is_vtk_file_ending(ending)) throw InputError({name}, "expected a file .vtu, .vtp or .stl");
-  if (ending == ".stl") check_stl(name);
-  const QuietVtk vtk;
-  vtkSmartPointer<vtkPointSet> set = ending == ".vtu"
-                                         ? read_with<vtkXMLUnstructuredGridReader>(name)
-                                     : ending == ".vtp" ? read_with<vtkXMLPolyDataReader>(name)
-                                                        : read_with<vtkSTLReader>(name);
-  if (vtk.failed()) throw InputError({name}, "not readable as " + ending + ": " + vtk.message());
-  if (set == nullptr)
-    throw InputError(
-        {name}, "not readable as " + ending + ": expected an unstructured grid or polygonal data");
-  auto* const grid = vtkUnstructuredGrid::SafeDownCast(set);
-  auto* const surface = vtkPolyData::SafeDownCast(set);
-  if (grid == nullptr && surface == nullptr)
-    throw InputError({name}, std::string("holds a ") + set->GetClassName() +
-                                 "; expected an unstructured grid or polygonal data");
-  const bool sound = grid != nullptr
-                         ? is_sound(grid->GetCells())
-                         : is_sound(surface->GetPolys()) && is_sound(surface->GetStrips());
-  if (!sound)
-    throw InputError({name}, "not readable as " + ending + ": the cells' offsets do not ascend");
+  const VtkXmlContent content = read_vtk_xml(file, VtkXmlFields::All);
+  vtkSmartPointer<vtkPointSet> set = make_cells_of(content);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(content.points.size() / 3));
+  for (vtkIdType a = 0; a < points->GetNumberOfPoints(); ++a)
+    points->SetPoint(a, content.points.data() + 3 * a);
+  set->SetPoints(points);
+  add_fields(content.point_fields, *set->GetPointData());
+  add_fields(content.cell_fields, *set->GetCellData());
+  for (const auto& [name, text] : content.texts) {
+    vtkNew<vtkStringArray> array;
+    array->SetName(name.c_str());
+    array->InsertNextValue(text);
+    set->GetFieldData()->AddArray(array);
+  }
   return set;
 }
 

@@ -12,8 +12,8 @@
 #include "fem/base/types.hpp"
 #include "sim/base/atomic_file.hpp"
 
-/// VTK's readers and writers with our manners: quiet, errors as exceptions, files whole or not at
-/// all.
+/// VTK's data sets from files and into them, with our manners: quiet, errors as exceptions, files
+/// whole or not at all.
 namespace articular::sim {
 
 /// While it lives, VTK prints nothing: its first error is kept instead. VTK's error output is one
@@ -35,10 +35,9 @@ class QuietVtk {
   int previous_verbosity_;
 };
 
-/// .vtu .vtp .stl, in lower case.
-bool is_vtk_file_ending(std::string_view ending);
-
-/// @throws InputError in one line when VTK finds anything wrong with the file
+/// A .vtu or .vtp with all its fields, and the first text of each array of texts, for VTK's
+/// filters. Read by read_vtk_xml().
+/// @throws InputError in one line when anything is wrong with the file
 vtkSmartPointer<vtkPointSet> read_vtk_file(const std::filesystem::path& file);
 
 /// A .vtu or .vtp: appended binary, zlib. @throws SystemError

@@ -1,74 +1,50 @@
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkPolyData.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <cstdint>
 #include <vector>
 
 #include "sim/mesh/cell_collector.hpp"
 #include "sim/mesh/mesh_readers.hpp"
-#include "sim/mesh/vtk_files.hpp"
+#include "sim/mesh/vtk_xml_file.hpp"
 
 namespace articular::sim {
 namespace {
 
-static_assert(vtk_cell::kTetrahedron == VTK_TETRA && vtk_cell::kQuad == VTK_QUAD &&
-              vtk_cell::kPolygon == VTK_POLYGON && vtk_cell::kTriangle == VTK_TRIANGLE &&
-              vtk_cell::kTriangleStrip == VTK_TRIANGLE_STRIP &&
-              vtk_cell::kPolyLine == VTK_POLY_LINE && sizeof(vtkIdType) == sizeof(std::int64_t));
-
-void add_cell(int type, vtkIdType e, vtkCellArray& from, CellCollector& cells) {
-  vtkIdType count = 0;
-  const vtkIdType* nodes = nullptr;
-  from.GetCellAtId(e, count, nodes);
-  const std::vector<std::int64_t> numbers(nodes, nodes + count);
-  cells.add(type, count, numbers.data());
-}
-
-void add_all(int type, vtkCellArray* from, CellCollector& cells) {
-  if (from == nullptr) return;
-  for (vtkIdType e = 0; e < from->GetNumberOfCells(); ++e) add_cell(type, e, *from, cells);
+template <class TypeOf>
+void add_all(const VtkXmlCells& cells, CellCollector& collector, TypeOf type_of) {
+  for (std::size_t e = 0; e + 1 < cells.begin.size(); ++e)
+    collector.add(type_of(e), cells.begin[e + 1] - cells.begin[e],
+                  cells.nodes.data() + cells.begin[e]);
 }
 
 /// Cell arrays with three components, of the tetrahedra alone.
 std::vector<std::pair<std::string, Eigen::Matrix3Xd>> tetrahedra_vectors(
-    vtkUnstructuredGrid& grid) {
-  std::vector<vtkIdType> tets;
-  for (vtkIdType e = 0; e < grid.GetNumberOfCells(); ++e)
-    if (grid.GetCellType(e) == VTK_TETRA) tets.push_back(e);
+    const VtkXmlContent& content) {
+  std::vector<Eigen::Index> tets;
+  for (std::size_t e = 0; e < content.types.size(); ++e)
+    if (content.types[e] == vtk_cell::kTetrahedron) tets.push_back(static_cast<Eigen::Index>(e));
   std::vector<std::pair<std::string, Eigen::Matrix3Xd>> vectors;
-  for (int a = 0; a < grid.GetCellData()->GetNumberOfArrays(); ++a) {
-    vtkDataArray* const array = grid.GetCellData()->GetArray(a);  // null for texts
-    if (array == nullptr || array->GetNumberOfComponents() != 3 || array->GetName() == nullptr)
-      continue;
-    Eigen::Matrix3Xd values(3, static_cast<Eigen::Index>(tets.size()));
-    for (std::size_t e = 0; e < tets.size(); ++e)
-      array->GetTuple(tets[e], values.col(static_cast<Eigen::Index>(e)).data());
-    vectors.emplace_back(array->GetName(), std::move(values));
+  for (const VtkXmlField& field : content.cell_fields) {
+    const Eigen::Map<const Eigen::Matrix3Xd> all(field.values.data(), 3,
+                                                 static_cast<Eigen::Index>(content.types.size()));
+    vectors.emplace_back(field.name, all(Eigen::all, tets));
   }
   return vectors;
 }
 
 }  // namespace
 
-MeshData read_with_vtk(const std::filesystem::path& file) {
-  const vtkSmartPointer<vtkPointSet> set = read_vtk_file(file);
+MeshData read_vtk_xml_mesh(const std::filesystem::path& file) {
+  const VtkXmlContent content = read_vtk_xml(file, VtkXmlFields::CellVectors);
   CellCollector cells(file.string());
-  if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(set)) {
-    for (vtkIdType e = 0; e < grid->GetNumberOfCells(); ++e)
-      add_cell(grid->GetCellType(e), e, *grid->GetCells(), cells);
-  } else if (auto* const surface = vtkPolyData::SafeDownCast(set)) {
-    add_all(VTK_POLYGON, surface->GetPolys(), cells);
-    add_all(VTK_TRIANGLE_STRIP, surface->GetStrips(), cells);
-  }
   MeshData mesh;
+  if (content.is_grid) {
+    add_all(content.cells, cells, [&](std::size_t e) { return content.types[e]; });
+    mesh.cell_vectors = tetrahedra_vectors(content);
+  } else {
+    add_all(content.polygons, cells, [](std::size_t) { return vtk_cell::kPolygon; });
+    add_all(content.strips, cells, [](std::size_t) { return vtk_cell::kTriangleStrip; });
+  }
   cells.put_into(mesh);
-  if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(set))
-    mesh.cell_vectors = tetrahedra_vectors(*grid);
-  mesh.X.resize(3, set->GetNumberOfPoints());
-  for (vtkIdType a = 0; a < set->GetNumberOfPoints(); ++a) set->GetPoint(a, mesh.X.col(a).data());
+  mesh.X = Eigen::Map<const Positions>(content.points.data(), 3,
+                                       static_cast<Eigen::Index>(content.points.size() / 3));
   return mesh;
 }
 

@@ -11,9 +11,12 @@
 #include <system_error>
 
 #include "sim/base/message_text.hpp"
+#include "sim/scenario/toml_key_depth.hpp"
 
 namespace articular::sim {
 namespace {
+
+constexpr int kMostParts = 100;  // of a dotted key
 
 /// Copies the parser's tree. With `fixed` set, every node stands there instead of where it was
 /// parsed.
@@ -98,6 +101,9 @@ Node* Node::find(std::string_view key) {
 
 Node read_toml(const std::filesystem::path& file) {
   const std::string text = read_text(file);
+  if (const KeyDepth key = deepest_key(text); key.parts > kMostParts)
+    throw InputError({file.string(), key.line},
+                     fmt::format("a key has {} parts; expected {} at most", key.parts, kMostParts));
   try {
     const toml::table table = toml::parse(text);
     return Copier(file.string(), std::nullopt).copy(table, "the scenario");
@@ -130,6 +136,7 @@ std::string plain_text(const Node& node) {
 
 Node parse_toml_value(std::string_view text, const std::string& name, const Location& where) {
   Node node{std::string(text), name, where};
+  if (deepest_key(text).parts > kMostParts) return node;
   try {
     const toml::table table = toml::parse("v = " + std::string(text));
     if (table.size() == 1) node = Copier("", where).copy(*table.get("v"), name);

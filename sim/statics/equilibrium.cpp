@@ -240,8 +240,12 @@ double Equilibrium::Solver::largest_displacement(const Eigen::VectorXd& u) const
 
 /// The part of a correction from before_ to take.
 double Equilibrium::Solver::line_search(const Eigen::VectorXd& direction) {
+  // What can touch must not be carried through what it is to meet. Nothing else bounds a
+  // correction: the search sees where the laws take it.
+  const double trusted =
+      model_.contacts.empty() ? std::numeric_limits<double>::infinity() : model_.trusted_motion;
   const double motion = largest_displacement(direction);
-  const double most = motion > model_.trusted_motion ? model_.trusted_motion / motion : 1;
+  const double most = motion > trusted ? trusted / motion : 1;
   return searched_part(most, direction.dot(r_before_), [&](double part) {
     trial_ = before_ + part * direction;
     return direction.dot(searched_residual(part));

@@ -1,89 +1,16 @@
 // Legacy .vtk: what VTK writes is read, and whatever else is in a file is refused in one line.
 #include <gtest/gtest.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkFloatArray.h>
-#include <vtkIntArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkPolyDataWriter.h>
-#include <vtkStringArray.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridWriter.h>
 
 #include <random>
 
-#include "sim/base/error.hpp"
 #include "sim/mesh/mesh_io.hpp"
+#include "tests/sim/support/damaged_file.hpp"
 #include "tests/sim/support/temporary_folder.hpp"
+#include "tests/sim/support/vtk_sets.hpp"
 
 namespace articular::sim::legacy_vtk_reader_test {
-
-vtkNew<vtkPoints> some_points(int type) {
-  vtkNew<vtkPoints> points;
-  points->SetDataType(type);
-  const double x[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1.25}, {-0.5, 3, 7}};
-  for (const auto& p : x) points->InsertNextPoint(p);
-  return points;
-}
-
-/// Arrays of every kind that a file can have beside its cells.
-void add_arrays(vtkDataSet& set) {
-  const auto add = [](vtkDataSetAttributes& to, vtkDataArray* array, const char* name,
-                      int components, vtkIdType tuples) {
-    array->SetName(name);
-    array->SetNumberOfComponents(components);
-    array->SetNumberOfTuples(tuples);
-    for (vtkIdType i = 0; i < tuples; ++i)
-      for (int c = 0; c < components; ++c) array->SetComponent(i, c, 0.5 * double(i) - c);
-    to.AddArray(array);
-  };
-  vtkCellData& cells = *set.GetCellData();
-  vtkPointData& points = *set.GetPointData();
-  add(cells, vtkNew<vtkDoubleArray>(), "fibre", 3, set.GetNumberOfCells());
-  add(cells, vtkNew<vtkFloatArray>(), "direction", 3, set.GetNumberOfCells());
-  add(cells, vtkNew<vtkIntArray>(), "label", 1, set.GetNumberOfCells());
-  add(points, vtkNew<vtkFloatArray>(), "pressure with spaces", 1, set.GetNumberOfPoints());
-  add(points, vtkNew<vtkDoubleArray>(), "stress", 9, set.GetNumberOfPoints());
-  points.SetActiveTensors("stress");
-  cells.SetActiveVectors("direction");
-  cells.SetActiveScalars("label");
-  vtkNew<vtkStringArray> text;
-  text->SetName("unit");
-  text->InsertNextValue("mm and more");
-  text->InsertNextValue(std::string(100, 'x'));  // its length takes two bytes
-  set.GetFieldData()->AddArray(text);
-}
-
-vtkNew<vtkUnstructuredGrid> some_grid(int type) {
-  vtkNew<vtkUnstructuredGrid> grid;
-  grid->SetPoints(some_points(type));
-  const vtkIdType line[] = {0, 5}, tets[2][4] = {{0, 1, 2, 3}, {1, 2, 3, 4}}, face[] = {0, 2, 1};
-  grid->InsertNextCell(VTK_LINE, 2, line);
-  grid->InsertNextCell(VTK_TETRA, 4, tets[0]);
-  grid->InsertNextCell(VTK_TRIANGLE, 3, face);
-  grid->InsertNextCell(VTK_TETRA, 4, tets[1]);
-  add_arrays(*grid);
-  return grid;
-}
-
-vtkNew<vtkPolyData> some_surface(int type) {
-  vtkNew<vtkPolyData> surface;
-  surface->SetPoints(some_points(type));
-  vtkNew<vtkCellArray> lines, polygons, strips;
-  const vtkIdType line[] = {4, 5}, quad[] = {0, 1, 4, 2}, strip[] = {0, 1, 3, 4};
-  lines->InsertNextCell(2, line);
-  polygons->InsertNextCell(4, quad);
-  strips->InsertNextCell(4, strip);
-  surface->SetLines(lines);
-  surface->SetPolys(polygons);
-  surface->SetStrips(strips);
-  add_arrays(*surface);
-  return surface;
-}
 
 template <class Writer, class Set>
 void write(const std::filesystem::path& file, Set* set, bool binary, int version) {
@@ -148,16 +75,6 @@ TEST_P(Written, ASurfaceIsReadWithItsPolygonsAndStrips) {
   EXPECT_NE(std::find(found.begin(), found.end(), std::array{0, 1, 3}), found.end());
 }
 
-/// "" for a mesh.
-std::string refusal(const std::filesystem::path& file) {
-  try {
-    read_mesh(file, 1);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 // Bytes changed, removed, doubled; numbers replaced by large ones.
 TEST_P(Written, WhateverIsDamagedIsReadOrRefusedInOneLine) {
   const auto [binary, version, type] = GetParam();
@@ -166,30 +83,7 @@ TEST_P(Written, WhateverIsDamagedIsReadOrRefusedInOneLine) {
     const std::string whole = content(file);
     int refused = 0;
     for (int trial = 0; trial < 100; ++trial) {
-      std::string text = whole;
-      for (unsigned k = 0; k <= random() % 3; ++k) {
-        const std::size_t at = random() % text.size(), length = random() % 20;
-        switch (random() % 5) {
-          case 0:
-            text[at] = static_cast<char>(random() & 0xff);
-            break;
-          case 1:
-            text.erase(at, length);
-            break;
-          case 2:
-            text.insert(at, text.substr(at, length));
-            break;
-          case 3:
-            text.resize(at + 1);
-            break;
-          default:
-            if (const std::size_t digit = text.find_first_of("0123456789", at);
-                digit != std::string::npos)
-              text.replace(digit, 1, std::array{"4294967297", "-1", "1e308", "99"}[random() % 4]);
-        }
-        if (text.empty()) text = " ";
-      }
-      const std::string message = refusal(folder_.file("damaged.vtk", text));
+      const std::string message = refusal(folder_.file("damaged.vtk", damaged(whole, random)));
       EXPECT_EQ(message.find('\n'), std::string::npos) << message;
       if (!message.empty()) ++refused;
     }

@@ -338,7 +338,7 @@ std::string text_vtu(const std::string& z, const std::string& connectivity, int 
          std::to_string(type) + "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>\n";
 }
 
-TEST(MeshIo, WhatVtkTakesWithoutAWordIsCheckedHere) {
+TEST(MeshIo, ACellsPointsAndItsTypeAreChecked) {
   constexpr int kTetrahedron = 10, kQuad = 9, kPolyLine = 4, kQuadraticEdge = 21;
   const TemporaryFolder folder;
   const auto error = [&](const std::string& text) { return error_of(folder.file("m.vtu", text)); };
@@ -355,6 +355,63 @@ TEST(MeshIo, WhatVtkTakesWithoutAWordIsCheckedHere) {
             std::string::npos);
 }
 
+// Some programs write "solid" into the head of binary files.
+TEST(MeshIo, AnStlIsBinaryIfItIsAsLongAsItsTriangles) {
+  const TemporaryFolder folder;
+  std::string binary = "solid but binary";
+  binary.resize(80, ' ');
+  const auto append = [&](const auto& value) {
+    binary.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  append(std::uint32_t{2});
+  for (const std::array<float, 12>& facet :
+       {std::array<float, 12>{0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0},
+        std::array<float, 12>{0, 0, 1, 1, 0, 0, 1, 0, 0, 5, 5, 5}}) {  // the second is flat
+    append(facet);
+    append(std::uint16_t{0});
+  }
+  EXPECT_EQ(read_mesh(folder.file("m.stl", binary), 1).triangles, Eigen::Vector3i(0, 1, 2));
+  EXPECT_NE(error_of(folder.file("cut.stl", binary.substr(0, 150))), "no error");
+  binary.replace(0, 5, "xxxxx");
+  EXPECT_NE(error_of(folder.file("cut.stl", binary.substr(0, 150))).find("2 triangles"),
+            std::string::npos);
+}
+
+TEST(MeshIo, ADamagedStlInTextIsRefusedWithItsLine) {
+  const TemporaryFolder folder;
+  const auto error = [&](const std::string& text) {
+    return error_of(folder.file("m.stl", "solid s\nfacet normal 0 0 1\nouter loop\n" + text));
+  };
+  EXPECT_NE(
+      error("vertex 0 0 0\nvertex 1 0 x\n").find("m.stl:5: not readable as .stl: expected three"),
+      std::string::npos);
+  EXPECT_NE(error("vertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\n").find("has 2 corners"),
+            std::string::npos);
+  EXPECT_NE(error("vertex 0 0 0\nvertex 1 0 0\n").find("ends within a facet"), std::string::npos);
+}
+
+// A mesh may lie behind a link to what is nobody's business.
+TEST(MeshIo, AFileThatIsNoMeshIsNotQuoted) {
+  const TemporaryFolder folder;
+  for (const std::string secret :
+       {"secret:x:0:0", "v secret 1 2", "f secret 1 2", "# secret", "*secret"})
+    for (const std::string ending : {".vtu", ".vtp", ".vtk", ".stl", ".obj", ".ply", ".inp"}) {
+      const std::string error = error_of(folder.file("m" + ending, secret + "\n"));
+      EXPECT_NE(error, "no error");
+      EXPECT_EQ(error.find("secret"), std::string::npos) << error;
+    }
+}
+
+TEST(MeshIo, APlyThatClaimsMoreThanItHasIsRefusedAtOnce) {
+  const TemporaryFolder folder;
+  for (const std::string properties : {"", "property float x\n"})
+    EXPECT_NE(
+        error_of(folder.file("m.ply", "ply\nformat ascii 1.0\nelement vertex 1000000000000\n" +
+                                          properties + "end_header\n"))
+            .find("more than it has bytes"),
+        std::string::npos);
+}
+
 TEST(MeshIo, CutOffFilesAreInputErrors) {
   const TemporaryFolder folder;
   write_mesh(folder / "m.vtu", two_tetrahedra(), 1);
@@ -366,8 +423,6 @@ TEST(MeshIo, CutOffFilesAreInputErrors) {
   }
 }
 
-/// VTK's error output is one for the process: without a lock, one thread loses its error to
-/// another.
 TEST(MeshIo, ThreadsThatReadDamagedFilesAtOnceEachGetTheirError) {
   const TemporaryFolder folder;
   write_mesh(folder / "m.vtu", two_tetrahedra(), 1);
