@@ -4,9 +4,13 @@
 
 #include "fem/material/blemker_muscle.hpp"
 #include "fem/material/corotated.hpp"
+#include "fem/material/coupled_neo_hookean.hpp"
+#include "fem/material/holmes_mow.hpp"
 #include "fem/material/linear.hpp"
 #include "fem/material/mooney_rivlin.hpp"
 #include "fem/material/neo_hookean.hpp"
+#include "fem/material/ogden.hpp"
+#include "fem/material/st_venant_kirchhoff.hpp"
 #include "fem/material/transversely_isotropic.hpp"
 #include "fem/material/veronda_westmann.hpp"
 #include "fem/material/yeoh.hpp"
@@ -15,8 +19,9 @@ namespace articular::fem {
 
 /// Every law that elements can have; another one joins by its name here.
 using AnyLaw =
-    std::variant<Linear, Corotated, NeoHookean, MooneyRivlin<VolumeChange>,
-                 MooneyRivlin<LogVolumeChange>, Yeoh<VolumeChange>, Yeoh<LogVolumeChange>,
+    std::variant<Linear, Corotated, StVenantKirchhoff, NeoHookean, CoupledNeoHookean, HolmesMow,
+                 MooneyRivlin<VolumeChange>, MooneyRivlin<LogVolumeChange>, Yeoh<VolumeChange>,
+                 Yeoh<LogVolumeChange>, Ogden<VolumeChange>, Ogden<LogVolumeChange>,
                  VerondaWestmann<VolumeChange>, VerondaWestmann<LogVolumeChange>,
                  TransverselyIsotropic<VolumeChange>, TransverselyIsotropic<LogVolumeChange>,
                  BlemkerMuscle<VolumeChange>, BlemkerMuscle<LogVolumeChange>>;

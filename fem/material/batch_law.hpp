@@ -7,7 +7,7 @@ namespace articular::fem {
 /// A law that the batched kernels know, as plain numbers: those kernels are compiled once for each
 /// instruction set and share no inline code with anything else.
 struct BatchLaw {
-  enum class Kind { Corotated, NeoHookean };
+  enum class Kind { Corotated, NeoHookean, CoupledNeoHookean };
   Kind kind;
   double mu, lambda;  // as in the formulas of the material [Pa]
 };
@@ -22,11 +22,11 @@ concept Batched = requires(const M& m) {
 /// A law that is split into distortion and dilatation (see split_material.hpp), as plain numbers,
 /// for the kernels of point_kernels.hpp.
 struct SplitBatchLaw {
-  enum class Distortion { Corotated, NeoHookean, Polynomial };
+  enum class Distortion { Corotated, NeoHookean, CoupledNeoHookean, Polynomial };
   enum class Theta { Volume, LogVolume };  // of Corotated: neither, but that of its rotation
   Distortion distortion;
   Theta theta = Theta::Volume;
-  /// Corotated, NeoHookean: μ, λ of the distortion. Polynomial: c10, c20, c01 of
+  /// Corotated and both NeoHookean: μ, λ of the distortion. Polynomial: c10, c20, c01 of
   /// c10 (Ī1 − 3) + c20 (Ī1 − 3)² + c01 (Ī2 − 3). [Pa]
   double c[3];
 };

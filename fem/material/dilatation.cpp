@@ -33,6 +33,12 @@ Mat3 StretchDilatation::gradient(const Mat3& F) {
 
 Mat9 StretchDilatation::hessian(const Mat3& F) { return rotation_derivative(rotation_svd(F)); }
 
+double GreenDilatation::value(const Mat3& F) { return 0.5 * (F.squaredNorm() - 3); }
+
+Mat3 GreenDilatation::gradient(const Mat3& F) { return F; }
+
+Mat9 GreenDilatation::hessian(const Mat3&) { return Mat9::Identity(); }
+
 double SmallDilatation::value(const Mat3& F) { return F.trace() - 3; }
 
 Mat3 SmallDilatation::gradient(const Mat3&) { return Mat3::Identity(); }

@@ -40,6 +40,14 @@ struct StretchDilatation {
 };
 static_assert(DilatationMeasure<StretchDilatation>);
 
+/// Θ = tr E of the Green–Lagrange strain E = (FᵀF − I)/2. Defined for every F.
+struct GreenDilatation {
+  static double value(const Mat3& F);
+  static Mat3 gradient(const Mat3& F);
+  static Mat9 hessian(const Mat3&);
+};
+static_assert(DilatationMeasure<GreenDilatation>);
+
 /// Θ = tr ε = tr F − 3, of the theory of small strain.
 struct SmallDilatation {
   static double value(const Mat3& F);

@@ -39,7 +39,8 @@ ToeLinearFibre::ToeLinearFibre(const Constants& c) : c_(c) {
 }
 
 double ToeLinearFibre::energy(double stretch, double activation) const {
-  const double active = activation * c_.active_stress * std::log(stretch);
+  const double active = activation * c_.active_stress *
+                        (c_.force_length ? c_.force_length->work(stretch) : std::log(stretch));
   if (stretch <= 1) return active;
   if (stretch < c_.toe_end) return active + toe_energy(stretch);
   return active + toe_energy(c_.toe_end) + c_.c5 * (stretch - c_.toe_end) +
@@ -51,20 +52,27 @@ double ToeLinearFibre::tension(double stretch, double activation) const {
 }
 
 double ToeLinearFibre::stiffness(double stretch, double activation) const {
-  return (stress_slope(stretch) - tension(stretch, activation)) / stretch;
+  return (stress_slope(stretch, activation) - tension(stretch, activation)) / stretch;
 }
 
 double ToeLinearFibre::cauchy_stress(double stretch, double activation) const {
-  const double active = activation * c_.active_stress;
+  const double active = active_stress(stretch, activation);
   if (stretch <= 1) return active;
   if (stretch < c_.toe_end) return active + c_.c3 * std::expm1(c_.c4 * (stretch - 1));
   return active + c_.c5 * stretch + c6_;
 }
 
-double ToeLinearFibre::stress_slope(double stretch) const {
-  if (stretch <= 1) return 0;
-  if (stretch < c_.toe_end) return c_.c3 * c_.c4 * std::exp(c_.c4 * (stretch - 1));
-  return c_.c5;
+double ToeLinearFibre::active_stress(double stretch, double activation) const {
+  const double full = activation * c_.active_stress;
+  return c_.force_length ? full * c_.force_length->factor(stretch) : full;
+}
+
+double ToeLinearFibre::stress_slope(double stretch, double activation) const {
+  const double active =
+      c_.force_length ? activation * c_.active_stress * c_.force_length->slope(stretch) : 0;
+  if (stretch <= 1) return active;
+  if (stretch < c_.toe_end) return active + c_.c3 * c_.c4 * std::exp(c_.c4 * (stretch - 1));
+  return active + c_.c5;
 }
 
 double ToeLinearFibre::toe_energy(double stretch) const {

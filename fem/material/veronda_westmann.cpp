@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fem/base/cofactor.hpp"
+#include "fem/material/bounded_exponential.hpp"
 #include "fem/material/isochoric.hpp"
 
 namespace articular::fem {
@@ -12,17 +13,14 @@ double IsochoricVerondaWestmann::energy_density(const Mat3& F) const {
   const double a = std::pow(F.determinant(), -2.0 / 3);
   const double x = c2_ * (a * F.squaredNorm() - 3);
   const double I2 = a * a * cofactor(F).squaredNorm();
-  const double d = x - kLargestExponent;
-  const double exponential_minus_one =
-      d <= 0 ? std::expm1(x) : exponential(kLargestExponent) * (1 + d + 0.5 * d * d) - 1;
-  return c1_ * (exponential_minus_one - 0.5 * c2_ * (I2 - 3));
+  return c1_ * (bounded_exponential::minus_one(x) - 0.5 * c2_ * (I2 - 3));
 }
 
 Mat3 IsochoricVerondaWestmann::first_piola(const Mat3& F) const {
   const double J = F.determinant(), a = std::pow(J, -2.0 / 3), I1 = F.squaredNorm();
   const Mat3 C = cofactor(F);
   const Vec9 dI2 = cofactor_derivative(F) * C.reshaped();
-  const double slope = exponential_slope(c2_ * (a * I1 - 3));
+  const double slope = bounded_exponential::slope(c2_ * (a * I1 - 3));
   return c1_ * c2_ *
          (2 * a * slope * (F - I1 / (3 * J) * C) -
           a * a * (dI2.reshaped(3, 3) - 2 * C.squaredNorm() / (3 * J) * C));
@@ -31,17 +29,11 @@ Mat3 IsochoricVerondaWestmann::first_piola(const Mat3& F) const {
 Mat9 IsochoricVerondaWestmann::tangent(const Mat3& F) const {
   const Jet I1 = first_isochoric_invariant(F);
   const double x = c2_ * (I1.value - 3);
-  const double curvature = std::exp(std::fmin(x, kLargestExponent));
+  const double slope = bounded_exponential::slope(x);
+  const double curvature = bounded_exponential::curvature(x);
   return c1_ * c2_ *
-         (composed(I1, 0, exponential_slope(x), c2_ * curvature).hessian -
+         (composed(I1, 0, slope, c2_ * curvature).hessian -
           0.5 * second_isochoric_invariant(F).hessian);
-}
-
-double IsochoricVerondaWestmann::exponential(double x) { return std::exp(x); }
-
-double IsochoricVerondaWestmann::exponential_slope(double x) {
-  const double d = x - kLargestExponent;
-  return d <= 0 ? std::exp(x) : std::exp(kLargestExponent) * (1 + d);
 }
 
 }  // namespace articular::fem

@@ -12,8 +12,7 @@ namespace articular::fem {
 /// published constants are far above; for a smaller c2 the second term may win for a while.
 ///
 /// Where the exponent passes 100 (c2 = 10: a stretch of 3.6) the exponential goes on as its
-/// quadratic, without a jump in the stiffness: far outside of what tissue bears, but a trial step
-/// of a solver gets numbers and not infinity.
+/// quadratic (bounded_exponential.hpp).
 ///
 /// [Veronda 1970] Veronda, Westmann. Mechanical characterization of skin: finite deformations.
 ///                J. Biomech. 3.
@@ -31,12 +30,6 @@ class IsochoricVerondaWestmann {
   Mat9 tangent(const Mat3& F) const;
 
  private:
-  static constexpr double kLargestExponent = 100;  // [-]
-
-  static double exponential(double x);
-  /// d/dx of exp(x) and of the quadratic that continues it.
-  static double exponential_slope(double x);
-
   double c1_, c2_;  // [Pa], [-]
 };
 

@@ -29,7 +29,15 @@ InstructionSet best_instruction_set() {
 
 const LawKernels& element_kernels(InstructionSet set, BatchLaw::Kind law) {
   const ElementKernels& kernels = kernels_of(set);
-  return law == BatchLaw::Kind::Corotated ? kernels.corotated : kernels.neo_hookean;
+  switch (law) {
+    case BatchLaw::Kind::Corotated:
+      return kernels.corotated;
+    case BatchLaw::Kind::CoupledNeoHookean:
+      return kernels.coupled_neo_hookean;
+    case BatchLaw::Kind::NeoHookean:
+      break;
+  }
+  return kernels.neo_hookean;
 }
 
 void svd_of_hard_case(const double F[9], double U[9], double V[9], double sigma[3]) {

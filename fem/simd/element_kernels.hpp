@@ -21,7 +21,7 @@ struct LawKernels {
 };
 
 struct ElementKernels {
-  LawKernels corotated, neo_hookean;
+  LawKernels corotated, neo_hookean, coupled_neo_hookean;
 };
 
 /// @param set  one that the machine has

@@ -126,6 +126,7 @@ constexpr LawKernels kernels_of{energy<Law>,
 
 }  // namespace
 
-const ElementKernels kernels{kernels_of<CorotatedLanes>, kernels_of<NeoHookeanLanes>};
+const ElementKernels kernels{kernels_of<CorotatedLanes>, kernels_of<NeoHookeanLanes<StableVolume>>,
+                             kernels_of<NeoHookeanLanes<LogarithmicVolume>>};
 
 }  // namespace articular::fem::ARTICULAR_INSTRUCTION_SET

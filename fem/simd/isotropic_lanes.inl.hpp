@@ -55,6 +55,24 @@ struct NeoHookeanEnergy {
   }
 };
 
+/// See coupled_neo_hookean.hpp.
+struct CoupledNeoHookeanEnergy {
+  static constexpr bool kHasI2 = false;
+  double mu, lambda;
+  explicit CoupledNeoHookeanEnergy(const SplitBatchLaw& law) : mu(law.c[0]), lambda(law.c[1]) {}
+
+  Lanes value(const Invariants& i) const {
+    const Lanes log_J = log(i.J);
+    return 0.5 * mu * (i.I1 - 3) + (0.5 * lambda * log_J - mu) * log_J;
+  }
+  void add_slopes(const Invariants& i, double share, Slopes& s) const {
+    const Lanes inverse_J = 1 / i.J, slope = (lambda * log(i.J) - mu) * inverse_J;
+    s.I1 += share * 0.5 * mu;
+    s.J += share * slope;
+    s.J_J += share * (lambda * inverse_J - slope) * inverse_J;
+  }
+};
+
 /// c10 (Ī1 − 3) + c20 (Ī1 − 3)² + c01 (Ī2 − 3), Ī1 = J^(−2/3) I1, Ī2 = J^(−4/3) I2: see
 /// mooney_rivlin.hpp and yeoh.hpp.
 template <bool kSecondInvariant>
@@ -97,11 +115,7 @@ struct VolumeTheta {
   static void add_slopes(Lanes, Lanes pressure, Slopes& s) { s.J += pressure; }
 };
 struct LogVolumeTheta {
-  static Lanes value(Lanes J) {
-    Lanes result{};
-    for (int lane = 0; lane < kWidth; ++lane) result[lane] = __builtin_log(J[lane]);
-    return result;
-  }
+  static Lanes value(Lanes J) { return log(J); }
   static void add_slopes(Lanes J, Lanes pressure, Slopes& s) {
     const Lanes inverse_J = 1 / J;
     s.J += pressure * inverse_J;

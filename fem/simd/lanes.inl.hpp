@@ -47,6 +47,13 @@ inline unsigned bits(Mask m) {
 inline Lanes max(Lanes a, Lanes b) { return a > b ? a : b; }
 inline Lanes magnitude(Lanes a) { return a < 0 ? -a : a; }
 
+/// Natural logarithm, lane by lane; not a number below 0.
+inline Lanes log(Lanes a) {
+  Lanes result{};
+  for (int lane = 0; lane < kWidth; ++lane) result[lane] = __builtin_log(a[lane]);
+  return result;
+}
+
 /// Sum over the lanes, in their order.
 inline double sum(Lanes a) {
   double result = 0;

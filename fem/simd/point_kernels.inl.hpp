@@ -80,6 +80,8 @@ const PointKernels& point_kernels(const SplitBatchLaw& law) {
   using enum SplitBatchLaw::Distortion;
   if (law.distortion == Corotated) return point_kernels_of<CorotatedPointLanes>;
   if (law.distortion == NeoHookean) return kernels_with_theta<NeoHookeanEnergy>(law);
+  if (law.distortion == CoupledNeoHookean)
+    return point_kernels_of<IsotropicLanes<CoupledNeoHookeanEnergy, LogVolumeTheta>>;
   return law.c[2] == 0 ? kernels_with_theta<PolynomialEnergy<false>>(law)
                        : kernels_with_theta<PolynomialEnergy<true>>(law);
 }

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
+#include <variant>
 
 #include "fem/element/elasticity.hpp"
 #include "fem/element/smoothed_elasticity.hpp"
@@ -71,6 +73,13 @@ TissueElements make_elements(const TissueMaterial& material, const MeshData& mes
       fem::Elasticity(mesh.X, mesh.tets, *material.law, fibres, {.pool = std::move(pool)}));
 }
 
+/// See st_venant_kirchhoff.hpp.
+std::string_view end_of(const fem::AnyMaterial& law) {
+  if (!std::holds_alternative<fem::StVenantKirchhoff>(law)) return {};
+  return "the law \"st-venant-kirchhoff\" softens, and ends, where an element is pressed to less "
+         "than 0.58 of its length";
+}
+
 }  // namespace
 
 Tissue make_tissue(const Scenario& scenario, const Model& model,
@@ -98,6 +107,7 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
                   .fibres = fibres,
                   .bulk_modulus = fem::bulk_modulus(*material.law),
                   .shear_modulus = fem::shear_modulus(*material.law),
+                  .law_ends = end_of(*material.law),
                   .start_velocity = body.velocity};
     tissue.nodes.resize(static_cast<std::size_t>(mesh.X.cols()));
     if (material.stiffness_damping > 0) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -86,6 +87,7 @@ struct Tissue {
   FibreDirections fibres;           // one an element, or none
   int muscle = -1;                  // index into Model::muscles: what activates the fibres
   double bulk_modulus = 0, shear_modulus = 0;  // at small strain [Pa]
+  std::string_view law_ends = {};              // where its law has an end, in words; mostly nowhere
   Vec3 start_velocity = Vec3::Zero();          // [m/s]
 };
 

@@ -77,6 +77,7 @@ constexpr std::array kNouns{
     Noun{{1, 2, -3, 0}, "a power"},
     Noun{kTime.dimension, kTime.noun},
     Noun{kLength.dimension, kLength.noun},
+    Noun{kPerLength.dimension, kPerLength.noun},
     Noun{kMass.dimension, kMass.noun},
     Noun{kAngle.dimension, kAngle.noun},
     Noun{kRate.dimension, kRate.noun},

@@ -30,6 +30,7 @@ struct QuantityKind {
 
 inline constexpr QuantityKind kTime{{0, 0, 1, 0}, "a time", "0.6 s"};
 inline constexpr QuantityKind kLength{{0, 1, 0, 0}, "a length", "5 mm", "0 -9.5 36.1 mm"};
+inline constexpr QuantityKind kPerLength{{0, -1, 0, 0}, "one over a length", "4.75 1/um"};
 inline constexpr QuantityKind kMass{{1, 0, 0, 0}, "a mass", "0.2 kg"};
 inline constexpr QuantityKind kAngle{{0, 0, 0, 1}, "an angle", "30 deg", "0 0 30 deg"};
 inline constexpr QuantityKind kRate{{0, 0, -1, 0}, "a rate", "10 1/s"};

@@ -1,5 +1,6 @@
 // The material of a tissue: its law with the constants, its fibres and its damping.
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "fem/material/any_material.hpp"
@@ -11,10 +12,14 @@ namespace {
 enum class Law {
   Linear,
   Corotated,
+  StVenantKirchhoff,
   NeoHookean,
+  CoupledNeoHookean,
+  HolmesMow,
   IsochoricNeoHookean,
   MooneyRivlin,
   Yeoh,
+  Ogden,
   VerondaWestmann,
   TransverselyIsotropic,
   Muscle
@@ -22,10 +27,14 @@ enum class Law {
 Law read_law_name(const Node& node) {
   return read_choice<Law>(node, {{"linear", Law::Linear},
                                  {"corotated", Law::Corotated},
+                                 {"st-venant-kirchhoff", Law::StVenantKirchhoff},
                                  {"neo-hookean", Law::NeoHookean},
+                                 {"coupled-neo-hookean", Law::CoupledNeoHookean},
+                                 {"holmes-mow", Law::HolmesMow},
                                  {"isochoric-neo-hookean", Law::IsochoricNeoHookean},
                                  {"mooney-rivlin", Law::MooneyRivlin},
                                  {"yeoh", Law::Yeoh},
+                                 {"ogden", Law::Ogden},
                                  {"veronda-westmann", Law::VerondaWestmann},
                                  {"transversely-isotropic", Law::TransverselyIsotropic},
                                  {"muscle", Law::Muscle}});
@@ -36,19 +45,25 @@ std::vector<std::string_view> keys_of(Law law) {
   switch (law) {
     case Law::Linear:
     case Law::Corotated:
+    case Law::StVenantKirchhoff:
     case Law::NeoHookean:
+    case Law::CoupledNeoHookean:
       return {"young_modulus", "poisson_ratio"};
+    case Law::HolmesMow:
+      return {"young_modulus", "poisson_ratio", "beta"};
     case Law::IsochoricNeoHookean:
       return {"young_modulus", "poisson_ratio", "volumetric"};
     case Law::MooneyRivlin:
       return {"c10", "c01", "bulk_modulus", "volumetric"};
     case Law::Yeoh:
       return {"c10", "c20", "bulk_modulus", "volumetric"};
+    case Law::Ogden:
+      return {"terms", "bulk_modulus", "volumetric"};
     case Law::VerondaWestmann:
       return {"c1", "c2", "bulk_modulus", "volumetric"};
     case Law::TransverselyIsotropic:
-      return {"c10",     "c01",           "c3",           "c4",         "c5",
-              "toe_end", "active_stress", "bulk_modulus", "volumetric", "fibres"};
+      return {"c10",           "c01",          "c3",           "c4",         "c5",    "toe_end",
+              "active_stress", "force_length", "bulk_modulus", "volumetric", "fibres"};
     case Law::Muscle:
       return {"max_stress",   "p1",  "p2",           "toe_end",    "optimal_stretch", "shear_along",
               "shear_across", "c10", "bulk_modulus", "volumetric", "fibres"};
@@ -80,12 +95,49 @@ double number_or(const TableReader& table, std::string_view key, double otherwis
   return otherwise;
 }
 
+fem::ForceLength read_force_length(const Node& node) {
+  const TableReader table(node, "force_length",
+                          {"sarcomere_length", "zero_length", "b", "calcium", "max_calcium"});
+  fem::ForceLength::Constants c;  // as published
+  table.may("sarcomere_length", c.sarcomere_length, as_quantity(kLength, kPositive));
+  table.may("zero_length", c.zero_length, as_quantity(kLength, kPositive));
+  table.may("b", c.b, as_quantity(kPerLength, kPositive));
+  table.may("calcium", c.calcium, as_number(kPositive));
+  table.may("max_calcium", c.max_calcium, as_number(kPositive));
+  try {
+    return fem::ForceLength(c);
+  } catch (const std::invalid_argument& error) {
+    fail(node, error.what());
+  }
+}
+
 fem::ToeLinearFibre read_collagen(const TableReader& table) {
-  return fem::ToeLinearFibre({.c3 = stress(table, "c3"),
-                              .c4 = number(table, "c4"),
-                              .c5 = stress(table, "c5"),
-                              .toe_end = number(table, "toe_end"),
-                              .active_stress = stress_or(table, "active_stress", 0)});
+  fem::ToeLinearFibre::Constants c{.c3 = stress(table, "c3"),
+                                   .c4 = number(table, "c4"),
+                                   .c5 = stress(table, "c5"),
+                                   .toe_end = number(table, "toe_end"),
+                                   .active_stress = stress_or(table, "active_stress", 0),
+                                   .force_length = {}};
+  if (c.active_stress == 0)
+    table.refuse({"force_length"}, "without `active_stress` there is nothing that depends on it");
+  table.may("force_length", c.force_length, read_force_length);
+  return fem::ToeLinearFibre(c);
+}
+
+std::vector<fem::OgdenTerm> read_ogden_terms(const Node& node) {
+  std::vector<fem::OgdenTerm> terms;
+  for (const Node& element :
+       read_list(node, "a list of terms such as [{ c = \"10 kPa\", m = 2.5 }, ...]")) {
+    const TableReader table(element, "term of `terms`", {"c", "m"});
+    terms.push_back({.c = read_quantity(table.at("c"), kStress, kPositive),
+                     .m = read_number(table.at("m"), kAny)});
+    try {
+      (void)fem::IsochoricOgden(std::vector{terms.back()});
+    } catch (const std::invalid_argument& error) {
+      fail(table.at("m"), error.what());
+    }
+  }
+  return terms;
 }
 
 fem::MuscleFibre read_muscle_fibre(const TableReader& table) {
@@ -108,6 +160,8 @@ fem::AnyMaterial read_split_law(const TableReader& table, Law law) {
     case Law::Yeoh:
       return fem::Yeoh<Theta>(stress(table, "c10"), stress(table, "c20"),
                               stress(table, "bulk_modulus"));
+    case Law::Ogden:
+      return fem::Ogden<Theta>(read_ogden_terms(table.at("terms")), stress(table, "bulk_modulus"));
     case Law::VerondaWestmann:
       return fem::VerondaWestmann<Theta>(stress(table, "c1"), number(table, "c2"),
                                          stress(table, "bulk_modulus"));
@@ -131,14 +185,30 @@ fem::AnyMaterial read_split_law(const TableReader& table, Law law) {
   }
 }
 
-fem::AnyMaterial read_law(const TableReader& table, Law law) {
-  if (law == Law::Linear || law == Law::Corotated || law == Law::NeoHookean) {
-    const double E = read_quantity(table.at("young_modulus"), kStress, kPositive);
-    const double nu = read_number(table.at("poisson_ratio"), kPoissonRange);
-    if (law == Law::Linear) return fem::Linear(E, nu);
-    if (law == Law::Corotated) return fem::Corotated(E, nu);
-    return fem::NeoHookean(E, nu);
+/// Laws of Young's modulus and Poisson's ratio with a change of volume of their own.
+std::optional<fem::AnyMaterial> read_coupled_law(const TableReader& table, Law law) {
+  const auto E = [&] { return read_quantity(table.at("young_modulus"), kStress, kPositive); };
+  const auto nu = [&] { return read_number(table.at("poisson_ratio"), kPoissonRange); };
+  switch (law) {
+    case Law::Linear:
+      return fem::Linear(E(), nu());
+    case Law::Corotated:
+      return fem::Corotated(E(), nu());
+    case Law::StVenantKirchhoff:
+      return fem::StVenantKirchhoff(E(), nu());
+    case Law::NeoHookean:
+      return fem::NeoHookean(E(), nu());
+    case Law::CoupledNeoHookean:
+      return fem::CoupledNeoHookean(E(), nu());
+    case Law::HolmesMow:
+      return fem::HolmesMow(E(), nu(), number(table, "beta"));
+    default:
+      return std::nullopt;
   }
+}
+
+fem::AnyMaterial read_law(const TableReader& table, Law law) {
+  if (std::optional<fem::AnyMaterial> coupled = read_coupled_law(table, law)) return *coupled;
   bool logarithmic = law == Law::Muscle;  // as published
   table.may("volumetric", logarithmic, [](const Node& n) {
     return read_choice<bool>(n, {{"quadratic", false}, {"logarithmic", true}});
@@ -188,6 +258,8 @@ TissueMaterial read_material(const Node& node) {
   const std::initializer_list<std::string_view> keys = {"law",
                                                         "young_modulus",
                                                         "poisson_ratio",
+                                                        "beta",
+                                                        "terms",
                                                         "bulk_modulus",
                                                         "volumetric",
                                                         "c10",
@@ -200,6 +272,7 @@ TissueMaterial read_material(const Node& node) {
                                                         "c5",
                                                         "toe_end",
                                                         "active_stress",
+                                                        "force_length",
                                                         "max_stress",
                                                         "p1",
                                                         "p2",

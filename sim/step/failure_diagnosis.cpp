@@ -26,6 +26,7 @@ std::string most_squeezed(const Model& model, const Configuration& tried) {
     least = lowest;
     words = fmt::format("; the most squeezed element is {} of tissue `{}` (volume ratio {:.3g})",
                         worst, name_of(model, tissue.body), lowest);
+    if (!tissue.law_ends.empty()) words += fmt::format(": {}", tissue.law_ends);
   }
   return words;
 }
@@ -57,6 +58,15 @@ std::string fastest(const Model& model, const Configuration& start) {
 std::string failure_diagnosis(const Model& model, const Configuration& start,
                               const Configuration& tried) {
   return most_squeezed(model, tried) + fastest(model, start);
+}
+
+std::string yielding_tissues(const Model& model) {
+  std::string words;
+  for (const Tissue& tissue : model.tissues)
+    if (!tissue.law_ends.empty())
+      words += fmt::format("; or tissue `{}` gives way: {}", name_of(model, tissue.body),
+                           tissue.law_ends);
+  return words;
 }
 
 std::string deepest_contact(const Model& model, const std::vector<ContactSummary>& contacts) {

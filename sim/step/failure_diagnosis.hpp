@@ -14,6 +14,10 @@ namespace articular::sim {
 std::string failure_diagnosis(const Model& model, const Configuration& start,
                               const Configuration& tried);
 
+/// Where nothing resists a motion: the tissues that give way under a load, as their law ends. "; or
+/// tissue `a` gives way: ...". Mostly empty.
+std::string yielding_tissues(const Model& model);
+
 /// The two bodies whose contact has stored the most energy: "; contact of `a` and `b` holds 2 J,
 /// 3 mm deep: ...". Empty where nothing touches.
 std::string deepest_contact(const Model& model, const std::vector<ContactSummary>& contacts);

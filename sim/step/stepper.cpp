@@ -330,7 +330,8 @@ void Stepper::stop_where_energy_is_made(const State& state) const {
 void Stepper::fail(const State& state, double h) {
   // Of a load step nothing has a speed: what is loose says more.
   const std::string cause =
-      loose_ ? fmt::format("; {}: a support is missing, or contact is not made", loose_->words)
+      loose_ ? fmt::format("; {}: a support is missing, or contact is not made{}", loose_->words,
+                           yielding_tissues(model_))
              : failure_diagnosis(model_, start_, dynamics_->now().configuration);
   // Back to the last state, for what the summary says of it.
   find_contacts(start_, state.next_margin);

@@ -114,6 +114,24 @@ TEST(ActiveBlock, FullyActiveMuscleAtRestLengthPullsWithItsStressTimesItsArea) {
   EXPECT_NEAR(ligament.end_force(1), 1e5 * kArea, 1e-3 * 1e5 * kArea);
 }
 
+// With a ForceLength the force is a σ_a f times area over the length; without fibres that are taut
+// and with a soft ground nothing else pulls.
+TEST(ActiveBlock, IsometricForceFollowsTheLengthOfTheSarcomeres) {
+  const double kappa = 1e8, activation = 0.6, T = 135.7e3;
+  const ForceLength curve({.calcium = 3});
+  const ToeLinearFibre fibre(
+      {.c3 = 1e-3, .c4 = 1, .c5 = 1e-3, .toe_end = 3, .active_stress = T, .force_length = curve});
+  Block block(TransverselyIsotropic<LogVolumeChange>(1e3, 0, fibre, kappa));
+  for (const double s : {1.0, 0.8, 0.9, 1.1, 1.2}) {
+    block.stretch(s);
+    block.settle(activation, true);
+    const double active = activation * T * curve.factor(s);
+    const double expected = (2e3 * (s * s - 1 / s) + active) / s * kArea;
+    EXPECT_NEAR(block.end_force(activation), expected, 0.003 * T * kArea) << s;
+  }
+  EXPECT_NEAR(curve.factor(1) / curve.factor(1.2), 0.6119, 1e-4);  // it matters
+}
+
 /// Where a falling or rising function changes sign.
 template <class Function>
 double root(const Function& f, double low, double high) {

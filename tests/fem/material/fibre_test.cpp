@@ -43,6 +43,59 @@ TEST(ToeLinearFibre, CauchyStressIsThePublishedOne) {
   EXPECT_NEAR(fibre.cauchy_stress(1.03, 0.5) - fibre.cauchy_stress(1.03, 0), 2.5e6, 1e-6);
 }
 
+// Numbers by hand: f = 1 − exp(−B (l − l0)) where all calcium is there, B (l − l0) = 1.2825 at
+// rest.
+TEST(ForceLength, IsThePublishedOne) {
+  const ForceLength whole({});
+  EXPECT_NEAR(whole.factor(1), 1 - std::exp(-4.75 * 0.27), kRoundOff);
+  EXPECT_NEAR(whole.factor(2.2 / 1.85), 1 - std::exp(-4.75 * 0.62), kRoundOff);
+  for (const double slack : {0.1, 0.8, 1.579 / 1.85}) EXPECT_EQ(whole.factor(slack), 0);
+  const ForceLength half({.calcium = 2.175});
+  for (const double l : {1.6, 1.85, 2.1, 2.4}) {
+    const double ECa50 = 4.35 / std::sqrt(std::expm1(4.75 * (l - 1.58)));
+    EXPECT_NEAR(half.factor(l / 1.85), 2.175 * 2.175 / (2.175 * 2.175 + ECa50 * ECa50), kRoundOff);
+  }
+  EXPECT_EQ(whole.factor(1e3), 1);  // no overflow
+  EXPECT_EQ(half.slope(1e3), 0);
+}
+
+// The work has no closed form: it is compared with a fine midpoint rule, beyond where f is 1 too,
+// and with the stress by differences everywhere, also where panels of its quadrature meet.
+TEST(ForceLength, WorkIsTheIntegralOfTheStress) {
+  for (const ForceLength& law :
+       {ForceLength({}), ForceLength({.calcium = 0.5}), ForceLength({.b = 0.2e6}),
+        ForceLength({.zero_length = 0.1e-6, .b = 40e6})}) {
+    const auto stress = [&](double s) { return law.factor(s) / s; };
+    EXPECT_EQ(law.work(0.02), 0);
+    double before = 0.02;
+    for (const double s : {0.5, 0.86, 1.0, 1.3, 2.0, 6.0, 30.0}) {
+      EXPECT_NEAR(law.work(s) - law.work(before), integral(stress, before, s), 1e-6) << s;
+      before = s;
+    }
+    const double h = 1e-4;
+    for (double s = 0.3; s < 7; s += 0.0317) {
+      const double difference =
+          (law.work(s - 2 * h) - 8 * law.work(s - h) + 8 * law.work(s + h) - law.work(s + 2 * h)) /
+          (12 * h);
+      if (std::abs(s - 1.58 / 1.85) < 3 * h) continue;  // the kink
+      EXPECT_NEAR(difference, stress(s), 3e-11) << s;
+      const double slope = (law.factor(s + h) - law.factor(s - h)) / (2 * h);
+      EXPECT_NEAR(law.slope(s), slope, 1e-4) << s;
+    }
+  }
+}
+
+// With all calcium there, f = 1 − exp(−b (λ − λ0)), the work is an exponential integral.
+TEST(ForceLength, WorkIsTheClosedFormWhereAllCalciumIsThere) {
+  const ForceLength law({});
+  const double b = 4.75 * 1.85, zero = 1.58 / 1.85;
+  for (const double s : {0.86, 0.9, 1.0, 1.2, 1.7, 3.0, 6.0, 20.0}) {
+    const double expected =
+        std::log(s / zero) - std::exp(b * zero) * (std::expint(-b * s) - std::expint(-b * zero));
+    EXPECT_NEAR(law.work(s), expected, 1e-13 + 1e-13 * expected) << s;
+  }
+}
+
 TEST(MuscleFibre, ForceLengthCurveIsThePublishedOne) {
   EXPECT_EQ(MuscleFibre::active(1), 1);
   for (const double out : {0.2, 0.39, 1.61, 3.0}) EXPECT_EQ(MuscleFibre::active(out), 0);
@@ -84,6 +137,7 @@ void expect_consistent(const Law& law, double scale) {
 
 TEST(FibreLaw, EnergyTensionAndStiffnessBelongTogether) {
   expect_consistent(cruciate_fibre(), 535e6);
+  expect_consistent(cardiac_fibre(), 1e6);
   expect_consistent(MuscleFibre({}), 0.3e6);
   expect_consistent(MuscleFibre({.optimal_stretch = 1.1}), 0.3e6);
 }
@@ -244,6 +298,22 @@ TEST(Materials, RefuseBadConstantsAndSayWhy) {
   expect_refusal([] { (void)BlemkerMuscle<>(MuscleFibre({}), {.c10 = -1}); }, {"c10", "-1 Pa"});
   expect_refusal([] { (void)BlemkerMuscle<>(MuscleFibre({}), {.kappa = 0}); },
                  {"bulk modulus", "0 Pa"});
+  expect_refusal([] { (void)StVenantKirchhoff(0, 0.3); }, {"Young's modulus", "0 Pa"});
+  expect_refusal([] { (void)CoupledNeoHookean(1, 0.5); }, {"Poisson's ratio", "0.5"});
+  expect_refusal([] { (void)HolmesMow(1, 0.2, 0); }, {"beta", "0", "positive"});
+  for (const double nu : {-0.1, 0.34})
+    expect_refusal([nu] { (void)HolmesMow(1, nu, 1); }, {"Poisson's ratio", "0 and 1/3"});
+  EXPECT_EQ(message_of([] { (void)HolmesMow(1, 0.333333, 1); }), "");
+  expect_refusal([] { (void)Ogden<>({}, 1); }, {"no term"});
+  expect_refusal([] { (void)Ogden<>({{1, 2}, {-1, 3}}, 1); }, {"c is -1 Pa", "positive"});
+  expect_refusal([] { (void)Ogden<>({{1, 0}}, 1); }, {"m is 0", "away from 0"});
+  expect_refusal([] { (void)Ogden<>({{1, 2}}, 0); }, {"bulk modulus", "0 Pa"});
+  expect_refusal([&] { (void)Ogden<>({{1, nan}}, 1); }, {"m is nan"});
+  expect_refusal([] { (void)ForceLength({.sarcomere_length = 0}); }, {"sarcomere length", "0 m"});
+  expect_refusal([] { (void)ForceLength({.zero_length = -1}); }, {"without active", "-1 m"});
+  expect_refusal([] { (void)ForceLength({.b = 0}); }, {"b is 0", "positive"});
+  expect_refusal([] { (void)ForceLength({.calcium = 0}); }, {"calcium is 0"});
+  expect_refusal([] { (void)ForceLength({.calcium = 5}); }, {"calcium is 5", "4.35"});
   EXPECT_NE(message_of([&] { (void)Yeoh<>(nan, 0, 1); }), "");
   EXPECT_NE(message_of([&] { (void)MuscleFibre({.toe_end = nan}); }), "");
 }

@@ -1,5 +1,6 @@
 #include "tests/fem/support/laws.hpp"
 
+#include <cmath>
 #include <ostream>
 
 namespace articular::fem {
@@ -44,9 +45,11 @@ void add_isochoric(const std::string& suffix, std::vector<LawExample>& laws) {
   };
   add("MooneyRivlin", MooneyRivlin<Theta>(3e3, 1e3, 2e4), 2e4, {});
   add("Yeoh", Yeoh<Theta>(1037, 486, 10370), 1e4, {});  // tongue
+  add("Ogden", Ogden<Theta>({{4e3, 2.5}, {1e3, -3}, {200, 7}}, 2e4), 2e4, {});
   add("VerondaWestmann", VerondaWestmann<Theta>(1e4, 2, 1e5), 1e5, {});
   add("TransverselyIsotropic",
       TransverselyIsotropic<Theta>(1.95e6, 0.5e6, cruciate_fibre(), 146.41e6), 1.5e8, {});
+  add("LengthDependent", TransverselyIsotropic<Theta>(2e3, 1e3, cardiac_fibre(), 1e5), 1e6, {});
   add("BlemkerMuscle",
       BlemkerMuscle<Theta>(MuscleFibre({.optimal_stretch = 1.05}),
                            {.G1 = 500, .G2 = 800, .c10 = 200}),
@@ -60,14 +63,28 @@ ToeLinearFibre cruciate_fibre() {
       {.c3 = 0.0139e6, .c4 = 116.22, .c5 = 535.039e6, .toe_end = 1.046, .active_stress = 5e6});
 }
 
+ToeLinearFibre cardiac_fibre() {
+  return ToeLinearFibre({.c3 = 1e3,
+                         .c4 = 12,
+                         .c5 = 2e5,
+                         .toe_end = 1.25,
+                         .active_stress = 135.7e3,
+                         .force_length = ForceLength({.calcium = 3.1})});
+}
+
 void PrintTo(const LawExample& example, std::ostream* out) { *out << example.name; }
 
 std::vector<LawExample> all_laws() {
   constexpr double E = 2e4, nu = 0.4;  // [Pa], [-] soft tissue
   std::vector<LawExample> laws{
-      example("Linear", Linear(E, nu), E, {.objective = false, .shape_only = false}),
-      example("Corotated", Corotated(E, nu), E, {.shape_only = false}),
-      example("NeoHookean", NeoHookean(E, nu), E, {.shape_only = false})};
+      example("Linear", Linear(E, nu), E,
+              {.objective = false, .shape_only = false, .inverted = true}),
+      example("Corotated", Corotated(E, nu), E, {.shape_only = false, .inverted = true}),
+      example("StVenantKirchhoff", StVenantKirchhoff(E, nu), E,
+              {.shape_only = false, .least_stretch = 1 / std::sqrt(3.0)}),
+      example("NeoHookean", NeoHookean(E, nu), E, {.shape_only = false, .inverted = true}),
+      example("CoupledNeoHookean", CoupledNeoHookean(E, nu), E, {.shape_only = false}),
+      example("HolmesMow", HolmesMow(E, 0.2, 0.7), E, {.shape_only = false})};
   add_isochoric<VolumeChange>("", laws);
   add_isochoric<LogVolumeChange>("Log", laws);
   return laws;

@@ -18,7 +18,9 @@ const Vec3 kAcross = Vec3(1, 2, 0) / std::sqrt(5.0);  // a direction across them
 /// What an example promises.
 struct Promise {
   bool objective = true;          // not strained by rotations
-  bool shape_only = true;         // the distortion does not feel the volume; not defined for J <= 0
+  bool shape_only = true;         // the distortion does not feel the volume
+  bool inverted = false;          // has numbers for J <= 0
+  double least_stretch = 0;       // no number where a principal stretch is this or less
   bool one_shear_modulus = true;  // at rest, in all directions
 };
 
@@ -42,5 +44,8 @@ std::vector<LawExample> all_laws();
 
 /// Fibres of the anterior cruciate ligament, with an active stress of 5 MPa for the tests.
 ToeLinearFibre cruciate_fibre();
+
+/// Fibres whose active stress depends on their length.
+ToeLinearFibre cardiac_fibre();
 
 }  // namespace articular::fem

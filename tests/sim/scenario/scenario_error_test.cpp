@@ -38,6 +38,16 @@ std::string body(const std::string& rest) { return kStart + "[[body]]\nname = \"
 std::string tissue(const std::string& rest) {
   return body("kind = \"tissue\"\nmesh = { file = \"a.vtu\" }\n" + rest);
 }
+const std::string kElastic = "young_modulus = \"1 Pa\", poisson_ratio = 0.3";
+const std::string kCollagen =
+    "c10 = \"1 Pa\", c3 = \"1 Pa\", c4 = 10, c5 = \"1 Pa\", toe_end = 1.1, bulk_modulus = \"1 "
+    "Pa\", fibres = { direction = [1, 0, 0] }";
+
+/// A tissue of a law. @param mark  "@" where the whole table is the place of the mistake
+std::string law(const std::string& name, const std::string& rest, const std::string& mark = "") {
+  return tissue("density = \"1 g/cm^3\"\nmaterial = " + mark + "{ law = \"" + name + "\", " + rest +
+                " }\n");
+}
 std::string material(const std::string& rest) {
   return tissue("density = \"1 g/cm^3\"\nmaterial = { law = \"linear\", " + rest + " }\n");
 }
@@ -183,15 +193,52 @@ INSTANTIATE_TEST_SUITE_P(
                        "\"1 s\" }, { weight = 0.8, time = \"2 s\" }] }\n"),
                 "`relaxation`: the weights sum up to 1.1, which must be below 1: nothing would "
                 "be left of the stress"},
+        Mistake{"BetaOfAnotherLaw", law("st-venant-kirchhoff", kElastic + ", @beta = 2"),
+                "material: `beta` does not belong here: the law is \"st-venant-kirchhoff\""},
+        Mistake{"BetaIsMissing", law("holmes-mow", kElastic, "@"), "material: `beta` is missing"},
+        Mistake{"HolmesMowThatSoftens",
+                law("holmes-mow", "young_modulus = \"1 Pa\", poisson_ratio = 0.4, beta = 1", "@"),
+                "material: Poisson's ratio is 0.4, must lie between 0 and 1/3 for a Holmes-Mow "
+                "solid: others soften in tension"},
+        Mistake{"VolumetricOfACoupledLaw",
+                law("coupled-neo-hookean", kElastic + ", @volumetric = \"logarithmic\""),
+                "material: `volumetric` does not belong here: the law is \"coupled-neo-hookean\""},
+        Mistake{"OgdenWithoutTerms", law("ogden", "terms = @[], bulk_modulus = \"1 kPa\""),
+                "`terms`: expected a list of terms such as [{ c = \"10 kPa\", m = 2.5 }, ...], "
+                "found a list of 0"},
+        Mistake{"OgdenExponentOfZero",
+                law("ogden", "terms = [{ c = \"1 kPa\", m = @0 }], bulk_modulus = \"1 kPa\""),
+                "`m`: m is 0, must be finite and 0.01 or more away from 0"},
+        Mistake{"OgdenNegativeConstant",
+                law("ogden", "terms = [{ c = @\"-1 kPa\", m = 2 }], bulk_modulus = \"1 kPa\""),
+                "`c` must be positive, found \"-1 kPa\""},
+        Mistake{"OgdenUnknownKey",
+                law("ogden", "terms = [{ c = \"1 kPa\", @alpha = 2 }], bulk_modulus = \"1 kPa\""),
+                "term of `terms`: unknown key `alpha`; expected one of `c`, `m`"},
+        Mistake{"ForceLengthWithoutActiveStress",
+                law("transversely-isotropic", kCollagen + ", @force_length = {}"),
+                "material: `force_length` does not belong here: without `active_stress` there is "
+                "nothing that depends on it"},
+        Mistake{"ForceLengthUnit",
+                law("transversely-isotropic",
+                    kCollagen + ", active_stress = \"1 kPa\", force_length = { b = @\"4 um\" }"),
+                "`b`: expected one over a length such as \"4.75 1/um\", found \"4 um\" (a length)"},
+        Mistake{"MoreCalciumThanTheMost",
+                law("transversely-isotropic",
+                    kCollagen + ", active_stress = \"1 kPa\", force_length = @{ calcium = 5 }"),
+                "`force_length`: calcium is 5 umol/l, must be at most the largest calcium, 4.35 "
+                "umol/l"},
         Mistake{"PoissonRatioText", material("young_modulus = \"1 Pa\", poisson_ratio = @\"0.3\""),
                 "`poisson_ratio`: expected a number without unit or quotes, found \"0.3\""},
         Mistake{"UnknownLaw",
                 tissue("density = \"1 t/m^3\"\nmaterial = { law = @\"neohookean\", young_modulus = "
                        "\"1 Pa\", "
                        "poisson_ratio = 0 }\n"),
-                "`law`: expected one of \"linear\", \"corotated\", \"neo-hookean\", "
-                "\"isochoric-neo-hookean\", \"mooney-rivlin\", \"yeoh\", \"veronda-westmann\", "
-                "\"transversely-isotropic\", \"muscle\", found \"neohookean\"; did you mean "
+                "`law`: expected one of \"linear\", \"corotated\", \"st-venant-kirchhoff\", "
+                "\"neo-hookean\", \"coupled-neo-hookean\", \"holmes-mow\", "
+                "\"isochoric-neo-hookean\", \"mooney-rivlin\", \"yeoh\", \"ogden\", "
+                "\"veronda-westmann\", \"transversely-isotropic\", \"muscle\", found "
+                "\"neohookean\"; did you mean "
                 "\"neo-hookean\"?"},
 
         Mistake{"InfiniteTime", "duration = @\"inf s\"\n" + kBodies,

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "fem/material/any_material.hpp"
 #include "tests/sim/support/contact_scene.hpp"
@@ -77,17 +78,14 @@ TEST(Ledger, StartsWithKineticGravityAndLineEnergy) {
   EXPECT_NEAR(run.state.energy.start, kinetic + 2 * 10 * 0.3 + 0.5 * 50 * 0.01, 1e-12);
 }
 
-// a' = (1 − a)/τ while the fibres are drawn out: the work is ∫ ∂W/∂a a' dt, and ∂W/∂a = V σ ∫ f_a
-// dλ̄ up to the isochoric stretch λ̄ = λ^(2/3).
-TEST(Ledger, WorkOfFibresInTissueIsTheIntegralOverTheirActivation) {
+/// a' = (1 − a)/τ while fibres are drawn out to the isochoric stretch λ̄ = λ^(2/3): the work is
+/// ∫ ∂W/∂a a' dt, to second order in the step. @param per_activation  ∂W/∂a at λ̄ [J/m³]
+void expect_work_of_fibres(TissueMaterial material,
+                           const std::function<double(double stretch)>& per_activation) {
   const double tau = 5e-3, begin = 1e-9;
-  const fem::MuscleFibre::Constants constants;
-  TissueMaterial material = material_of(fem::BlemkerMuscle<>(fem::MuscleFibre(constants), {}));
   material.fibres = Fibres{.along = Vec3::UnitZ()};
   const double expected = integral(kDuration, [&](double t) {
-    return kVolume * constants.max_stress *
-           fem::MuscleFibre::active_integral(std::pow(stretch(t), 2.0 / 3)) * std::exp(-t / tau) /
-           tau;
+    return kVolume * per_activation(std::pow(stretch(t), 2.0 / 3)) * std::exp(-t / tau) / tau;
   });
   const auto error = [&](double h) {
     Scenario s = drawn_block(h, material);
@@ -103,6 +101,29 @@ TEST(Ledger, WorkOfFibresInTissueIsTheIntegralOverTheirActivation) {
   };
   EXPECT_LT(error(2.5e-4), 1e-3 * expected);
   EXPECT_NEAR(measured_order(error, 1e-3), 2, 0.2);
+}
+
+TEST(Ledger, WorkOfFibresInTissueIsTheIntegralOverTheirActivation) {
+  const fem::MuscleFibre::Constants constants;
+  expect_work_of_fibres(
+      material_of(fem::BlemkerMuscle<>(fem::MuscleFibre(constants), {})),
+      [&](double s) { return constants.max_stress * fem::MuscleFibre::active_integral(s); });
+}
+
+// With all calcium there f = 1 − exp(−b (λ̄ − λ0)): ∫ f dλ̄/λ̄ is an exponential integral.
+TEST(Ledger, WorkOfFibresWithAForceLengthIsTheIntegralOverTheirActivation) {
+  const double T = 1e5, b = 4.75 * 1.85, zero = 1.58 / 1.85;
+  const fem::ToeLinearFibre fibre({.c3 = 1e3,
+                                   .c4 = 10,
+                                   .c5 = 1e5,
+                                   .toe_end = 1.3,
+                                   .active_stress = T,
+                                   .force_length = fem::ForceLength({})});
+  expect_work_of_fibres(
+      material_of(fem::TransverselyIsotropic<>(1e4, 0, fibre, 1e6)), [&](double s) {
+        return T * (std::log(s / zero) -
+                    std::exp(b * zero) * (std::expint(-b * s) - std::expint(-b * zero)));
+      });
 }
 
 // A force that rises as F t/T moves a mass by F t³/(6 T m), and does the work F² T²/(8 m) until T.
