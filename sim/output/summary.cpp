@@ -6,22 +6,15 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-#include "fem/solver/processor.hpp"
 #include "sim/assembly/solver_setup.hpp"
-#include "sim/base/version.hpp"
 #include "sim/output/checkpoint.hpp"
+#include "sim/output/provenance.hpp"
 #include "sim/output/run_warnings.hpp"
 
 namespace articular::sim {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-#ifdef __clang__
-constexpr const char* kCompiler = __VERSION__;
-#else
-constexpr const char* kCompiler = "g++ " __VERSION__;
-#endif
 
 Json sizes(const Model& model) {
   std::int64_t elements = 0, collision_elements = 0;
@@ -114,7 +107,7 @@ std::string summary_json(const Scenario& scenario, const Model& model, const Sta
                          const std::string& outcome) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const fem::Processor processor = fem::processor();
+  const Provenance by = provenance();
   std::vector<std::string> warnings = model.warnings;
   for (std::string& warning : run_warnings(model, state, stepper))
     warnings.push_back(std::move(warning));
@@ -145,11 +138,10 @@ std::string summary_json(const Scenario& scenario, const Model& model, const Sta
       {"peak_memory_MB", static_cast<double>(usage.ru_maxrss) / 1024},
       {"warnings", warnings},
       {"inputs", fingerprint(scenario, model)},
-      {"processor",
-       {{"instruction_set", processor.instruction_set}, {"blas_kernels", processor.blas_kernels}}},
-      {"build", {{"compiler", kCompiler}, {"flags", ARTICULAR_FLAGS}}},
+      {"processor", {{"instruction_set", by.instruction_set}, {"blas_kernels", by.blas_kernels}}},
+      {"build", {{"compiler", by.compiler}, {"flags", by.flags}}},
       {"versions",
-       {{"articular", kVersion},
+       {{"articular", by.version},
         {"SUNDIALS", SUNDIALS_VERSION},
         {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
                       "." + std::to_string(EIGEN_MINOR_VERSION)}}}};

@@ -17,8 +17,7 @@ void ask(int signal) {
 }  // namespace
 
 void listen_for_interruption() {
-  std::signal(SIGINT, ask);
-  std::signal(SIGTERM, ask);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, ask);
 }
 
 bool interruption_asked() { return asked; }

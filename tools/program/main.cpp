@@ -15,6 +15,7 @@
 #include "tools/render/render.hpp"
 #include "tools/run/commands.hpp"
 #include "tools/study/study_command.hpp"
+#include "tools/verify/verify_command.hpp"
 
 namespace {
 
@@ -46,6 +47,7 @@ int run_program(int argc, char** argv) {
   articular::tools::add_explain_command(app, exit_code);
   articular::tools::add_render_command(app, exit_code);
   articular::tools::add_study_command(app, exit_code);
+  articular::tools::add_verify_command(app, exit_code);
   articular::tools::add_collide_command(app, exit_code);
   articular::tools::add_mesh_command(app, exit_code);
   articular::anatomy::add_anatomy_command(app, exit_code);

@@ -277,7 +277,7 @@ TEST(Program, HelpNamesEverySubcommand) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   for (const char* command :
-       {"run", "check", "explain", "render", "study", "collide", "mesh", "anatomy"}) {
+       {"run", "check", "explain", "render", "study", "verify", "collide", "mesh", "anatomy"}) {
     EXPECT_NE(result.out.find(std::string("  ") + command + " "), std::string::npos) << command;
     const ProgramResult own = run_program(folder, std::string(command) + " --help");
     EXPECT_EQ(own.exit_code, 0) << command;

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "tools/verify/problem.hpp"
+
+namespace articular::tools {
+
+/// Muscles and ligaments as lines.
+std::vector<Problem> line_problems();
+
+}  // namespace articular::tools
