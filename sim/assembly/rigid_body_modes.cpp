@@ -35,23 +35,52 @@ std::vector<std::pair<int, Vec3>> free_nodes(const Model& model, const Configura
   return nodes;
 }
 
-/// Whether fixed or driven bodies hold three of its nodes that are not on one line: then no motion
-/// of the free ones is rigid.
-bool is_clamped(const Model& model, const BodyModel& body) {
+/// Whether the nodes of a tissue that go with some rigid bodies are three that are not on one line:
+/// then no rigid motion of the tissue leaves them where they are.
+template <class Takes>
+bool ties(const Tissue& tissue, const Takes& takes) {
   constexpr double kOnOneLine = 1e-6;  // of the distance to the farthest
-  if (body.tissue < 0) return false;
-  const Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
-  std::vector<Vec3> held;
+  std::vector<Vec3> tied;
   for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
-    if (tissue.nodes[i].rigid >= model.layout.num_rigid)
-      held.emplace_back(tissue.X.col(static_cast<Eigen::Index>(i)));
-  if (held.empty()) return false;
+    if (tissue.nodes[i].rigid >= 0 && takes(tissue.nodes[i].rigid))
+      tied.emplace_back(tissue.X.col(static_cast<Eigen::Index>(i)));
+  if (tied.empty()) return false;
   Vec3 far = Vec3::Zero();
-  for (const Vec3& x : held)
-    if ((x - held[0]).norm() > far.norm()) far = x - held[0];
-  return std::any_of(held.begin(), held.end(), [&](const Vec3& x) {
-    return far.cross(x - held[0]).norm() > kOnOneLine * far.squaredNorm();
+  for (const Vec3& x : tied)
+    if ((x - tied[0]).norm() > far.norm()) far = x - tied[0];
+  return std::any_of(tied.begin(), tied.end(), [&](const Vec3& x) {
+    return far.cross(x - tied[0]).norm() > kOnOneLine * far.squaredNorm();
   });
+}
+
+/// Of each body: whether attachments alone hold it. Fixed and driven bodies are held, and those
+/// without a free freedom; so is tissue that these tie, and a rigid body that such tissue ties.
+/// This does not ask the stiffness, which away from equilibrium may be negative.
+std::vector<char> held_by_attachments(const Model& model) {
+  std::vector<char> is_held(model.rigid_bodies.size(), 0), tissue_is_held(model.tissues.size(), 0);
+  for (std::size_t r = 0; r < model.rigid_bodies.size(); ++r) {
+    const RigidBody& rigid = model.rigid_bodies[r];
+    is_held[r] = !rigid.unknown ||
+                 (rigid.hold && std::all_of(rigid.hold->held.begin(), rigid.hold->held.end(),
+                                            [](bool held) { return held; }));
+  }
+  for (bool goes_on = true; goes_on;) {
+    goes_on = false;
+    for (std::size_t t = 0; t < model.tissues.size(); ++t) {
+      const Tissue& tissue = model.tissues[t];
+      const auto of = [](int rigid) { return static_cast<std::size_t>(rigid); };
+      if (tissue_is_held[t] || !ties(tissue, [&](int r) { return is_held[of(r)] != 0; })) continue;
+      tissue_is_held[t] = 1;
+      goes_on = true;
+      for (int r = 0; r < static_cast<int>(is_held.size()); ++r)
+        if (!is_held[of(r)]) is_held[of(r)] = ties(tissue, [&](int other) { return other == r; });
+    }
+  }
+  std::vector<char> result;
+  for (const BodyModel& body : model.bodies)
+    result.push_back(body.tissue >= 0 ? tissue_is_held[static_cast<std::size_t>(body.tissue)]
+                                      : is_held[static_cast<std::size_t>(body.rigid)]);
+  return result;
 }
 
 /// Appends the columns of a body: three translations, three turns by 1/radius about its centre.
@@ -61,7 +90,7 @@ void append_motions(const Model& model, const Configuration& now, int b,
   const bool is_rigid =
       body.rigid >= 0 && model.rigid_bodies[static_cast<std::size_t>(body.rigid)].unknown;
   const auto nodes = free_nodes(model, now, body);
-  if (!is_rigid && (nodes.empty() || is_clamped(model, body))) return;
+  if (!is_rigid && nodes.empty()) return;
   BodyMotions motions{.body = b};
   if (is_rigid) {
     const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
@@ -126,8 +155,10 @@ double stiffest_node(const Model& model, const fem::BlockMatrix& K) {
 std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& dynamics) {
   std::vector<BodyMotions> bodies;
   std::vector<Eigen::VectorXd> columns;
+  const std::vector<char> is_held = held_by_attachments(model);
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
-    append_motions(model, dynamics.now().configuration, b, bodies, columns);
+    if (!is_held[static_cast<std::size_t>(b)])
+      append_motions(model, dynamics.now().configuration, b, bodies, columns);
   if (columns.empty()) return std::nullopt;
 
   const NewtonEquations stiffness = dynamics.assemble({0, 0, 1}, fem::Tangent::Consistent);

@@ -14,8 +14,9 @@ struct RigidBodyMode {
 };
 
 /// Looks for one at the last Dynamics::evaluate(), among the rigid motions Z of all bodies (tissue
-/// that is tied to a rigid body moves with it, tissue that fixed bodies hold has none): in the null
-/// space of Zᵀ K Z, the motion that the forces drive, or any if they drive none.
+/// that is tied to a rigid body moves with it; what attachments hold, directly or through other
+/// tissue, has none): in the null space of Zᵀ K Z, the motion that the forces drive, or any if
+/// they drive none.
 std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& dynamics);
 
 }  // namespace articular::sim

@@ -59,17 +59,30 @@ double mean_edge(const MeshData& surface) {
   return sum / (3 * static_cast<double>(surface.triangles.cols()));
 }
 
-/// Creases and slivers of a scanned surface that can't take part in contact: a few are told, many
-/// are an error.
-void report_dropped(const Body& body, Eigen::Index given, Eigen::Index kept, Model& model) {
-  constexpr double kMostDropped = 0.03;
-  if (kept == given) return;
+double area_of(const Positions& X, const Triangles& triangles) {
+  double sum = 0;
+  for (const auto& t : triangles.colwise())
+    sum += 0.5 * (X.col(t[1]) - X.col(t[0])).cross(X.col(t[2]) - X.col(t[0])).norm();
+  return sum;
+}
+
+/// Creases and slivers of a scanned surface that can't take part in contact: many are an error. A
+/// few are told where their area counts; else the faces around them carry what presses there.
+void report_dropped(const Body& body, const MeshData& surface, const Triangles& kept,
+                    Model& model) {
+  constexpr double kMostDropped = 0.03, kLittleArea = 0.01;
+  const Eigen::Index given = surface.triangles.cols(), dropped = given - kept.cols();
+  if (dropped == 0) return;
   const std::string what =
       fmt::format("{} of {} faces of the contact surface of `{}` are slivers or lie in creases",
-                  given - kept, given, body.name);
-  if (static_cast<double>(given - kept) > kMostDropped * static_cast<double>(given))
+                  dropped, given, body.name);
+  if (static_cast<double>(dropped) > kMostDropped * static_cast<double>(given))
     throw InputError(what + "; expected a smooth surface with outward normals");
-  model.warnings.push_back(prefix(body.where) + what + " and are left out of contact");
+  const double part = 1 - area_of(surface.X, kept) / area_of(surface.X, surface.triangles);
+  if (part < kLittleArea) return;
+  model.warnings.push_back(
+      prefix(body.where) + what +
+      fmt::format(" and are left out of contact, {:.1f} % of its area", 100 * part));
 }
 
 Collider rigid_collider(const Body& body, const BodyGeometry& geometry, std::size_t b,
@@ -86,7 +99,7 @@ Collider rigid_collider(const Body& body, const BodyGeometry& geometry, std::siz
     collider.X = surface.X;
     Triangles triangles = surface.triangles;
     collider.tets = shell_under(collider.X, triangles, depth);
-    report_dropped(body, surface.triangles.cols(), triangles.cols(), model);
+    report_dropped(body, surface, triangles, model);
     is_outer.assign(static_cast<std::size_t>(collider.X.cols()), 0);
     std::fill_n(is_outer.begin(), surface.X.cols(), 1);
   } else {

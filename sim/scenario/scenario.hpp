@@ -100,7 +100,7 @@ struct TissueMaterial {
   std::shared_ptr<const fem::AnyMaterial> law;
   std::optional<Fibres> fibres;  // where the law has them
   /// Plain linear tetrahedra, or smoothed ones that do not lock.
-  enum class Element { Plain, Smoothed } element = Element::Plain;
+  enum class Element { Plain, Smoothed } element = Element::Smoothed;
   double mass_damping = 0;       // α [1/s] of Rayleigh damping
   double stiffness_damping = 0;  // β [s]
   std::vector<fem::PronyTerm> relaxation;

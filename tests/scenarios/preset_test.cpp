@@ -20,7 +20,7 @@ name = "beam"
 kind = "tissue"
 geometry = { box = { size = "30 5 5 mm", cells = [6, 1, 1], center = "15 0 0 mm" } }
 density = "1000 kg/m^3"
-material = { law = "neo-hookean", young_modulus = "100 kPa", poisson_ratio = 0.3 }
+material = { law = "neo-hookean", young_modulus = "100 kPa", poisson_ratio = 0.3, element = "plain" }
 [[attach]]
 body = "beam"
 to = "wall"
@@ -52,7 +52,7 @@ name = "layer"
 kind = "tissue"
 geometry = { box = { size = "20 20 10 mm", cells = [8, 8, 4], center = "0 0 5 mm" } }
 density = "1060 kg/m^3"
-material = { law = "neo-hookean", young_modulus = "15 kPa", poisson_ratio = 0.3, stiffness_damping = "2 ms" }
+material = { law = "neo-hookean", young_modulus = "15 kPa", poisson_ratio = 0.3, stiffness_damping = "2 ms", element = "plain" }
 [[attach]]
 body = "layer"
 to = "plate"

@@ -49,10 +49,12 @@ std::string density(double value) {
 
 std::string solid(double rho, const std::string& law, double young, double nu,
                   const std::string& more) {
+  const char* const element =
+      more.find("element") == std::string::npos ? ", element = \"plain\"" : "";
   return density(rho) +
          fmt::format(
-             "material = {{ law = \"{}\", young_modulus = \"{} Pa\", poisson_ratio = {}{} }}\n",
-             law, digits(young), digits(nu), more);
+             "material = {{ law = \"{}\", young_modulus = \"{} Pa\", poisson_ratio = {}{}{} }}\n",
+             law, digits(young), digits(nu), element, more);
 }
 
 std::string attach(const std::string& body, const std::string& to, const Numbers3& low,

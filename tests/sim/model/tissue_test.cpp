@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "fem/material/any_material.hpp"
@@ -60,6 +61,26 @@ TEST(Tissue, SmoothedElementsBendAsABeamDoesAtAnyPoissonRatio) {
     EXPECT_NEAR(deflection(smoothed(law)), expected, 0.05 * expected) << nu;
     EXPECT_LT(deflection(material_of(law)), 0.9 * expected) << nu;
   }
+}
+
+// A user who says nothing of elements gets a cantilever that is right near ν = 0.5, where plain
+// ones bend too little.
+TEST(Tissue, ACantileverNearIncompressibilityIsRightByDefault) {
+  const auto tip = [](bool is_plain) {
+    TissueMaterial material;
+    material.law = std::make_shared<const fem::AnyMaterial>(fem::NeoHookean(15e3, 0.499));
+    if (is_plain) material.element = TissueMaterial::Element::Plain;
+    Scenario s = bar(material, {4, 4, 24});
+    s.analysis = Scenario::Analysis::Static;
+    s.loads = {gravity({0.05, 0, 0})};
+    Simulation run(s);
+    run.advance(1);
+    return end_shift(run);
+  };
+  const double L = 0.06, b = 0.01;
+  const double expected = 1000 * 0.05 * std::pow(L, 4) * b * b / (8 * 15e3 * std::pow(b, 4) / 12);
+  EXPECT_NEAR(tip(false), expected, 0.05 * expected);
+  EXPECT_LT(tip(true), 0.9 * expected);
 }
 
 // With the pressure as an unknown the bulk modulus costs no iterations: with p = A⁻¹ b(x) they

@@ -62,7 +62,7 @@ name = "block"
 kind = "tissue"
 geometry = { box = { size = "10 10 10 mm", cells = [3, 3, 3], center = "0 0 5 mm" } }
 density = "1000 kg/m^3"
-material = { law = "neo-hookean", young_modulus = "10 kPa", poisson_ratio = 0.4 }
+material = { law = "neo-hookean", young_modulus = "10 kPa", poisson_ratio = 0.4, element = "plain" }
 [[attach]]
 body = "block"
 to = "table"
@@ -72,7 +72,7 @@ name = "bouncer"
 kind = "tissue"
 geometry = { box = { size = "6 5 4 mm", cells = [3, 2, 2] }, place = { rotation = "4 6 20 deg", translation = "0.5 0 12.8 mm" } }
 density = "1000 kg/m^3"
-material = { law = "neo-hookean", young_modulus = "10 kPa", poisson_ratio = 0.4 }
+material = { law = "neo-hookean", young_modulus = "10 kPa", poisson_ratio = 0.4, element = "plain" }
 velocity = "80 0 -250 mm/s"
 [[probe]]
 name = "energy"

@@ -73,7 +73,7 @@ name = "block"
 kind = "tissue"
 geometry = { box = { size = "10 11 12 mm", cells = [4, 5, 6], center = "0 0 5 mm" }, place = { rotation = "0 0 45 deg" } }
 density = "1000 kg/m^3"
-material = { law = "linear", young_modulus = "100 kPa", poisson_ratio = 0.3 }
+material = { law = "linear", young_modulus = "100 kPa", poisson_ratio = 0.3, element = "plain" }
 
 [[body]]
 name = "tool"
@@ -289,6 +289,7 @@ TEST_F(CompleteScenario, HasItsTissueAndGeometries) {
   EXPECT_TRUE(std::holds_alternative<fem::NeoHookean>(*disc.material->law));
   EXPECT_NEAR(fem::shear_modulus(*disc.material->law), 5.4e6 / (2 * 1.4), 1e-6);
   EXPECT_NEAR(fem::bulk_modulus(*disc.material->law), 5.4e6 / (3 * (1 - 2 * 0.4)), 1e-6);
+  EXPECT_EQ(disc.material->element, TissueMaterial::Element::Smoothed);  // the default
   EXPECT_EQ(disc.velocity, Vec3(0, 0, 1));
   const Body& ball = scenario_.bodies[3];
   const auto& sphere = std::get<SphereGeometry>(ball.geometry);
@@ -303,6 +304,7 @@ TEST_F(CompleteScenario, HasItsTissueAndGeometries) {
   EXPECT_EQ(box.center, Vec3(0, 0, 5e-3));
   EXPECT_TRUE(block.placement.rotation.isApprox(Vec3(0, 0, 45 * kDegree)));
   EXPECT_TRUE(std::holds_alternative<fem::Linear>(*block.material->law));
+  EXPECT_EQ(block.material->element, TissueMaterial::Element::Plain);
   const Body& tool = scenario_.bodies[5];
   const auto& shape = std::get<VShapeGeometry>(tool.geometry);
   EXPECT_EQ(shape.leg_length, 40e-3);

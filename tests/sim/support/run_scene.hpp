@@ -35,7 +35,7 @@ name = "block"
 kind = "tissue"
 geometry = { box = { size = "10 10 10 mm", cells = [2, 2, 2], center = "0 0 5 mm" } }
 density = "1000 kg/m^3"
-material = { law = "neo-hookean", young_modulus = "20 kPa", poisson_ratio = 0.4 }
+material = { law = "neo-hookean", young_modulus = "20 kPa", poisson_ratio = 0.4, element = "plain" }
 [[body]]
 name = "plate"
 kind = "rigid"

@@ -22,7 +22,7 @@ kind = "fixed"
 name = "disc"
 kind = "tissue"
 density = "1 g/cm^3"
-material = { law = "linear", young_modulus = "5 MPa", poisson_ratio = 0.3 }
+material = { law = "linear", young_modulus = "5 MPa", poisson_ratio = 0.3, element = "plain" }
 )";
 const std::string kScene =
     kTissue + "geometry = { box = { size = \"4 4 4 mm\", cells = [2, 2, 2] } }\n";

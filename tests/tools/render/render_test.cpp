@@ -156,7 +156,7 @@ geometry = { box = { size = "8 8 1 mm", cells = [1, 1, 1], center = "0 0 -2.6 mm
 name = "block"
 kind = "tissue"
 density = "1 g/cm^3"
-material = { law = "linear", young_modulus = "5 MPa", poisson_ratio = 0.3 }
+material = { law = "linear", young_modulus = "5 MPa", poisson_ratio = 0.3, element = "plain" }
 geometry = { box = { size = "4 4 4 mm", cells = [2, 2, 2] } }
 [[body]]
 name = "post"
