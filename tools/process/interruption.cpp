@@ -19,6 +19,7 @@ void ask(int signal) {
 void listen_for_interruption() {
   std::signal(SIGINT, ask);
   std::signal(SIGTERM, ask);
+  if (std::signal(SIGHUP, ask) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
 }
 
 bool interruption_asked() { return asked; }

@@ -1,0 +1,141 @@
+#include "tools/error_bars/coarser_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/build/contact_model.hpp"
+#include "sim/statics/equilibrium.hpp"
+
+namespace articular::tools {
+namespace {
+
+using Scheme = sim::Integrator::Scheme;
+
+bool is_static(const sim::Scenario& scenario) {
+  return scenario.analysis == sim::Scenario::Analysis::Static;
+}
+
+std::string seconds(const char* key, double value) {
+  return fmt::format("{}=\"{} s\"", key, value);
+}
+
+/// Newton's tolerance, or that of `explicit`, by a factor.
+std::vector<std::string> looser_tolerance(const sim::Integrator& integrator, double factor) {
+  if (integrator.position_tolerance)
+    return {fmt::format("integrator.position_tolerance=\"{} m\"",
+                        factor * *integrator.position_tolerance)};
+  return {fmt::format("integrator.element_tolerance={}", factor * integrator.element_tolerance)};
+}
+
+int order_of(Scheme scheme) {
+  switch (scheme) {
+    case Scheme::TrBdf2:
+      return 2;
+    case Scheme::Dirk3:
+      return 3;
+    case Scheme::ImplicitEuler:
+    case Scheme::Explicit:
+      break;
+  }
+  return 1;
+}
+
+CoarserRun longer_steps(const sim::Scenario& scenario, double factor) {
+  CoarserRun run;
+  run.name = fmt::format("step {} times", factor);
+  const double step = std::min(factor * scenario.integrator.step, scenario.duration);
+  run.overrides = {seconds("integrator.step", step),
+                   seconds("output.interval", factor * scenario.output.interval)};
+  if (scenario.output.checkpoint_interval)
+    run.overrides.push_back(
+        seconds("output.checkpoint_interval", factor * *scenario.output.checkpoint_interval));
+  return run;
+}
+
+}  // namespace
+
+Direction coarser_steps(const sim::Scenario& scenario) {
+  Direction steps{"step"};
+  if (!is_static(scenario) && scenario.integrator.scheme == Scheme::Explicit) {
+    steps.remark = "the scheme chooses its steps: its tolerance is varied";
+    for (const double factor : {10.0, 100.0})
+      steps.runs.push_back({fmt::format("tolerance of steps {} times", factor),
+                            looser_tolerance(scenario.integrator, factor),
+                            factor,
+                            "",
+                            {}});
+    return steps;
+  }
+  if (!is_static(scenario)) steps.formal_order = order_of(scenario.integrator.scheme);
+  double before = scenario.integrator.step;
+  for (const double factor : {2.0, 4.0}) {
+    const double step = std::min(factor * scenario.integrator.step, scenario.duration);
+    if (!(step > before * (1 + 1e-9))) break;
+    before = step;
+    steps.runs.push_back(longer_steps(scenario, factor));
+  }
+  if (steps.runs.empty()) steps.left_out = "the run is one step, which can't be longer";
+  return steps;
+}
+
+bool can_touch(const sim::Scenario& scenario, const sim::Body& body) {
+  if (!scenario.contact || !body.collides) return false;
+  return scenario.contacts.empty() ||
+         std::any_of(scenario.contacts.begin(), scenario.contacts.end(),
+                     [&](const sim::ContactPair& pair) {
+                       return pair.a == body.name || pair.b == body.name;
+                     });
+}
+
+Direction softer_contact(const sim::Scenario& scenario, bool anything_touches) {
+  Direction contact{"contact"};
+  if (!scenario.contact || !anything_touches) {
+    contact.remark = "nothing touches";
+    return contact;
+  }
+  if (is_static(scenario)) {
+    contact.remark =
+        "multipliers bound depths by 1/100 of an element, and forces do not depend on the penalty: "
+        "what is left is varied with the mesh";
+    return contact;
+  }
+  const auto is_tissue = [](const sim::Body& body) { return body.kind == sim::Body::Kind::Tissue; };
+  const bool averaged = scenario.contact_response == sim::Scenario::Response::Averaged;
+  const bool has_tissue = std::any_of(
+      scenario.bodies.begin(), scenario.bodies.end(),
+      [&](const sim::Body& body) { return is_tissue(body) && can_touch(scenario, body); });
+  if (!averaged || !has_tissue) {
+    contact.left_out = averaged ? "two rigid bodies press each other with a fixed stiffness"
+                                : "contact_response \"pointwise\" has a fixed stiffness";
+    return contact;
+  }
+  const double factor = sim::contact_stiffness_factor(scenario, averaged);
+  for (const double softer : {3.0, 9.0})
+    contact.runs.push_back({fmt::format("contact {} times softer", softer),
+                            {fmt::format("contact_stiffness_factor={}", factor / softer)},
+                            softer});
+  return contact;
+}
+
+Direction looser_iteration(const sim::Scenario& scenario) {
+  Direction tolerance{"tolerance"};
+  if (is_static(scenario)) {
+    tolerance.remark =
+        fmt::format("forces balance to {} of the largest one, which is not varied", sim::kBalanced);
+    return tolerance;
+  }
+  if (scenario.integrator.scheme == Scheme::Explicit) {
+    tolerance.remark = "explicit steps have no iteration";
+    return tolerance;
+  }
+  constexpr double kLooser = 10;
+  tolerance.runs.push_back({fmt::format("tolerance {} times", kLooser),
+                            looser_tolerance(scenario.integrator, kLooser),
+                            kLooser,
+                            "",
+                            {}});
+  return tolerance;
+}
+
+}  // namespace articular::tools
