@@ -55,9 +55,9 @@ std::string rounded(double value, double bar) {
   return fmt::format("{:.{}f}", value, digits);
 }
 
-int count_of(const std::vector<ErrorBar>& bars, bool estimated, bool doubted) {
+int count_of(const std::vector<ErrorBar>& bars, const std::string& word) {
   return static_cast<int>(std::count_if(bars.begin(), bars.end(), [&](const ErrorBar& bar) {
-    return bar.is_estimated() == estimated && (!estimated || bar.doubts.empty() != doubted);
+    return verdict(bar).starts_with(word);
   }));
 }
 
@@ -65,6 +65,7 @@ int count_of(const std::vector<ErrorBar>& bars, bool estimated, bool doubted) {
 
 std::string verdict(const ErrorBar& bar) {
   if (!bar.is_estimated()) return fmt::format("not estimated ({})", bar.left_out);
+  if (bar.is_negligible()) return "negligible";
   return bar.doubts.empty() ? "asymptotic" : fmt::format("not asymptotic ({})", bar.doubts);
 }
 
@@ -116,9 +117,10 @@ std::string summary_with_error_bars(const std::string& summary,
     if (!direction.left_out.empty()) entry["not_in_the_bars"] = direction.left_out;
     told[direction.name] = entry;
   }
-  told["quantities"] = {{"asymptotic", count_of(bars, true, false)},
-                        {"not_asymptotic", count_of(bars, true, true)},
-                        {"not_estimated", count_of(bars, false, false)}};
+  told["quantities"] = {{"negligible", count_of(bars, "negligible")},
+                        {"asymptotic", count_of(bars, "asymptotic")},
+                        {"not_asymptotic", count_of(bars, "not asymptotic")},
+                        {"not_estimated", count_of(bars, "not estimated")}};
   json["error_bars"] = told;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -7,7 +7,7 @@
 
 namespace articular::tools {
 
-/// "asymptotic", "not asymptotic (mesh: goes to and fro)" or "not estimated (...)".
+/// "negligible", "asymptotic", "not asymptotic (mesh: goes to and fro)" or "not estimated (...)".
 std::string verdict(const ErrorBar& bar);
 
 /// error_bars.csv: a row a quantity, with value, bar, and bar and observed order of each direction.

@@ -10,6 +10,8 @@
 namespace articular::tools {
 namespace {
 
+constexpr double kNegligible = 1e-6;
+
 /// What is less of the bar than this may be uncertain itself.
 constexpr double kMuchOfTheBar = 0.1;
 
@@ -33,6 +35,24 @@ std::vector<Quantity> quantities_of(const std::vector<double>& column) {
   if (column[*most] > std::max(first, last)) quantities.push_back(Quantity::Largest);
   if (column[*least] < std::min(first, last)) quantities.push_back(Quantity::Smallest);
   return quantities;
+}
+
+/// "tip.force [N]" of "tip.force.x [N]": what the components of a vector share.
+std::string stem_of(const std::string& column) {
+  const std::size_t end = column.find(" [");
+  const std::size_t dot = end == std::string::npos || end < 2 ? end : end - 2;
+  const bool is_component = dot != std::string::npos && column[dot] == '.' &&
+                            column[dot + 1] >= 'x' && column[dot + 1] <= 'z';
+  return is_component ? column.substr(0, dot) + column.substr(end) : column;
+}
+
+double scale_of(const RunHistory& history, const std::string& column) {
+  double most = 0;
+  for (std::size_t c = 1; c < history.names.size(); ++c)
+    if (stem_of(history.names[c]) == stem_of(column))
+      for (const double value : history.columns[c])
+        if (std::isfinite(value)) most = std::max(most, std::abs(value));
+  return most;
 }
 
 void append(std::string& list, const std::string& text) {
@@ -84,6 +104,8 @@ void sum_up(const std::vector<Direction>& directions, ErrorBar& bar) {
 
 }  // namespace
 
+bool ErrorBar::is_negligible() const { return is_estimated() && bar <= kNegligible * scale; }
+
 const char* name_of(Quantity quantity) {
   constexpr const char* kNames[] = {"end", "largest", "smallest"};
   return kNames[static_cast<int>(quantity)];
@@ -112,6 +134,7 @@ std::vector<ErrorBar> error_bars(const RunHistory& history,
       bar.column = history.names[c];
       bar.quantity = quantity;
       bar.value = quantity_value(history, bar.column, quantity);
+      bar.scale = scale_of(history, bar.column);
       for (const Direction& direction : directions) bar.parts.push_back(part_of(direction, bar));
       sum_up(directions, bar);
       bars.push_back(std::move(bar));

@@ -20,10 +20,12 @@ struct ErrorBar {
   Quantity quantity = Quantity::End;
   double value = 0;                        // in the column's unit
   double bar = kNoValue;                   // NaN: not estimated
+  double scale = 0;                        // largest value of the column, or of its vector
   std::vector<DiscretisationError> parts;  // of each direction; NaN where it has no bar
   std::string doubts;                      // why the bar is no extrapolation; "" where it is
   std::string left_out;                    // errors that are not in the bar, and why; "": none
   bool is_estimated() const { return bar >= 0; }
+  bool is_negligible() const;  // below a millionth of the scale: round-off, or balance of statics
 };
 
 /// The value of a quantity in a run; NaN where it has none. @throws sim::InputError  no such column

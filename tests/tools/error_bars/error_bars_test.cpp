@@ -121,6 +121,20 @@ TEST(ErrorBars, ABlankInACoarserRunIsToldAndNotTakenForANumber) {
             "not estimated (mesh: no value in the coarser runs)");
 }
 
+// Across a force of 1 N there is round-off, which converges nowhere.
+TEST(ErrorBars, RoundOffBesideALargeComponentIsNegligible) {
+  const auto history = [](double across) {
+    return RunHistory{{"time [s]", "f.force.x [N]", "f.force.z [N]", "g.force.x [N]"},
+                      {{0, 1}, {0, across}, {0, 1}, {0, across}}};
+  };
+  const Direction mesh{
+      "mesh", 2, {run_with(2, history(-3e-12)), run_with(4, history(9e-12))}, "", ""};
+  const std::vector<ErrorBar> bars = error_bars(history(1e-12), {mesh});
+  EXPECT_EQ(verdict(bars[0]), "negligible");
+  EXPECT_EQ(verdict(bars[1]), "negligible");  // equal in all runs
+  EXPECT_EQ(verdict(bars[2]), "not asymptotic (mesh: goes to and fro)");
+}
+
 TEST(ErrorBarReport, TableHasARowAQuantityAndSummaryCountsThem) {
   const std::vector<Direction> directions{second_order("mesh", 1),
                                           {"step", 1, {}, "one step, no more", ""}};
