@@ -10,6 +10,7 @@
 namespace articular::tools {
 namespace {
 
+/// Of the scale: what equilibrium is found to, and far above round-off.
 constexpr double kNegligible = 1e-6;
 
 /// What is less of the bar than this may be uncertain itself.
@@ -79,14 +80,13 @@ DiscretisationError part_of(const Direction& direction, ErrorBar& bar) {
   return error;
 }
 
-/// One coarser run alone was meant to be taken.
 bool is_doubted(const Direction& direction, const DiscretisationError& part) {
-  return !part.doubt.empty() && direction.runs.size() > 1;
+  return !part.doubt.empty() && direction.wanted_runs > 1;
 }
 
 void sum_up(const std::vector<Direction>& directions, ErrorBar& bar) {
   double sum = 0, doubted = 0;
-  bool any = false, is_exact = bar.left_out.empty();
+  bool any = bar.left_out.empty();  // a scene may have no such error at all
   for (std::size_t d = 0; d < directions.size(); ++d) {
     const DiscretisationError& part = bar.parts[d];
     if (!std::isfinite(part.bar)) continue;
@@ -94,7 +94,7 @@ void sum_up(const std::vector<Direction>& directions, ErrorBar& bar) {
     sum += part.bar;
     if (is_doubted(directions[d], part)) doubted += part.bar;
   }
-  if (!any && !is_exact) return;
+  if (!any) return;
   bar.bar = sum;
   if (doubted <= kMuchOfTheBar * sum) return;
   for (std::size_t d = 0; d < directions.size(); ++d)

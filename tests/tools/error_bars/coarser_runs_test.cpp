@@ -68,6 +68,25 @@ TEST(SofterContact, IsThreeAndNineTimesAsSoftAsTheRuns) {
   EXPECT_EQ(accurate.runs[0].overrides[0].rfind("contact_stiffness_factor=333.3", 0), 0U);
 }
 
+// The block presses the floor as softly as it should; what two bones do is not varied, and is told.
+TEST(SofterContact, OfRigidBodiesIsToldToBeLeftOut) {
+  const std::string bones =
+      "[[body]]\nname = 'a'\nkind = 'rigid'\ndensity = '1 g/cm^3'\ngeometry = { box = { size = '1 "
+      "1 "
+      "1 mm', cells = [1, 1, 1], center = '9 0 0 mm' } }\n[[body]]\nname = 'b'\nkind = "
+      "'rigid'\ndensity = '1 g/cm^3'\ngeometry = { box = { size = '1 1 1 mm', cells = [1, 1, 1], "
+      "center = '9 0 3 mm' } }\n";
+  const std::string with_floor = "[[contact]]\nbodies = ['block', 'floor']\n";
+  const Direction all = softer_contact(scenario_of("", bones), true);
+  EXPECT_EQ(all.runs.size(), 2U);
+  EXPECT_EQ(all.left_out, "two rigid bodies press each other with a fixed stiffness");
+  EXPECT_EQ(softer_contact(scenario_of("", bones + with_floor), true).left_out, "");
+  const Direction only =
+      softer_contact(scenario_of("", bones + "[[contact]]\nbodies = ['a', 'b']\n"), true);
+  EXPECT_TRUE(only.runs.empty());
+  EXPECT_EQ(only.left_out, all.left_out);
+}
+
 TEST(SofterContact, SaysWhereThereIsNothingToVary) {
   EXPECT_EQ(softer_contact(scenario_of(""), false).remark, "nothing touches");
   EXPECT_EQ(softer_contact(scenario_of("contact = false\n"), true).remark, "nothing touches");

@@ -58,10 +58,17 @@ TEST(ErrorBars, ASmallDoubtfulPartDoesNotSpoilTheVerdict) {
 
 // Newton's tolerance is varied once, as it should be.
 TEST(ErrorBars, ADirectionOfOneRunIsNotDoubtedForIt) {
-  const Direction tolerance{"tolerance", 1, {run_with(10, ends_with(1.09))}, "", ""};
+  const Direction tolerance{"tolerance", 1, {run_with(10, ends_with(1.09))}, "", "", 1};
   const ErrorBar bar = only_bar(ends_with(1), {tolerance});
   EXPECT_NEAR(bar.bar, 3 * 0.09 / 9, 1e-12);
   EXPECT_EQ(verdict(bar), "asymptotic");
+}
+
+// Of steps there should have been two.
+TEST(ErrorBars, OneRunWhereTwoWereWantedIsDoubted) {
+  const Direction steps{"step", 1, {run_with(2, ends_with(1.09))}, "", ""};
+  EXPECT_EQ(verdict(only_bar(ends_with(1), {steps})),
+            "not asymptotic (step: order 1 taken, not seen)");
 }
 
 TEST(ErrorBars, AFailedRunLeavesABarOfTheOtherAndSaysSo) {
