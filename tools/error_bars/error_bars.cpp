@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "sim/base/error.hpp"
 
@@ -123,6 +124,20 @@ double quantity_value(const RunHistory& history, const std::string& column, Quan
     if (std::isnan(extreme) || is_farther) extreme = value;
   }
   return extreme;
+}
+
+void add_force_sizes(RunHistory& history) {
+  constexpr std::string_view kFirst = ".force.x [N]";
+  const std::size_t given = history.names.size();
+  for (std::size_t c = 0; c + 2 < given; ++c) {
+    const std::string& name = history.names[c];
+    if (!name.ends_with(kFirst)) continue;
+    const auto &x = history.columns[c], &y = history.columns[c + 1], &z = history.columns[c + 2];
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < x.size(); ++i) sizes.push_back(std::hypot(x[i], y[i], z[i]));
+    history.names.push_back(name.substr(0, name.size() - kFirst.size()) + ".force [N]");
+    history.columns.push_back(std::move(sizes));
+  }
 }
 
 std::vector<ErrorBar> error_bars(const RunHistory& history,

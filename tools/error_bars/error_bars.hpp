@@ -31,6 +31,9 @@ struct ErrorBar {
 /// The value of a quantity in a run; NaN where it has none. @throws sim::InputError  no such column
 double quantity_value(const RunHistory& history, const std::string& column, Quantity quantity);
 
+/// Adds what forces are quoted by, their sizes: "plate.force [N]" from "plate.force.x [N]", ...
+void add_force_sizes(RunHistory& history);
+
 /// Bars of the last row of every column, and of its largest and smallest value where they lie
 /// between the first and the last row. Columns without a value are left out.
 ///

@@ -94,6 +94,12 @@ std::vector<StudyCase> cases_of(const std::vector<CoarserRun*>& runs,
   return cases;
 }
 
+RunHistory quoted_history(const fs::path& results) {
+  RunHistory history = read_history(results / "history.csv");
+  add_force_sizes(history);
+  return history;
+}
+
 /// Steps of mean length, relative to those of the run: they are cut at events.
 double step_size(const RunHistory& history, const RunHistory& own) {
   return static_cast<double>(own.columns[0].size() - 1) /
@@ -136,14 +142,14 @@ std::string measure_error_bars(const sim::Scenario& scenario, const ErrorBarSett
   const std::vector<CaseRecord> records =
       run_cases(study, cases, {folder, jobs, fresh, settings.quiet});
 
-  const RunHistory own = read_history(settings.directory / "history.csv");
+  const RunHistory own = quoted_history(settings.directory);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!records[i].succeeded()) {
       runs[i]->failure = records[i].outcome();
       if (!records[i].message.empty()) runs[i]->failure += ": " + records[i].message;
       continue;
     }
-    runs[i]->history = read_history(results_of(folder, cases[i]) / "history.csv");
+    runs[i]->history = quoted_history(results_of(folder, cases[i]));
     if (runs[i]->size == 0) runs[i]->size = step_size(runs[i]->history, own);
   }
   drop_equal_steps(directions[1]);

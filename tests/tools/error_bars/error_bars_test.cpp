@@ -142,6 +142,16 @@ TEST(ErrorBars, RoundOffBesideALargeComponentIsNegligible) {
   EXPECT_EQ(verdict(bars[2]), "not asymptotic (mesh: goes to and fro)");
 }
 
+TEST(ErrorBars, ForcesAreQuotedByTheirSizesToo) {
+  RunHistory history{
+      {"time [s]", "f.force.x [N]", "f.force.y [N]", "f.force.z [N]", "f.area [mm^2]"},
+      {{0, 1}, {0, 2}, {0, -3}, {0, 6}, {0, 9}}};
+  add_force_sizes(history);
+  ASSERT_EQ(history.names.size(), 6U);
+  EXPECT_EQ(history.names[5], "f.force [N]");
+  EXPECT_EQ(history.columns[5], (std::vector<double>{0, 7}));
+}
+
 TEST(ErrorBarReport, TableHasARowAQuantityAndSummaryCountsThem) {
   const std::vector<Direction> directions{second_order("mesh", 1),
                                           {"step", 1, {}, "one step, no more", ""}};
