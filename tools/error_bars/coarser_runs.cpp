@@ -90,13 +90,17 @@ Direction coarser_steps(const sim::Scenario& scenario) {
                             {}});
     return steps;
   }
-  if (!is_static(scenario)) steps.formal_order = order_of(scenario.integrator.scheme);
+  if (is_static(scenario))
+    steps.wanted_runs = 1;
+  else
+    steps.formal_order = order_of(scenario.integrator.scheme);
   double before = scenario.integrator.step;
   for (const double factor : {2.0, 4.0}) {
     const double step = std::min(factor * scenario.integrator.step, scenario.duration);
     if (!(step > before * (1 + 1e-9))) break;
     before = step;
     steps.runs.push_back(longer_steps(scenario, factor));
+    if (std::ssize(steps.runs) == steps.wanted_runs) break;
   }
   if (steps.runs.empty()) steps.left_out = "the run is one step, which can't be longer";
   return steps;

@@ -29,7 +29,9 @@ struct Direction {
 };
 
 /// Steps twice and four times as long, with frames and restart points as much rarer, so that steps
-/// are cut alike. The scheme `explicit` chooses its steps by its tolerance, which is made larger.
+/// are cut alike. In statics twice alone: equilibrium does not know by which steps it was found,
+/// and longer ones take many iterations. The scheme `explicit` chooses its steps by its tolerance,
+/// which is made larger.
 Direction coarser_steps(const sim::Scenario& scenario);
 
 /// Averaged depths in time: contact three and nine times as soft, an error of first order in

@@ -50,6 +50,14 @@ TEST(CoarserSteps, OfTheExplicitSchemeAreThoseOfItsTolerance) {
   EXPECT_EQ(steps.runs[1].size, 100);
 }
 
+TEST(CoarserSteps, OfStaticsAreTwiceAsLongOnce) {
+  const Direction steps =
+      coarser_steps(scenario_of("analysis = 'static'\n", "[integrator]\nstep = '0.1 s'\n"));
+  ASSERT_EQ(steps.runs.size(), 1U);
+  EXPECT_EQ(steps.wanted_runs, 1);
+  EXPECT_EQ(steps.runs[0].overrides[0], "integrator.step=\"0.2 s\"");
+}
+
 TEST(CoarserSteps, AreNotLongerThanTheRun) {
   const std::string statics = "analysis = 'static'\n";
   EXPECT_EQ(coarser_steps(scenario_of(statics, "[integrator]\nstep = '0.5 s'\n")).runs.size(), 1U);
