@@ -84,10 +84,7 @@ Direction coarser_steps(const sim::Scenario& scenario) {
     steps.remark = "the scheme chooses its steps: its tolerance is varied";
     for (const double factor : {10.0, 100.0})
       steps.runs.push_back({fmt::format("tolerance of steps {} times", factor),
-                            looser_tolerance(scenario.integrator, factor),
-                            factor,
-                            "",
-                            {}});
+                            looser_tolerance(scenario.integrator, factor), factor});
     return steps;
   }
   if (is_static(scenario))
