@@ -25,9 +25,10 @@ std::string seconds(const char* key, double value) {
 /// Newton's tolerance, or that of `explicit`, by a factor.
 std::vector<std::string> looser_tolerance(const sim::Integrator& integrator, double factor) {
   if (integrator.position_tolerance)
-    return {fmt::format("integrator.position_tolerance=\"{} m\"",
+    return {fmt::format("integrator.position_tolerance=\"{:.9g} m\"",
                         factor * *integrator.position_tolerance)};
-  return {fmt::format("integrator.element_tolerance={}", factor * integrator.element_tolerance)};
+  return {
+      fmt::format("integrator.element_tolerance={:.9g}", factor * integrator.element_tolerance)};
 }
 
 int order_of(Scheme scheme) {
