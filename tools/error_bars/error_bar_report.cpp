@@ -51,7 +51,7 @@ std::string direction_line(const Direction& direction) {
 std::string rounded(double value, double bar) {
   if (!(bar > 0) || !std::isfinite(bar)) return fmt::format("{:.6g}", value);
   const int digits = 1 - static_cast<int>(std::floor(std::log10(bar)));  // two of the bar
-  if (digits < 0 || digits > 12) return fmt::format("{:.6g}", value);
+  if (digits < 0 || digits > 9) return fmt::format("{:.6g}", value);
   return fmt::format("{:.{}f}", value, digits);
 }
 
@@ -94,11 +94,14 @@ std::string error_bars_text(const std::vector<Direction>& directions,
   for (const ErrorBar& bar : bars) width = std::max(width, bar.column.size());
   text += fmt::format("\n{:<{}}  {:<8} {:>14}   {:<10} {}\n", "column", width, "quantity", "value",
                       "bar", "verdict");
-  for (const ErrorBar& bar : bars)
-    text +=
-        fmt::format("{:<{}}  {:<8} {:>14} {} {:<10} {}\n", bar.column, width, name_of(bar.quantity),
-                    rounded(bar.value, bar.bar), bar.is_estimated() ? "±" : " ",
-                    bar.is_estimated() ? fmt::format("{:.2g}", bar.bar) : "", verdict(bar));
+  for (const ErrorBar& bar : bars) {
+    const bool is_partial = bar.is_estimated() && !bar.left_out.empty();
+    text += fmt::format("{:<{}}  {:<8} {:>14} {} {:<10} {}{}\n", bar.column, width,
+                        name_of(bar.quantity), rounded(bar.value, bar.bar),
+                        bar.is_estimated() ? "±" : " ",
+                        bar.is_estimated() ? fmt::format("{:.2g}", bar.bar) : "", verdict(bar),
+                        is_partial ? "; not all is in the bar" : "");
+  }
   return text;
 }
 
