@@ -143,7 +143,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
                     "Replace results of another scenario in the folder");
   command->add_flag("--error-bars", arguments->error_bars,
                     "Run again coarser in mesh, step, contact and tolerance, and estimate the "
-                    "discretisation error of every probe: three to five times the time");
+                    "discretisation error of every probe: two to six times the time");
   command->add_flag("--quiet", arguments->quiet, "No progress on stderr");
   command->footer(
       "Writes DIR/NAME.pvd (open it in ParaView), DIR/frames/, DIR/history.csv (probes over "
