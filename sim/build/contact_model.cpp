@@ -20,14 +20,6 @@ namespace {
 /// as the stiffness lets them. Two rigid bodies, which give way nowhere, have nothing of it.
 constexpr double kSoftFactor = 10, kFirmFactor = 100, kStiffFactor = 1000;
 
-double stiffness_factor(const Scenario& scenario, bool averaged) {
-  if (scenario.analysis == Scenario::Analysis::Static) return kStiffFactor;
-  if (!averaged) return kSoftFactor;
-  if (scenario.contact_stiffness_factor) return *scenario.contact_stiffness_factor;
-  const bool is_explicit = scenario.integrator.scheme == Integrator::Scheme::Explicit;
-  return is_explicit ? kSoftFactor : kFirmFactor;
-}
-
 /// Of the elements at the surface: what friction at 0.7 of its limit creeps in a second, or in a
 /// thousand steps where these take longer. A finer step creeps no faster, and a scene of hours with
 /// long steps no farther than one of seconds.
@@ -74,7 +66,7 @@ void add_contact(const Scenario& scenario, int a, int b, const ContactPair& pair
                           model.bodies[static_cast<std::size_t>(b)].tissue >= 0;
   contact.averaged = is_static || (has_tissue && response == Scenario::Response::Averaged);
   contact.share = a == b ? 0.5 : 1;
-  const double factor = stiffness_factor(scenario, contact.averaged);
+  const double factor = contact_stiffness_factor(scenario, contact.averaged);
   const double layers = A->layer_compliance + B->layer_compliance;
   contact.mean_stiffness = 1 / ((A->mean_compliance + B->mean_compliance) / factor + layers);
   contact.max_penetration = kMaxPenetration * std::min(A->size, B->size);
@@ -102,6 +94,14 @@ void add_contact(const Scenario& scenario, int a, int b, const ContactPair& pair
 }
 
 }  // namespace
+
+double contact_stiffness_factor(const Scenario& scenario, bool averaged) {
+  if (scenario.analysis == Scenario::Analysis::Static) return kStiffFactor;
+  if (!averaged) return kSoftFactor;
+  if (scenario.contact_stiffness_factor) return *scenario.contact_stiffness_factor;
+  const bool is_explicit = scenario.integrator.scheme == Integrator::Scheme::Explicit;
+  return is_explicit ? kSoftFactor : kFirmFactor;
+}
 
 void make_contacts(const Scenario& scenario, Model& model) {
   if (!scenario.contact) return;

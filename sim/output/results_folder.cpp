@@ -92,7 +92,8 @@ void clear_results(const fs::path& folder, const std::string& scenario, bool ove
                                             "; choose another --out, or replace them with "
                                             "--overwrite");
   std::vector<fs::path> files;
-  for (const char* const name : {"history.csv", "convergence.csv", "summary.json"})
+  for (const char* const name :
+       {"history.csv", "convergence.csv", "summary.json", "error_bars.csv"})
     files.push_back(folder / name);
   for (const std::string& name : {scenario, other})
     files.push_back(folder / (fs::path(name).stem().string() + ".pvd"));

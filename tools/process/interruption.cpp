@@ -17,7 +17,9 @@ void ask(int signal) {
 }  // namespace
 
 void listen_for_interruption() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, ask);
+  std::signal(SIGINT, ask);
+  std::signal(SIGTERM, ask);
+  if (std::signal(SIGHUP, ask) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
 }
 
 bool interruption_asked() { return asked; }

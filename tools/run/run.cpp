@@ -8,9 +8,11 @@
 #include <csignal>
 #include <memory>
 
+#include "tools/error_bars/measure_error_bars.hpp"
 #include "tools/process/interruption.hpp"
 #include "tools/run/commands.hpp"
 #include "tools/run/progress.hpp"
+#include "tools/study/study_prepare.hpp"
 
 namespace articular::tools {
 namespace {
@@ -23,7 +25,7 @@ struct RunArguments {
   std::filesystem::path scenario, out;
   std::vector<std::string> overrides;
   int threads = 1;
-  bool resume = false, overwrite = false, quiet = false;
+  bool resume = false, overwrite = false, quiet = false, error_bars = false;
 };
 
 void print(const sim::Model& model, const sim::OverlapResolution& resolution) {
@@ -39,18 +41,18 @@ void print(const sim::Model& model, const sim::OverlapResolution& resolution) {
              1e3 * resolution.largest_motion, resolution.solutions);
 }
 
-int run_scenario(const RunArguments& arguments) {
-  sim::Scenario scenario = sim::read_scenario(arguments.scenario, arguments.overrides);
-  scenario.threads = arguments.threads;
+std::filesystem::path results_folder(const sim::Scenario& scenario, const RunArguments& arguments) {
+  if (!arguments.out.empty()) return arguments.out;
+  return scenario.output.directory.value_or(std::filesystem::path("out") / scenario.name);
+}
+
+int run_once(const sim::Scenario& scenario, const RunArguments& arguments) {
   const sim::Model model = sim::build_model(scenario);
   for (const std::string& warning : model.warnings)
     fmt::print(stderr, "articular: warning: {}\n", warning);
 
   sim::RunOptions options;
-  options.directory = arguments.out;
-  if (options.directory.empty())
-    options.directory =
-        scenario.output.directory.value_or(std::filesystem::path("out") / scenario.name);
+  options.directory = results_folder(scenario, arguments);
   options.resume = arguments.resume;
   options.overwrite = arguments.overwrite;
   Progress progress(scenario, arguments.quiet);
@@ -70,8 +72,9 @@ int run_scenario(const RunArguments& arguments) {
     progress.finish();
     fmt::print(stderr, "articular: warning: {}\n", warning);
   };
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    std::signal(signal, [](int) { interrupted = true; });
+  const auto interrupt = [](int) { interrupted = true; };
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, interrupt);
+  if (std::signal(SIGHUP, interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
   for (const int signal : {SIGXFSZ, SIGPIPE})  // the write that it is about fails and says why
     std::signal(signal, SIG_IGN);
   sim::RunOutcome outcome = sim::RunOutcome::Finished;
@@ -89,6 +92,30 @@ int run_scenario(const RunArguments& arguments) {
   if (outcome == sim::RunOutcome::Finished) return 0;
   fmt::print(stderr, "articular: interrupted; go on with --resume\n");
   return kInterruptedExitCode;
+}
+
+int print_error_bars(const sim::Scenario& scenario, const RunArguments& arguments) {
+  const std::filesystem::path directory = results_folder(scenario, arguments);
+  listen_for_interruption();
+  try {
+    const std::string table = measure_error_bars(
+        scenario,
+        {directory, arguments.overrides, arguments.threads, arguments.resume, arguments.quiet});
+    fmt::print("{}\n\n{}", (directory / "error_bars.csv").string(), table);
+    return 0;
+  } catch (const StudyInterrupted&) {
+    fmt::print(stderr,
+               "articular: interrupted in the coarser runs of the error bars; the results of the "
+               "run are whole, and --resume goes on with what is missing\n");
+    return kInterruptedExitCode;
+  }
+}
+
+int run_scenario(const RunArguments& arguments) {
+  sim::Scenario scenario = sim::read_scenario(arguments.scenario, arguments.overrides);
+  scenario.threads = arguments.threads;
+  const int exit_code = run_once(scenario, arguments);
+  return exit_code == 0 && arguments.error_bars ? print_error_bars(scenario, arguments) : exit_code;
 }
 
 }  // namespace
@@ -114,13 +141,18 @@ void add_run_command(CLI::App& app, int& exit_code) {
                     "Go on from the folder's last checkpoint, if there is one");
   command->add_flag("--overwrite", arguments->overwrite,
                     "Replace results of another scenario in the folder");
+  command->add_flag("--error-bars", arguments->error_bars,
+                    "Run again coarser in mesh, step, contact and tolerance, and estimate the "
+                    "discretisation error of every probe: two to six times the time");
   command->add_flag("--quiet", arguments->quiet, "No progress on stderr");
   command->footer(
       "Writes DIR/NAME.pvd (open it in ParaView), DIR/frames/, DIR/history.csv (probes over "
       "time),\n"
       "DIR/summary.json (settings, counts, wall time by phase, energy balance) and "
       "DIR/checkpoint/.\n"
-      "Prints the names of these files.");
+      "Prints the names of these files; with --error-bars also DIR/error_bars.csv and its table. "
+      "The\n"
+      "coarser runs stay in DIR/error-bars/; --threads are shared among them.");
   command->callback([arguments, &exit_code] { exit_code = run_scenario(*arguments); });
 }
 

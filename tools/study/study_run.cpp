@@ -1,19 +1,17 @@
 #include "tools/study/study_run.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <mutex>
-#include <sstream>
 
 #include "parallel/thread_pool.hpp"
 #include "sim/base/error.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "tools/process/interruption.hpp"
 #include "tools/process/this_program.hpp"
+#include "tools/study/study_prepare.hpp"
 #include "tools/study/study_record.hpp"
 #include "tools/study/study_values.hpp"
 
@@ -22,26 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using End = ProgramUse::End;
-
-constexpr const char* kPrepared = "ARTICULAR_PREPARED";
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  return fmt::format("{}", fmt::join(words, "\x1f"));
-}
-
-/// Size and date of a file: another build gives another answer.
-std::string identity(const fs::path& file) {
-  struct stat info {};
-  if (::stat(file.c_str(), &info) != 0) return "";
-  return fmt::format("{} {}.{}", info.st_size, info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
-}
 
 fs::path folder_of(const fs::path& directory, const StudyCase& c) {
   return directory / "cases" / c.folder;
@@ -52,16 +30,6 @@ fs::path prepared_folder(const fs::path& directory, const StudySettings& setting
   if (settings.prepare.empty()) return directory;
   return directory / "prepared" /
          fmt::format("{:016x}", std::hash<std::string>{}(joined(settings.prepare)));
-}
-
-std::string first_error(const fs::path& log) {
-  std::ifstream stream(log);
-  std::string line;
-  while (std::getline(stream, line))
-    if (line.starts_with("articular: ") && !line.starts_with("articular: warning:") &&
-        !line.starts_with("articular: start:"))
-      return line.substr(std::string("articular: ").size());
-  return "";
 }
 
 class CaseRunner {
@@ -88,25 +56,10 @@ class CaseRunner {
   void prepare(const StudyCase& c) {
     if (c.settings.prepare.empty()) return;
     const fs::path folder = prepared_folder(directory_, c.settings);
-    const fs::path done = folder / "prepared";
-    const std::string key = joined(c.settings.prepare) + identity(program_);
-    if (text_of(done) == key) return;
-    fs::create_directories(folder);
-    std::vector<std::string> command{program_};
-    for (std::string argument : c.settings.prepare) {
-      const std::string pattern = std::string("${") + kPrepared + "}";
-      if (const auto at = argument.find(pattern); at != std::string::npos)
-        argument.replace(at, pattern.size(), folder.string());
-      command.push_back(argument);
-    }
-    const fs::path log = folder / "log";
-    const ProgramUse use = run_measured(command, {}, log, {}, interruption_asked);
-    if (use.end == End::Interrupted) throw StudyInterrupted{};
-    if (use.end != End::Exited || use.code != 0)
+    const std::string failure = prepare_meshes(folder, c.settings.prepare, false);
+    if (!failure.empty())
       throw sim::InputError({study_.file.string()},
-                            fmt::format("case `{}`: `prepare` failed ({}): {}", c.name,
-                                        log.string(), first_error(log)));
-    std::ofstream(done) << key;
+                            fmt::format("case `{}`: `prepare` failed {}", c.name, failure));
   }
 
   CaseRecord finished(const StudyCase& c) const {

@@ -6,6 +6,7 @@
 
 #include "tools/process/measured_program.hpp"
 #include "tools/study/study_cases.hpp"
+#include "tools/study/study_prepare.hpp"
 
 /// Runs the cases of a study, in processes of their own, and keeps what each of them took.
 namespace articular::tools {
@@ -41,7 +42,5 @@ std::filesystem::path results_of(const std::filesystem::path& directory, const S
 ///                           one's results lack an output
 std::vector<CaseRecord> run_cases(const Study& study, const std::vector<StudyCase>& cases,
                                   const StudyRunOptions& options);
-
-struct StudyInterrupted {};
 
 }  // namespace articular::tools

@@ -10,12 +10,10 @@
 
 #include "sim/base/error.hpp"
 #include "sim/base/message_text.hpp"
+#include "tools/study/observed_order.hpp"
 
 namespace articular::tools {
 namespace {
-
-constexpr double kLeastOrder = 0.5, kMostOrder = 4;  // of Richardson's extrapolation
-constexpr double kSafety = 1.25;                     // of the grid convergence index
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
@@ -48,22 +46,6 @@ bool same_direction(const OutputValue& fine, const OutputValue& medium, const Ou
   return product > 0;
 }
 
-/// p of e32 / e21 = (r32^p - 1) r21^p / (r21^p - 1), by bisection: the ratio grows with p.
-/// kMostOrder or kLeastOrder where it lies beyond.
-double observed_order(double e21, double e32, double r21, double r32) {
-  const auto ratio = [&](double p) {
-    return (std::pow(r32, p) - 1) * std::pow(r21, p) / (std::pow(r21, p) - 1);
-  };
-  double low = kLeastOrder, high = kMostOrder;
-  if (e21 == 0 || e32 / e21 >= ratio(high)) return high;
-  if (e32 / e21 <= ratio(low)) return low;
-  for (int i = 0; i < 60; ++i) {
-    const double p = 0.5 * (low + high);
-    (ratio(p) < e32 / e21 ? low : high) = p;
-  }
-  return 0.5 * (low + high);
-}
-
 /// Differences are taken at the times of the coarser run, which the finer one has too if its step
 /// is a part of the coarser one's.
 ReferenceValue extrapolated(std::span<const OutputValue> runs, std::span<const double> sizes) {
@@ -84,7 +66,7 @@ ReferenceValue extrapolated(std::span<const OutputValue> runs, std::span<const d
     reference.value.values[i] = nearest + share * (nearest - medium.values[i]);
   }
   reference.order = order;
-  reference.uncertainty = kSafety * share * e21;
+  reference.uncertainty = kGridSafety * share * e21;
   return reference;
 }
 
