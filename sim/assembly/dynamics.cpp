@@ -5,6 +5,9 @@
 #include <limits>
 
 #include "sim/base/stopwatch.hpp"
+#include "sim/loads/gravity.hpp"
+#include "sim/loads/surface_load.hpp"
+#include "sim/model/held_blocks.hpp"
 #include "sim/model/tissue.hpp"
 #include "sim/scenario/curve.hpp"
 
@@ -14,6 +17,7 @@ Dynamics::Dynamics(const Model& model)
     : model_(model), contact_(model), matrix_(model), moment_(model, contact_) {
   moment_.forces.resize(3 * model.num_blocks);
   moment_.rigid_forces.resize(static_cast<std::size_t>(model.layout.num_rigid));
+  moment_.held_forces.resize(3, static_cast<Eigen::Index>(model.held_blocks.size()));
   moment_.tissues.resize(model.tissues.size());
   for (std::size_t t = 0; t < model.tissues.size(); ++t) {
     moment_.tissues[t].x.resize(3, model.tissues[t].X.cols());
@@ -84,13 +88,19 @@ const Moment& Dynamics::evaluate(const double* y, double t, const Conditions& co
   }
   for (std::size_t r = 0; r < moment_.rigid_forces.size(); ++r)
     moment_.rigid_forces[r] = moment_.forces.segment<6>(3 * model_.rigid_bodies[r].block);
+  for (std::size_t k = 0; k < model_.held_blocks.size(); ++k) {
+    const auto& [block, free] = model_.held_blocks[k];
+    const Vec3 force = moment_.forces.segment<3>(3 * block);
+    moment_.held_forces.col(static_cast<Eigen::Index>(k)) = force - free * force;
+  }
   keep_free_part(model_, moment_.forces);
   return moment_;
 }
 
 /// With the weights of tissue nodes.
 void Dynamics::find_elastic_forces(const double* y, const Conditions& conditions) {
-  const bool weighs = !conditions.unloaded && !model_.gravity.isZero(0);
+  const bool weighs = !conditions.unloaded && !model_.gravity.empty();
+  const Vec3 acceleration = gravity_at(model_, moment_.configuration.t);
   if (weighs) ++evaluations_[Term::Gravity];
   const Stopwatch watch(times_.elastic_force);
   const Configuration& configuration = moment_.configuration;
@@ -120,7 +130,7 @@ void Dynamics::find_elastic_forces(const double* y, const Conditions& conditions
       Vec3 force = -f.col(column);
       note_force(force.norm());
       if (weighs && carries_own_weight(model_, tissue.nodes[i])) {
-        const Vec3 weight = tissue.lumped_mass[column] * model_.gravity;
+        const Vec3 weight = tissue.lumped_mass[column] * acceleration;
         note_force(weight.norm());
         force += weight;
       }
@@ -132,12 +142,13 @@ void Dynamics::find_elastic_forces(const double* y, const Conditions& conditions
   }
 }
 
-/// Weights of rigid bodies, and forces.
+/// Weights of rigid bodies, forces, and loads on surfaces.
 void Dynamics::add_loads() {
-  const int num_weights = model_.gravity.isZero(0) ? 0 : model_.layout.num_rigid;
+  const int num_weights = model_.gravity.empty() ? 0 : model_.layout.num_rigid;
+  const Vec3 acceleration = gravity_at(model_, moment_.configuration.t);
   for (int r = 0; r < num_weights; ++r) {
     const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(r)];
-    const Vec3 weight = rigid.mass.mass * model_.gravity;
+    const Vec3 weight = rigid.mass.mass * acceleration;
     moment_.forces.segment<3>(3 * rigid.block) += weight;
     if (rigid.hold)
       moment_.forces.segment<3>(3 * rigid.block + 3) +=
@@ -151,6 +162,10 @@ void Dynamics::add_loads() {
     const Vec3 now = value_at(force.profile, moment_.configuration.t) * force.force;
     add_force(moment_.configuration, force.point, now, moment_.forces);
     note_force(now.norm());
+  }
+  for (const SurfaceLoadModel& load : model_.surface_loads) {
+    ++evaluations_[Term::Load];
+    note_force(add_surface_force(load, moment_.configuration, moment_.forces));
   }
 }
 
@@ -245,14 +260,15 @@ void Dynamics::multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const
     const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(k)];
     if (rigid.hold) {
       r.segment<6>(3 * rigid.block) =
-          free_part(rigid, rigid_mass(rigid, configuration.poses[static_cast<std::size_t>(k)]) *
-                               b.segment<6>(3 * rigid.block));
+          rigid_mass(rigid, configuration.poses[static_cast<std::size_t>(k)]) *
+          b.segment<6>(3 * rigid.block);
       continue;
     }
     r.segment<3>(3 * rigid.block) = rigid.mass.mass * b.segment<3>(3 * rigid.block);
     r.segment<3>(3 * rigid.block + 3) =
         world_inertia(model_, configuration, k) * b.segment<3>(3 * rigid.block + 3);
   }
+  keep_free_part(model_, r);
 }
 
 NewtonEquations Dynamics::assemble(const SystemScale& scale, fem::Tangent tangent,

@@ -1,5 +1,6 @@
 #include "sim/assembly/energies.hpp"
 
+#include "sim/loads/gravity.hpp"
 #include "sim/model/carried_tissue.hpp"
 
 namespace articular::sim {
@@ -47,18 +48,21 @@ double elastic_energy(const Moment& now) {
 }
 
 double gravity_energy(const Moment& now) {
-  const Model& model = now.model;
+  return weight_energy(now.model, now.configuration, steady_gravity(now.model));
+}
+
+double weight_energy(const Model& model, const Configuration& now, const Vec3& gravity) {
   double energy = 0;
   for (const Tissue& tissue : model.tissues)
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
       if (carries_own_weight(model, tissue.nodes[i]))
         energy -= tissue.lumped_mass[static_cast<Eigen::Index>(i)] *
-                  model.gravity.dot(now.configuration.position(tissue.nodes[i]));
+                  gravity.dot(now.position(tissue.nodes[i]));
   for (int r = 0; r < model.layout.num_rigid; ++r) {
     const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(r)];
-    const Pose& pose = now.configuration.poses[static_cast<std::size_t>(r)];
+    const Pose& pose = now.poses[static_cast<std::size_t>(r)];
     const Vec3 center = pose.p + pose.R * (rigid.mass.center - rigid.rest.p);
-    energy -= rigid.mass.mass * model.gravity.dot(center);
+    energy -= rigid.mass.mass * gravity.dot(center);
   }
   return energy;
 }

@@ -9,8 +9,10 @@ namespace articular::sim {
 double kinetic_energy(const Moment& now);
 /// Of the tissues.
 double elastic_energy(const Moment& now);
-/// Of all masses but those of fixed and driven bodies themselves.
+/// Of all masses but those of fixed and driven bodies themselves, in gravity without a profile.
 double gravity_energy(const Moment& now);
+/// Of the same masses in any uniform gravity [m/s²].
+double weight_energy(const Model& model, const Configuration& now, const Vec3& gravity);
 /// ∂W/∂a of a tissue's elastic energy by its activation.
 double energy_per_activation(const Moment& now, std::size_t tissue);
 

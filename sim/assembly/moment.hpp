@@ -30,6 +30,7 @@ struct Moment {
   /// Block forces [N]: 3 entries a block, those on fixed and driven bodies included, without the
   /// inertia of what they carry; of held bodies the part along their free freedoms.
   Eigen::VectorXd forces;
+  Positions held_forces;  // of each of Model::held_blocks: what acts on what holds it [N, N m]
   std::vector<Vec6> rigid_forces;  // on each rigid body that moves, held freedoms too
   /// The largest force on one node, body or line [N]: what a residual is small against. Infinite
   /// where one is not a finite number.

@@ -4,7 +4,8 @@
 
 #include "fem/element/smoothed_elasticity.hpp"
 #include "sim/contact/contact_stencils.hpp"
-#include "sim/model/constrained_rigid_body.hpp"
+#include "sim/loads/surface_load.hpp"
+#include "sim/model/held_blocks.hpp"
 
 namespace articular::sim {
 namespace {
@@ -296,6 +297,9 @@ const fem::BlockMatrix& NewtonMatrix::assemble(const Moment& now, const SystemSc
   add_masses(now.configuration, scale, common);
   for (std::size_t l = 0; l < model_.lines.size(); ++l)
     add_line_stiffness(model_, model_.lines[l], now.configuration, now.lines[l], scale, common);
+  if (tangent == fem::Tangent::Consistent)  // a pressure's is not positive semidefinite
+    for (const SurfaceLoadModel& load : model_.surface_loads)
+      add_surface_stiffness(model_, load, now.configuration, scale.stiffness, common);
   friction_.clear();
   for (const ContactPairState* direction : now.contact.pair_states()) {
     if (direction->num_patches == 0) continue;

@@ -28,6 +28,19 @@ Vec6 reaction_of(const Moment& now, int rigid) { return reaction_of(now, rigid, 
 
 Vec6 reaction_as_step_begins(const Moment& now, int rigid) { return reaction_of(now, rigid, true); }
 
+std::pair<Vec3, Vec3> force_on_support(const Moment& now, const SupportModel& support) {
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  const Tissue& tissue = now.model.tissues[static_cast<std::size_t>(support.tissue)];
+  for (const SupportModel::Node& node : support.nodes) {
+    const Vec3 part = node.share * now.held_forces.col(node.held);
+    force += part;
+    moment += (now.configuration.position(tissue.nodes[static_cast<std::size_t>(node.node)]) -
+               support.center)
+                  .cross(part);
+  }
+  return {force, moment};
+}
+
 std::pair<Vec3, Vec3> attachment_force(const Moment& now, int tissue, int rigid) {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   const Tissue& given = now.model.tissues[static_cast<std::size_t>(tissue)];

@@ -11,6 +11,8 @@
 #include "sim/build/contact_model.hpp"
 #include "sim/build/linear_solver.hpp"
 #include "sim/build/make_probes.hpp"
+#include "sim/build/make_supports.hpp"
+#include "sim/build/make_surface_loads.hpp"
 #include "sim/build/make_tissue.hpp"
 #include "sim/build/region.hpp"
 #include "sim/build/unit_doubts.hpp"
@@ -18,6 +20,7 @@
 #include "sim/lines/muscle_law.hpp"
 #include "sim/mesh/flat_elements.hpp"
 #include "sim/mesh/mesh_defects.hpp"
+#include "sim/model/constrained_rigid_body.hpp"
 #include "sim/model/newton_weights.hpp"
 #include "sim/model/tissue.hpp"
 
@@ -49,6 +52,8 @@ class Builder {
     make_tissues();
     attach_nodes();
     number_blocks();
+    make_supports(scenario_, geometry_, surface_, model_);
+    hold_rigid_bodies();
     carry_tissue_mass();
     make_colliders(scenario_, geometry_, model_);
     make_lines();
@@ -120,6 +125,7 @@ class Builder {
       for (Vec3& shift : rigid.motion->translation) shift = rigid.hold->axes * shift;
       for (Vec3& turn : rigid.motion->rotation) turn = rigid.hold->axes * turn;
     }
+    fit_spline(*rigid.motion);
   }
 
   void make_tissues() {
@@ -242,6 +248,15 @@ class Builder {
       tissue.first_internal_variable = model_.layout.num_internal_variables;
       model_.layout.num_internal_variables += tissue.relaxation->num_internal_variables();
     }
+  }
+
+  /// After what supports hold: held blocks are in the order of the blocks.
+  void hold_rigid_bodies() {
+    for (const RigidBody& rigid : model_.rigid_bodies)
+      if (rigid.hold)
+        for (int k = 0; k < 2; ++k)
+          model_.held_blocks.push_back(
+              {rigid.block + k, free_projection(*rigid.hold, static_cast<std::size_t>(k))});
   }
 
   /// Tissue nodes attached to a body add their mass to it; a rigid one's centre of mass moves.
@@ -373,10 +388,14 @@ class Builder {
 
   void make_loads() {
     for (const Load& load : scenario_.loads) {
-      if (const auto* gravity = std::get_if<GravityLoad>(&load))
-        model_.gravity += gravity->acceleration;
+      const auto* gravity = std::get_if<GravityLoad>(&load);
+      if (gravity != nullptr && !gravity->acceleration.isZero(0))
+        model_.gravity.push_back({gravity->acceleration, gravity->profile});
       if (const auto* force = std::get_if<ForceLoad>(&load))
         model_.forces.push_back({loaded_point(*force), force->force, force->profile});
+      if (const auto* surface = std::get_if<SurfaceLoad>(&load))
+        model_.surface_loads.push_back(make_surface_load(*surface, body_index(surface->at.tissue),
+                                                         model_, geometry_, surface_));
     }
   }
 

@@ -68,6 +68,13 @@ struct Resolver {
     return ObservedReaction{body(reaction.body).rigid};
   }
 
+  Observed operator()(const SupportProbe& named) const {
+    const auto support =
+        std::find_if(model.supports.begin(), model.supports.end(),
+                     [&](const SupportModel& s) { return s.name == named.support; });
+    return ObservedSupport{static_cast<int>(support - model.supports.begin())};
+  }
+
   Observed operator()(const AttachmentProbe& attachment) const {
     const int tissue = body(attachment.tissue).tissue, rigid = body(attachment.rigid).rigid;
     const auto& nodes = model.tissues[static_cast<std::size_t>(tissue)].nodes;

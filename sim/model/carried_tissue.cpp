@@ -40,7 +40,7 @@ double carried_kinetic_energy(const RigidBody& rigid, const Pose& pose,
 
 Vec6 inertia_of_carried(const RigidBody& rigid, double step_start, Instant at) {
   const Pose pose = driven_pose(*rigid.motion, rigid.rest, at.t);
-  if (!rigid.motion->smooth && step_start < at.t)
+  if (rigid.motion->interpolation == Motion::Interpolation::Linear && step_start < at.t)
     return (momentum_about(pose.p, rigid, step_start) - momentum_about(pose.p, rigid, at.t)) /
            (at.t - step_start);
   const Vec3 omega = driven_velocity(*rigid.motion, rigid.rest, at.t).angular;

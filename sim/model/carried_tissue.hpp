@@ -11,9 +11,9 @@
 /// on what drives the body, besides the forces on the nodes. The work of the drive against it is
 /// the change of T. The nodes are not damped by mass, as those of a rigid body are not.
 ///
-/// A smooth motion has accelerations V̇ everywhere. The velocity of a linear one jumps at its times,
-/// where the force is infinite: it is the mean over a step, the change of momentum by the step's
-/// length. So the sum of force times step is the change of momentum.
+/// A smooth motion and a spline have accelerations V̇ everywhere. The velocity of a linear one jumps
+/// at its times, where the force is infinite: it is the mean over a step, the change of momentum by
+/// the step's length. So the sum of force times step is the change of momentum.
 namespace articular::sim {
 
 /// Whether it is a fixed body that is driven and carries tissue.

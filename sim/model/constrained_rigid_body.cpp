@@ -34,12 +34,12 @@ Eigen::Matrix3Xd free_axes(const Hold& hold, std::size_t k) {
   return axes;
 }
 
+}  // namespace
+
 Mat3 free_projection(const Hold& hold, std::size_t k) {
   const Eigen::Matrix3Xd axes = free_axes(hold, k);
   return axes * axes.transpose();
 }
-
-}  // namespace
 
 Vec6 free_part(const RigidBody& rigid, const Vec6& value) {
   if (!rigid.hold) return value;
@@ -47,12 +47,6 @@ Vec6 free_part(const RigidBody& rigid, const Vec6& value) {
   part << free_projection(*rigid.hold, 0) * value.head<3>(),
       free_projection(*rigid.hold, 1) * value.tail<3>();
   return part;
-}
-
-void keep_free_part(const Model& model, Eigen::VectorXd& blocks) {
-  for (const RigidBody& rigid : model.rigid_bodies)
-    if (rigid.hold)
-      blocks.segment<6>(3 * rigid.block) = free_part(rigid, blocks.segment<6>(3 * rigid.block));
 }
 
 Mat6 rigid_mass(const RigidBody& rigid, const Pose& pose) {
@@ -103,38 +97,6 @@ Vec6 driven_way(const RigidBody& rigid, double t_from, double t_to, const Mat3& 
   Vec6 way;
   way << to.p - from.p, R_f * (turn.angle() * turn.axis());
   return way;
-}
-
-void keep_free_part(const Model& model, fem::BlockMatrix& A) {
-  for (const RigidBody& rigid : model.rigid_bodies) {
-    if (!rigid.hold) continue;
-    for (int k = 0; k < 2; ++k) {
-      const Mat3 P = free_projection(*rigid.hold, static_cast<std::size_t>(k));
-      const int row = rigid.block + k;
-      for (int s = A.row_begin()[static_cast<std::size_t>(row)];
-           s < A.row_begin()[static_cast<std::size_t>(row) + 1]; ++s) {
-        const int transposed = A.slot(A.column()[static_cast<std::size_t>(s)], row);
-        A.block(s) = (P * A.block(s)).eval();
-        A.block(transposed) = (A.block(transposed) * P).eval();
-      }
-      // Of the size of the others, for the solver's sake: their solution is 0 in any case.
-      Eigen::Map<Mat3> own = A.block(A.slot(row, row));
-      const double size = own.trace();
-      own += (size > 0 ? size : 1) * (Mat3::Identity() - P);
-    }
-  }
-}
-
-void keep_free_part(const Model& model, fem::PressureGradient& G) {
-  for (const RigidBody& rigid : model.rigid_bodies) {
-    if (!rigid.hold) continue;
-    for (int k = 0; k < 2; ++k) {
-      const Mat3 P = free_projection(*rigid.hold, static_cast<std::size_t>(k));
-      const auto row = static_cast<std::size_t>(rigid.block + k);
-      for (int s = G.row_begin()[row]; s < G.row_begin()[row + 1]; ++s)
-        G.block(s) = (P * G.block(s)).eval();
-    }
-  }
 }
 
 }  // namespace articular::sim

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "fem/sparse/block_matrix.hpp"
-#include "fem/sparse/pressure_gradient.hpp"
 #include "sim/model/configuration.hpp"
 #include "sim/scenario/driven_motion.hpp"
 
@@ -27,12 +25,13 @@ namespace articular::sim {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
+/// Of forces or velocities of a rigid body's translation (k = 0) or rotation (1): onto the free
+/// ones.
+Mat3 free_projection(const Hold& hold, std::size_t k);
+
 /// Of block forces or velocities of a rigid body (translation, rotation): the part along its free
 /// ones.
 Vec6 free_part(const RigidBody& rigid, const Vec6& value);
-
-/// The same for all rigid bodies, in a vector over blocks.
-void keep_free_part(const Model& model, Eigen::VectorXd& blocks);
 
 /// Mass matrix of a rigid body about the point of its pose [kg, kg m, kg m²].
 Mat6 rigid_mass(const RigidBody& rigid, const Pose& pose);
@@ -53,12 +52,5 @@ Vec6 force_on_hold(const RigidBody& rigid, const Pose& pose, const RigidVelocity
 /// shift and, as a rotation vector, its turn, with R_f as it is where the rigid body has the
 /// rotation R at t.
 Vec6 driven_way(const RigidBody& rigid, double t_from, double t_to, const Mat3& R, double t);
-
-/// Rows and columns of held freedoms out of a matrix over the unknown blocks, with something
-/// positive in their place on the diagonal.
-void keep_free_part(const Model& model, fem::BlockMatrix& A);
-
-/// The same for the forces by pressures, one row a block.
-void keep_free_part(const Model& model, fem::PressureGradient& G);
 
 }  // namespace articular::sim

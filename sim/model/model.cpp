@@ -19,6 +19,11 @@ Eigen::VectorXd initial_state(const Model& model) {
       y.segment<3>(layout.velocities() + 3 * node.block) = tissue.start_velocity;
     }
   }
+  for (const HeldBlock& held : model.held_blocks)
+    if (held.block < layout.num_free_nodes) {
+      auto v = y.segment<3>(layout.velocities() + 3 * held.block);
+      v = (held.free * v).eval();
+    }
   for (int r = 0; r < layout.num_rigid; ++r) {
     const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(r)];
     y.segment<3>(layout.rigid_p(r)) = rigid.rest.p;

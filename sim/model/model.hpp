@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -49,6 +50,27 @@ struct RigidBody {
   std::optional<Hold> hold;
   std::optional<Motion>
       motion;  // driven: wholly, or of a held one what is held, see constrained_rigid_body.hpp
+};
+
+/// Three velocities of a block that are free along some directions only: rigid bodies with `hold`
+/// (two blocks each), supported nodes of tissue.
+struct HeldBlock {
+  int block = 0;
+  Mat3 free = Mat3::Identity();  // orthogonal projection onto these directions
+};
+
+/// Nodes of a tissue that slide along a plane or a line that stands, or do not move at all.
+struct SupportModel {
+  struct Node {
+    int node = 0;  // of the tissue
+    int held = 0;  // index into Model::held_blocks
+    /// Of the force on all that supports the node, what this one takes.
+    Mat3 share = Mat3::Zero();
+  };
+  std::string name;  // may be empty
+  int tissue = 0;    // index into Model::tissues
+  std::vector<Node> nodes;
+  Vec3 center = Vec3::Zero();  // the middle of the nodes' box at the start, world [m]
 };
 
 /// What of a body can touch: tetrahedra with their surface. Tissue: its own mesh. RigidBody: its
@@ -134,6 +156,19 @@ struct ForceModel {
   Curve profile;
 };
 
+struct SurfaceLoadModel {
+  std::variant<double, Vec3> stress;  // [Pa]: pressure, or traction by the area at the start
+  Curve profile;                      // factor over time
+  int tissue = 0;                     // index into Model::tissues
+  std::vector<std::array<NodeRef, 3>> faces;  // their corners, counterclockwise from outside
+  std::vector<double> area;                   // of each at the start [m²]
+};
+
+struct GravityModel {
+  Vec3 acceleration = Vec3::Zero();  // [m/s²]
+  Curve profile;                     // factor over time; empty: always 1
+};
+
 struct ContactModel {
   int a = 0, b = 0;            // bodies; a == b: with itself
   bool averaged = true;        // depths are averaged at the nodes of one side; else pointwise
@@ -178,6 +213,10 @@ struct ObservedReaction {
   int rigid = 0;  // index into Model::rigid_bodies
 };
 
+struct ObservedSupport {
+  int support = 0;  // index into Model::supports
+};
+
 struct ObservedAttachment {
   int tissue = 0;  // index into Model::tissues
   int rigid = 0;   // index into Model::rigid_bodies
@@ -194,7 +233,7 @@ struct ObservedJoint {
 };
 
 using Observed = std::variant<ObservedPoint, ObservedAngle, ObservedContact, ObservedMuscle,
-                              ObservedLigament, ObservedEnergy, ObservedReaction,
+                              ObservedLigament, ObservedEnergy, ObservedReaction, ObservedSupport,
                               ObservedAttachment, ObservedShare, ObservedJoint>;
 
 struct ProbeModel {
@@ -230,9 +269,12 @@ struct Model {
   std::vector<MuscleModel> muscles;
   std::vector<LigamentModel> ligaments;
   std::vector<ForceModel> forces;
+  std::vector<SurfaceLoadModel> surface_loads;
+  std::vector<GravityModel> gravity;
+  std::vector<HeldBlock> held_blocks;
+  std::vector<SupportModel> supports;
   std::vector<ContactModel> contacts;
   std::vector<ProbeModel> probes;
-  Vec3 gravity = Vec3::Zero();  // [m/s²]
   Layout layout;
   double position_tolerance = 0;  // [m], of the Newton iteration
   double detection_margin = 0;    // [m], least one

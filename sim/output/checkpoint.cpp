@@ -101,6 +101,12 @@ std::string fingerprint(const Scenario& scenario, const Model& model) {
   }
   for (const Tissue& tissue : model.tissues) put_numbers(tissue.elements.tets());
   for (const RigidBody& rigid : model.rigid_bodies) put_numbers(rigid.rest.p);
+  for (const RigidBody& rigid : model.rigid_bodies) {
+    if (!rigid.motion) continue;
+    for (const double t : rigid.motion->time) put(t, bytes);
+    for (const Vec3& shift : rigid.motion->translation) put_numbers(shift);
+    for (const Vec3& turn : rigid.motion->rotation) put_numbers(turn);
+  }
   for (const MuscleModel& muscle : model.muscles) {
     put(muscle.given.max_force, bytes);
     put(muscle.given.max_length_ratio, bytes);

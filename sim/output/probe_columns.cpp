@@ -232,6 +232,12 @@ ForceAndMoment measure(const ObservedReaction& reaction, const Now& now) {
   return {both.head<3>(), both.tail<3>()};
 }
 
+ForceAndMoment measure(const ObservedSupport& observed, const Now& now) {
+  const auto [force, moment] = force_on_support(
+      now.moment(), now.model.supports[static_cast<std::size_t>(observed.support)]);
+  return {force, moment};
+}
+
 ForceAndMoment measure(const ObservedAttachment& attachment, const Now& now) {
   const auto [force, moment] = attachment_force(now.moment(), attachment.tissue, attachment.rigid);
   return {force, moment};

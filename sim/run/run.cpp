@@ -259,8 +259,10 @@ std::vector<double> kink_times(const Model& model, double duration) {
   };
   for (const MuscleModel& muscle : model.muscles) add(muscle.given.excitation.time);
   for (const ForceModel& force : model.forces) add(force.profile.time);
+  for (const SurfaceLoadModel& load : model.surface_loads) add(load.profile.time);
+  for (const GravityModel& gravity : model.gravity) add(gravity.profile.time);
   for (const RigidBody& rigid : model.rigid_bodies)
-    if (rigid.motion) add(rigid.motion->time);
+    if (rigid.motion) add(kinks_of(*rigid.motion));
   std::erase_if(times, [&](double t) { return t <= 0 || t >= duration; });
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());

@@ -24,16 +24,18 @@ void check_names_of_contact_surfaces(const std::vector<Body>& bodies) {
 void check_motions_of_masses(const Scenario& scenario) {
   for (const Load& load : scenario.loads) {
     const auto* driven = std::get_if<MotionLoad>(&load);
-    if (driven == nullptr || driven->motion.smooth) continue;
+    if (driven == nullptr || driven->motion.interpolation != Motion::Interpolation::Linear)
+      continue;
     const auto is_driven = [&](const Body& body) {
       return body.name == driven->body && body.kind == Body::Kind::Rigid;
     };
     if (std::any_of(scenario.bodies.begin(), scenario.bodies.end(), is_driven))
-      throw InputError(driven->where,
-                       fmt::format("body `{}` has a mass, whose velocity can't jump as with "
-                                   "`interpolation` \"linear\"; expected \"smooth\", or a static "
-                                   "analysis",
-                                   driven->body));
+      throw InputError(
+          driven->where,
+          fmt::format("body `{}` has a mass, whose velocity can't jump as with "
+                      "`interpolation` \"linear\"; expected \"smooth\" or \"spline\", or a "
+                      "static analysis",
+                      driven->body));
   }
 }
 
@@ -74,7 +76,7 @@ Scenario read_scenario(const std::filesystem::path& file,
       root, "scenario",
       {"choice", "title", "duration", "analysis", "accuracy", "contact_response",
        "contact_stiffness_factor", "contact", "integrator", "detection", "output", "body", "attach",
-       "muscle", "muscle_table", "ligament", "load", "probe"});
+       "support", "muscle", "muscle_table", "ligament", "load", "probe"});
   refuse_settings_below_tables(root);
   Scenario scenario;
   scenario.choices = choices;
@@ -95,13 +97,14 @@ Scenario read_scenario(const std::filesystem::path& file,
   const Context context{folder, scenario.bodies};
   Mistakes on_bodies;  // what names them
   on_bodies.in([&] { scenario.attachments = read_attachments(document, context); });
+  on_bodies.in([&] { scenario.supports = read_supports(document, context); });
   on_bodies.in([&] { scenario.muscles = read_muscles(document, context); });
   on_bodies.in([&] { scenario.ligaments = read_ligaments(document, context, scenario.muscles); });
   on_bodies.in([&] { scenario.loads = read_loads(document, context); });
   on_bodies.in([&] { read_contacts(document, context, scenario); });
   on_bodies.tell();
   if (scenario.analysis == Scenario::Analysis::Dynamic) check_motions_of_masses(scenario);
-  scenario.probes = read_probes(document, context, scenario.muscles, scenario.ligaments);
+  scenario.probes = read_probes(document, context, scenario);
   scenario.settings_json = settings_as_json(scenario);
   scenario.content = plain_text(root);
   return scenario;

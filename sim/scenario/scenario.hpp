@@ -34,11 +34,20 @@ struct Curve {
 /// A path over time of a driven body, or of a rigid one's held freedoms: along and about the axes
 /// of its hold.
 struct Motion {
+  /// Between two times: smoothstep, which rests at each of them; linear; a cubic spline through
+  /// all, with continuous accelerations.
+  enum class Interpolation { Smooth, Linear, Spline };
+  /// A spline at its first and last time: comes to rest, or has no acceleration and goes on beyond
+  /// at the velocity that it has there.
+  enum class Ends { Rest, Moving };
   std::vector<double> time;       // [s], strictly increasing
   std::vector<Vec3> translation;  // [m], from the reference pose; empty = none
   std::vector<Vec3> rotation;     // rotation vector [rad], about `about`; empty = none
   Vec3 about = Vec3::Zero();      // [m], world
-  bool smooth = true;             // between two times: smoothstep (true) or linear
+  Interpolation interpolation = Interpolation::Smooth;
+  Ends ends = Ends::Rest;
+  // Of a spline: second derivatives at the times, see fit_spline().
+  std::vector<Vec3> translation_bend = {}, rotation_bend = {};
 };
 
 /// A part of a mesh's nodes: those inside every condition given. No condition = every node.
@@ -186,6 +195,16 @@ struct Attachment {
   Location where;
 };
 
+/// Tissue nodes of a region have no velocity along axes that stand in space: a roller, a plane of
+/// symmetry.
+struct Support {
+  std::string name;  // may be empty
+  std::string body;  // tissue
+  Region region;
+  Eigen::Matrix3Xd held;  // one to three of these axes: orthogonal unit vectors, world
+  Location where;
+};
+
 /// A point of a line, a load or a probe, or with a radius > 0 the tissue's surface nodes within it:
 /// see anchored_point().
 struct Anchor {
@@ -231,6 +250,7 @@ struct Ligament {
 struct GravityLoad {
   Vec3 acceleration = Vec3::Zero();  // [m/s^2]
   Location where;
+  Curve profile = {};  // factor over time
 };
 
 struct TissueRegion {
@@ -245,13 +265,23 @@ struct ForceLoad {
   Location where;
 };
 
+/// Force on the faces of a tissue's surface whose middles lie in a region.
+struct SurfaceLoad {
+  TissueRegion at;
+  /// [Pa]: a pressure, which stays normal to the surface and acts on the area that this has; or a
+  /// traction, a force of constant direction by the area at the start.
+  std::variant<double, Vec3> stress;
+  Curve profile;  // factor over time
+  Location where;
+};
+
 struct MotionLoad {
   std::string body;  // a fixed one, or a rigid one with hold
   Motion motion;
   Location where;
 };
 
-using Load = std::variant<GravityLoad, ForceLoad, MotionLoad>;
+using Load = std::variant<GravityLoad, ForceLoad, SurfaceLoad, MotionLoad>;
 
 /// Without any of these every pair of bodies can meet, and none meets itself.
 struct ContactPair {
@@ -300,6 +330,11 @@ struct ReactionProbe {
   std::string body;
 };
 
+/// What tissue puts on a support.
+struct SupportProbe {
+  std::string support;
+};
+
 /// What a tissue puts on a rigid body by the nodes attached to it.
 struct AttachmentProbe {
   std::string tissue;
@@ -321,7 +356,7 @@ struct JointProbe {
 struct Probe {
   std::string name;
   std::variant<PointProbe, AngleProbe, ContactProbe, LineProbe, EnergyProbe, ReactionProbe,
-               AttachmentProbe, ShareProbe, JointProbe>
+               SupportProbe, AttachmentProbe, ShareProbe, JointProbe>
       what;
   Location where = {};
 };
@@ -364,6 +399,7 @@ struct Scenario {
   int threads = 1;  // of the run, not of the file: results have the same bits with any number
   std::vector<Body> bodies;
   std::vector<Attachment> attachments;
+  std::vector<Support> supports;
   std::vector<Muscle> muscles;
   std::vector<Ligament> ligaments;
   std::vector<Load> loads;

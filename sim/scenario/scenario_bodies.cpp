@@ -176,15 +176,7 @@ Hold read_hold(const Node& node) {
   const TableReader table(node, "hold", {"freedoms", "at", "turned"});
   Hold hold;
   const Node& freedoms = table.at("freedoms");
-  for (const Node& freedom : read_list(freedoms, "a list such as [\"translation.x\"]")) {
-    const auto i = read_choice<std::size_t>(freedom, {{kFreedoms[0], 0},
-                                                      {kFreedoms[1], 1},
-                                                      {kFreedoms[2], 2},
-                                                      {kFreedoms[3], 3},
-                                                      {kFreedoms[4], 4},
-                                                      {kFreedoms[5], 5}});
-    hold.held[i] = true;
-  }
+  hold.held = read_freedoms(freedoms);
   if (std::count(hold.held.begin() + 3, hold.held.end(), true) == 1)
     fail(freedoms,
          "one rotation alone cannot be held: hold two, which leaves a hinge, or three; of two "
@@ -237,7 +229,9 @@ void check_kind(const TableReader& table, const Body& body) {
       table.refuse({"mass", "center_of_mass", "inertia"}, "tissue has a density instead");
       table.refuse({"contact_meshes", "layer"}, "tissue touches with its own surface");
       table.refuse({"angular_velocity"}, "only a rigid body has an angular velocity");
-      table.refuse({"hold"}, "only a rigid body has freedoms to hold; tissue is attached");
+      table.refuse({"hold"},
+                   "only a rigid body has freedoms to hold; tissue is attached, or held by a "
+                   "[[support]]");
       table.exactly_one({"mesh", "geometry"});
       table.at("density");
       table.at("material");
@@ -299,6 +293,20 @@ void append_attachments(const Node& node, const Context& context,
 }  // namespace
 
 std::string_view freedom_name(std::size_t freedom) { return kFreedoms.at(freedom); }
+
+std::array<bool, 6> read_freedoms(const Node& node) {
+  std::array<bool, 6> named{};
+  for (const Node& freedom : read_list(node, "a list such as [\"translation.x\"]")) {
+    const auto i = read_choice<std::size_t>(freedom, {{kFreedoms[0], 0},
+                                                      {kFreedoms[1], 1},
+                                                      {kFreedoms[2], 2},
+                                                      {kFreedoms[3], 3},
+                                                      {kFreedoms[4], 4},
+                                                      {kFreedoms[5], 5}});
+    named[i] = true;
+  }
+  return named;
+}
 
 std::vector<Body> read_bodies(const TableReader& document, const std::filesystem::path& folder) {
   std::vector<Body> bodies;

@@ -1,14 +1,26 @@
 // What acts on bodies from outside.
+#include <functional>
+#include <numbers>
+
 #include "sim/base/pose.hpp"
+#include "sim/scenario/data_path.hpp"
 #include "sim/scenario/driven_motion.hpp"
+#include "sim/scenario/motion_table.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 
 namespace articular::sim {
 namespace {
 
+void read_profile(const TableReader& table, Curve& profile) {
+  table.may("profile", profile, [](const Node& n) { return read_curve(n, kAny); });
+}
+
 Load read_gravity(const Node& node, const Context&) {
-  const TableReader table(node, "[[load]] of kind \"gravity\"", {"kind", "acceleration"});
-  return GravityLoad{read_vector(table.at("acceleration"), kAcceleration), node.where};
+  const TableReader table(node, "[[load]] of kind \"gravity\"",
+                          {"kind", "acceleration", "profile"});
+  GravityLoad load{read_vector(table.at("acceleration"), kAcceleration), node.where};
+  read_profile(table, load.profile);
+  return load;
 }
 
 Load read_force(const Node& node, const Context& context) {
@@ -32,7 +44,36 @@ Load read_force(const Node& node, const Context& context) {
     load.at = read_anchor(table, context);
   }
   load.force = read_vector(table.at("force"), kForce);
-  table.may("profile", load.profile, [](const Node& n) { return read_curve(n, kAny); });
+  read_profile(table, load.profile);
+  return load;
+}
+
+/// All but its stress.
+SurfaceLoad read_surface_load(const TableReader& table, const Context& context) {
+  SurfaceLoad load;
+  load.where = table.node().where;
+  const Body& body = read_body_reference(table.at("body"), context);
+  if (body.kind != Body::Kind::Tissue)
+    fail(table.at("body"),
+         fmt::format("it acts on the surface of a tissue, and body `{}` is none", body.name));
+  load.at = TissueRegion{body.name, read_region(table.at("region"), context)};
+  read_profile(table, load.profile);
+  return load;
+}
+
+Load read_pressure(const Node& node, const Context& context) {
+  const TableReader table(node, "[[load]] of kind \"pressure\"",
+                          {"kind", "body", "region", "pressure", "profile"});
+  SurfaceLoad load = read_surface_load(table, context);
+  load.stress = read_quantity(table.at("pressure"), kStress, kAny);
+  return load;
+}
+
+Load read_traction(const Node& node, const Context& context) {
+  const TableReader table(node, "[[load]] of kind \"traction\"",
+                          {"kind", "body", "region", "traction", "profile"});
+  SurfaceLoad load = read_surface_load(table, context);
+  load.stress = read_vector(table.at("traction"), kStress);
   return load;
 }
 
@@ -48,24 +89,27 @@ std::vector<Vec3> read_poses(const Node& node, const QuantityKind& kind, std::si
   return poses;
 }
 
+/// Refuses the k-th sample of a motion's translation (0) or rotation (1) with a message.
+using RefuseSample = std::function<void(std::size_t k, int part, const std::string& message)>;
+
 /// A rigid body's motion is along and about the axes of its hold.
-void check_driven(const Body& body, const Node& list, const std::vector<Vec3>& values,
-                  std::size_t first) {
+void check_driven(const Body& body, const std::vector<Vec3>& values, std::size_t first,
+                  const RefuseSample& refuse) {
   for (std::size_t k = 0; k < values.size(); ++k)
     for (std::size_t i = 0; i < 3; ++i)
       if (values[k][static_cast<Eigen::Index>(i)] != 0 && !body.hold->held[first + i])
-        fail((*list.list())[k],
-             fmt::format("drives `{}`, which `hold` of body `{}` leaves free; expected 0 there, or "
-                         "the freedom among those that are held",
-                         freedom_name(first + i), body.name));
+        refuse(
+            k, first == 0 ? 0 : 1,
+            fmt::format("drives `{}`, which `hold` of body `{}` leaves free; expected 0 there, or "
+                        "the freedom among those that are held",
+                        freedom_name(first + i), body.name));
 }
 
-void check_held_motion(const TableReader& table, const Body& body, const Motion& motion) {
+void check_held_motion(const TableReader& table, const Body& body, const Motion& motion,
+                       const RefuseSample& refuse) {
   table.refuse({"about"}, "a rigid body turns about the point `at` of its `hold`");
-  if (const Node* translation = table.find("translation"))
-    check_driven(body, *translation, motion.translation, 0);
-  if (const Node* rotation = table.find("rotation"))
-    check_driven(body, *rotation, motion.rotation, 3);
+  check_driven(body, motion.translation, 0, refuse);
+  check_driven(body, motion.rotation, 3, refuse);
   const Pose start = driven_pose(motion, Pose{}, 0);
   if (!start.p.isZero(0) || !start.R.isIdentity(0))
     throw InputError(
@@ -83,16 +127,8 @@ void check_can_be_driven(const Node& node, const Body& body) {
                    body.name, body.kind == Body::Kind::Rigid ? "rigid, without `hold`" : "tissue"));
 }
 
-Load read_motion(const Node& node, const Context& context) {
-  const TableReader table(
-      node, "[[load]] of kind \"motion\"",
-      {"kind", "body", "time", "translation", "rotation", "about", "interpolation"});
-  MotionLoad load;
-  load.where = node.where;
-  const Body& body = read_body_reference(table.at("body"), context);
-  check_can_be_driven(table.at("body"), body);
-  load.body = body.name;
-  Motion& motion = load.motion;
+/// `time`, `translation` and `rotation` of a table.
+RefuseSample read_written_samples(const TableReader& table, Motion& motion) {
   motion.time = read_times(table.at("time"));
   const auto poses = [&](const QuantityKind& kind) {
     return
@@ -101,12 +137,84 @@ Load read_motion(const Node& node, const Context& context) {
   table.may("translation", motion.translation, poses(kLength));
   table.may("rotation", motion.rotation, poses(kAngle));
   if (motion.translation.empty() && motion.rotation.empty())
-    throw InputError(node.where, table.what() + ": expected `translation`, `rotation` or both");
-  table.may("about", motion.about, as_vector(kLength));
-  table.may("interpolation", motion.smooth, [](const Node& n) {
-    return read_choice<bool>(n, {{"smooth", true}, {"linear", false}});
+    throw InputError(table.node().where,
+                     table.what() + ": expected `translation`, `rotation` or both");
+  return [&table](std::size_t k, int part, const std::string& message) {
+    fail((*table.at(part == 0 ? "translation" : "rotation").list())[k], message);
+  };
+}
+
+/// A recorded turn of more than 180 degrees between two samples is the other way round: a rotation
+/// vector that jumped.
+void check_turns(const std::vector<Vec3>& rotation, const RefuseSample& refuse) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  for (std::size_t k = 1; k < rotation.size(); ++k) {
+    const double jump = (rotation[k] - rotation[k - 1]).norm();
+    if (jump > std::numbers::pi)
+      refuse(
+          k, 1,
+          fmt::format("the rotation vector changes by {:.4g} deg from the sample before; expected "
+                      "less than 180: one that goes on where it was, beyond 180 deg if need be",
+                      jump / kDegree));
+  }
+}
+
+/// The samples of its `file`.
+RefuseSample read_recorded_samples(const TableReader& table, const Context& context,
+                                   Motion& motion) {
+  table.refuse({"time", "translation", "rotation"}, "the samples are those of `file`");
+  const Node& file = table.at("file");
+  MotionTable samples = read_motion_table(read_path(file, context.folder), file.where);
+  motion.time = std::move(samples.time);
+  motion.translation = std::move(samples.translation);
+  motion.rotation = std::move(samples.rotation);
+  motion.interpolation = Motion::Interpolation::Spline;
+  const RefuseSample refuse = [rows = std::move(samples.rows)](std::size_t k, int part,
+                                                               const std::string& message) {
+    throw InputError(rows[k],
+                     fmt::format("{}: {}", part == 0 ? "translation" : "rotation", message));
+  };
+  check_turns(motion.rotation, refuse);
+  return refuse;
+}
+
+void read_interpolation(const TableReader& table, Motion& motion) {
+  constexpr std::size_t kFewest = 3;
+  using Interpolation = Motion::Interpolation;
+  table.may("interpolation", motion.interpolation, [](const Node& n) {
+    return read_choice<Interpolation>(n, {{"smooth", Interpolation::Smooth},
+                                          {"linear", Interpolation::Linear},
+                                          {"spline", Interpolation::Spline}});
   });
-  if (body.kind == Body::Kind::Rigid) check_held_motion(table, body, motion);
+  if (motion.interpolation != Interpolation::Spline) {
+    table.refuse({"ends"}, "only a spline has them to choose");
+    return;
+  }
+  if (motion.time.size() < kFewest)
+    fail(table.exactly_one({"time", "file"}),
+         fmt::format("a spline needs {} samples or more, found {}", kFewest, motion.time.size()));
+  table.may("ends", motion.ends, [](const Node& n) {
+    return read_choice<Motion::Ends>(
+        n, {{"rest", Motion::Ends::Rest}, {"moving", Motion::Ends::Moving}});
+  });
+  fit_spline(motion);
+}
+
+Load read_motion(const Node& node, const Context& context) {
+  const TableReader table(node, "[[load]] of kind \"motion\"",
+                          {"kind", "body", "time", "translation", "rotation", "about",
+                           "interpolation", "file", "ends"});
+  MotionLoad load;
+  load.where = node.where;
+  const Body& body = read_body_reference(table.at("body"), context);
+  check_can_be_driven(table.at("body"), body);
+  load.body = body.name;
+  const RefuseSample refuse = table.find("file") != nullptr
+                                  ? read_recorded_samples(table, context, load.motion)
+                                  : read_written_samples(table, load.motion);
+  table.may("about", load.motion.about, as_vector(kLength));
+  read_interpolation(table, load.motion);
+  if (body.kind == Body::Kind::Rigid) check_held_motion(table, body, load.motion, refuse);
   return load;
 }
 
@@ -114,8 +222,12 @@ Load read_load(const Node& node, const Context& context) {
   if (node.table() == nullptr) fail(node, "expected a table, found " + found(node));
   const Node* kind = node.find("kind");
   if (kind == nullptr) throw InputError(node.where, "[[load]]: `kind` is missing");
-  const auto read = read_choice<Load (*)(const Node&, const Context&)>(
-      *kind, {{"gravity", read_gravity}, {"force", read_force}, {"motion", read_motion}});
+  const auto read =
+      read_choice<Load (*)(const Node&, const Context&)>(*kind, {{"gravity", read_gravity},
+                                                                 {"force", read_force},
+                                                                 {"pressure", read_pressure},
+                                                                 {"traction", read_traction},
+                                                                 {"motion", read_motion}});
   return read(node, context);
 }
 

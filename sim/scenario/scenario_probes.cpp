@@ -6,8 +6,13 @@
 namespace articular::sim {
 namespace {
 
-/// Of muscles and ligaments, which probes may name.
 using Names = std::vector<std::string>;
+
+/// What probes may name, besides bodies.
+struct Named {
+  Names lines;     // muscles and ligaments
+  Names supports;  // those with a name
+};
 
 std::string read_body_of_kind(const Node& node, const Context& context, Body::Kind kind,
                               std::string_view expected) {
@@ -25,6 +30,15 @@ std::string read_line_reference(const Node& node, const Context& context, const 
   return line;
 }
 
+std::string read_support_reference(const Node& node, const Context& context,
+                                   const Names& supports) {
+  const std::string support = context.name(read_text(node));
+  if (std::find(supports.begin(), supports.end(), support) == supports.end())
+    fail(node, fmt::format("no [[support]] has the name `{}`{}", one_line(support),
+                           suggestion(support, supports)));
+  return support;
+}
+
 /// A body that something outside the scene holds, wholly or in part.
 std::string read_held_body(const Node& node, const Context& context) {
   const Body& body = read_body_reference(node, context);
@@ -37,7 +51,7 @@ std::string read_held_body(const Node& node, const Context& context) {
 /// Refuses keys of other kinds of probe.
 void keep_only(const TableReader& table, std::initializer_list<std::string_view> keys) {
   for (const std::string_view key : {"body", "point", "axis", "bodies", "line", "region", "part",
-                                     "whole", "direction", "proximal", "distal", "side"})
+                                     "whole", "direction", "proximal", "distal", "side", "support"})
     if (std::find(keys.begin(), keys.end(), key) == keys.end())
       table.refuse({key}, fmt::format("the probe is of kind {}", found(table.at("kind"))));
 }
@@ -67,12 +81,12 @@ JointSide read_joint_side(const Node& node, const Context& context) {
 /// What a probe of one kind observes.
 using Target = decltype(Probe::what);
 
-Target read_point(const TableReader& table, const Context& context, const Names&) {
+Target read_point(const TableReader& table, const Context& context, const Named&) {
   keep_only(table, {"body", "point"});
   return PointProbe{read_anchor(table, context)};
 }
 
-Target read_angle(const TableReader& table, const Context& context, const Names&) {
+Target read_angle(const TableReader& table, const Context& context, const Named&) {
   keep_only(table, {"body", "axis"});
   AngleProbe angle;
   angle.body = read_body_of_kind(table.at("body"), context, Body::Kind::Rigid, "rigid");
@@ -80,7 +94,7 @@ Target read_angle(const TableReader& table, const Context& context, const Names&
   return angle;
 }
 
-Target read_contact(const TableReader& table, const Context& context, const Names&) {
+Target read_contact(const TableReader& table, const Context& context, const Named&) {
   keep_only(table, {"bodies", "region"});
   const Node::List& bodies = read_list(table.at("bodies"), "the names of two bodies", 2);
   ContactProbe contact;
@@ -92,22 +106,25 @@ Target read_contact(const TableReader& table, const Context& context, const Name
   return contact;
 }
 
-Target read_line(const TableReader& table, const Context& context, const Names& lines) {
+Target read_line(const TableReader& table, const Context& context, const Named& named) {
   keep_only(table, {"line"});
-  return LineProbe{read_line_reference(table.at("line"), context, lines)};
+  return LineProbe{read_line_reference(table.at("line"), context, named.lines)};
 }
 
-Target read_energy(const TableReader& table, const Context&, const Names&) {
+Target read_energy(const TableReader& table, const Context&, const Named&) {
   keep_only(table, {});
   return EnergyProbe{};
 }
 
-Target read_reaction(const TableReader& table, const Context& context, const Names&) {
-  keep_only(table, {"body"});
+Target read_reaction(const TableReader& table, const Context& context, const Named& named) {
+  keep_only(table, {"body", "support"});
+  table.exactly_one({"body", "support"});
+  if (const Node* support = table.find("support"))
+    return SupportProbe{read_support_reference(*support, context, named.supports)};
   return ReactionProbe{read_held_body(table.at("body"), context)};
 }
 
-Target read_attachment(const TableReader& table, const Context& context, const Names&) {
+Target read_attachment(const TableReader& table, const Context& context, const Named&) {
   keep_only(table, {"bodies"});
   const Node::List& bodies = read_list(table.at("bodies"), "a tissue and a bone", 2);
   AttachmentProbe attachment;
@@ -119,7 +136,7 @@ Target read_attachment(const TableReader& table, const Context& context, const N
   return attachment;
 }
 
-Target read_share(const TableReader& table, const Context& context, const Names&) {
+Target read_share(const TableReader& table, const Context& context, const Named&) {
   keep_only(table, {"part", "whole", "direction"});
   ShareProbe share;
   share.part = read_probe_names(table.at("part"), context);
@@ -128,7 +145,7 @@ Target read_share(const TableReader& table, const Context& context, const Names&
   return share;
 }
 
-Target read_joint(const TableReader& table, const Context& context, const Names&) {
+Target read_joint(const TableReader& table, const Context& context, const Named&) {
   keep_only(table, {"proximal", "distal", "side"});
   table.refuse({"mirror"}, "axes of a joint are directions, which are not mirrored");
   JointProbe joint;
@@ -140,11 +157,11 @@ Target read_joint(const TableReader& table, const Context& context, const Names&
   return joint;
 }
 
-Probe read_probe(const TableReader& table, const Context& context, const Names& lines) {
+Probe read_probe(const TableReader& table, const Context& context, const Named& named) {
   Probe probe;
   probe.where = table.node().where;
   probe.name = read_name(table.at("name")) + side_suffix(table, context.side);
-  const auto read = read_choice<Target (*)(const TableReader&, const Context&, const Names&)>(
+  const auto read = read_choice<Target (*)(const TableReader&, const Context&, const Named&)>(
       table.at("kind"), {{"point", read_point},
                          {"angle", read_angle},
                          {"contact", read_contact},
@@ -154,14 +171,15 @@ Probe read_probe(const TableReader& table, const Context& context, const Names& 
                          {"attachment", read_attachment},
                          {"share", read_share},
                          {"joint", read_joint}});
-  probe.what = read(table, context, lines);
+  probe.what = read(table, context, named);
   return probe;
 }
 
 bool has_force(const Probe& probe) {
   return std::holds_alternative<ContactProbe>(probe.what) ||
          std::holds_alternative<AttachmentProbe>(probe.what) ||
-         std::holds_alternative<ReactionProbe>(probe.what);
+         std::holds_alternative<ReactionProbe>(probe.what) ||
+         std::holds_alternative<SupportProbe>(probe.what);
 }
 
 /// Shares are of probes that have a force.
@@ -182,15 +200,16 @@ void check_forces(const std::vector<Probe>& probes) {
   }
 }
 
-void append_probes(const Node& node, const Context& context, const Names& lines,
+void append_probes(const Node& node, const Context& context, const Named& named,
                    std::vector<Probe>& probes) {
-  const TableReader table(node, label(node, "probe"),
-                          {"name", "kind", "body", "point", "axis", "bodies", "line", "region",
-                           "part", "whole", "direction", "proximal", "distal", "side", "mirror"});
+  const TableReader table(
+      node, label(node, "probe"),
+      {"name", "kind", "body", "point", "axis", "bodies", "line", "region", "part", "whole",
+       "direction", "proximal", "distal", "side", "support", "mirror"});
   for (const Side side : read_sides(table)) {
     Context here = context;
     here.side = side;
-    Probe probe = read_probe(table, here, lines);
+    Probe probe = read_probe(table, here, named);
     check_new_name(table.at("name"), "probe", probe.name, probes);
     probes.push_back(std::move(probe));
   }
@@ -199,15 +218,16 @@ void append_probes(const Node& node, const Context& context, const Names& lines,
 }  // namespace
 
 std::vector<Probe> read_probes(const TableReader& document, const Context& context,
-                               const std::vector<Muscle>& muscles,
-                               const std::vector<Ligament>& ligaments) {
-  Names lines;
-  for (const Muscle& muscle : muscles)
-    if (muscle.tissue.empty()) lines.push_back(muscle.name);
-  for (const Ligament& ligament : ligaments) lines.push_back(ligament.name);
+                               const Scenario& read_so_far) {
+  Named named;
+  for (const Muscle& muscle : read_so_far.muscles)
+    if (muscle.tissue.empty()) named.lines.push_back(muscle.name);
+  for (const Ligament& ligament : read_so_far.ligaments) named.lines.push_back(ligament.name);
+  for (const Support& support : read_so_far.supports)
+    if (!support.name.empty()) named.supports.push_back(support.name);
   std::vector<Probe> probes;
   read_each(entries(document, "probe"),
-            [&](const Node& node) { append_probes(node, context, lines, probes); });
+            [&](const Node& node) { append_probes(node, context, named, probes); });
   check_forces(probes);
   return probes;
 }

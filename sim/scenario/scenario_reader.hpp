@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -55,6 +56,9 @@ std::string side_suffix(const TableReader& table, Side side);
 /// "translation.x" to "rotation.z", by Hold::held.
 std::string_view freedom_name(std::size_t freedom);
 
+/// Which of them a list names.
+std::array<bool, 6> read_freedoms(const Node& node);
+
 /// The body that a node names. @throws InputError  if there is none, with the nearest name
 const Body& read_body_reference(const Node& node, const Context& context);
 
@@ -79,14 +83,14 @@ std::vector<double> read_times(const Node& node);
 
 std::vector<Body> read_bodies(const TableReader& document, const std::filesystem::path& folder);
 std::vector<Attachment> read_attachments(const TableReader& document, const Context& context);
+std::vector<Support> read_supports(const TableReader& document, const Context& context);
 std::vector<Muscle> read_muscles(const TableReader& document, const Context& context);
 std::vector<Ligament> read_ligaments(const TableReader& document, const Context& context,
                                      const std::vector<Muscle>& muscles);
 std::vector<Load> read_loads(const TableReader& document, const Context& context);
 void read_contacts(const TableReader& document, const Context& context, Scenario& scenario);
 std::vector<Probe> read_probes(const TableReader& document, const Context& context,
-                               const std::vector<Muscle>& muscles,
-                               const std::vector<Ligament>& ligaments);
+                               const Scenario& read_so_far);
 
 /// Title, duration, accuracy, integrator, detection and output.
 void read_settings(const TableReader& document, Scenario& scenario);

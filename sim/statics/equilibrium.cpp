@@ -13,7 +13,7 @@
 #include "sim/base/error.hpp"
 #include "sim/base/stopwatch.hpp"
 #include "sim/base/sundials.hpp"
-#include "sim/model/constrained_rigid_body.hpp"
+#include "sim/model/held_blocks.hpp"
 #include "sim/model/newton_weights.hpp"
 
 namespace articular::sim {
@@ -415,6 +415,7 @@ bool Equilibrium::Solver::yield(const Eigen::VectorXd& f, double damping, Eigen:
   if (!prepare(fem::Tangent::Consistent) && !prepare(fem::Tangent::Projected)) return false;
   rhs_ = f.head(view(solution_).size());
   if (!solve_linear()) return false;
+  keep_free_part(model_, correction_);
   start_ = y;
   move(correction_, y);
   return true;

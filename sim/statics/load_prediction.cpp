@@ -57,11 +57,11 @@ class DrivenWay {
     return motion;
   }
 
-  /// Moves tissue that is tied to one driven rigid body alone with it.
+  /// Moves tissue that is tied to one driven rigid body alone, and not supported, with it.
   void carry(double part, Eigen::VectorXd& y) const {
     const std::vector<Pose> poses = this->poses(part);
     for (const Tissue& tissue : model_.tissues) {
-      const int rigid = only_rigid_body(tissue);
+      const int rigid = is_supported(tissue) ? -1 : only_rigid_body(tissue);
       if (rigid < 0 || !model_.rigid_bodies[static_cast<std::size_t>(rigid)].motion) continue;
       const Pose &a = from_[static_cast<std::size_t>(rigid)],
                  &b = poses[static_cast<std::size_t>(rigid)];
@@ -83,6 +83,13 @@ class DrivenWay {
       rigid = node.rigid;
     }
     return rigid;
+  }
+
+  bool is_supported(const Tissue& tissue) const {
+    return std::any_of(
+        model_.supports.begin(), model_.supports.end(), [&](const SupportModel& support) {
+          return &model_.tissues[static_cast<std::size_t>(support.tissue)] == &tissue;
+        });
   }
 
   const Model& model_;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/loads/gravity.hpp"
+#include "sim/loads/surface_load.hpp"
 #include "sim/model/carried_tissue.hpp"
 #include "sim/scenario/curve.hpp"
 #include "sim/statics/contact_hooks.hpp"
@@ -268,6 +270,12 @@ void Stepper::account(State& after) {
         0.5 * (value_at(force.profile, t_before_) + value_at(force.profile, after.t));
     ledger.load_work += factor * force.force.dot(now.position(force.point) - loads_before_[i]);
   }
+  for (const SurfaceLoadModel& load : model_.surface_loads)
+    ledger.load_work += surface_work(load, start_, now);
+  const Vec3 changing = mean_changing_gravity(model_, t_before_, after.t);
+  if (!changing.isZero(0))
+    ledger.load_work +=
+        weight_energy(model_, start_, changing) - weight_energy(model_, now, changing);
   for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b) {
     const RigidBody& rigid = model_.rigid_bodies[b];
     if (!rigid.motion) continue;

@@ -6,7 +6,7 @@
 #include "sim/assembly/contact_imbalance.hpp"
 #include "sim/assembly/line_search.hpp"
 #include "sim/base/stopwatch.hpp"
-#include "sim/model/constrained_rigid_body.hpp"
+#include "sim/model/held_blocks.hpp"
 #include "sim/model/newton_weights.hpp"
 
 namespace articular::sim {
@@ -233,11 +233,10 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   if (num_velocities > 0 && !find_correction(gamma, counts)) return false;
   // The rows of held freedoms are δv = b_v. With w = 0 there instead, the round-off of axes that
   // are turned would be predicted on and on, twice as large in each step.
-  for (const RigidBody& rigid : model_.rigid_bodies) {
-    if (!rigid.hold) continue;
-    const Vec6 given = velocity_rhs_.segment<6>(3 * rigid.block);
-    auto own = w_.segment<6>(3 * rigid.block);
-    own = (free_part(rigid, own) + given - free_part(rigid, given)).eval();
+  for (const auto& [block, free] : model_.held_blocks) {
+    const Vec3 given = velocity_rhs_.segment<3>(3 * block);
+    auto own = w_.segment<3>(3 * block);
+    own = (free * own + given - free * given).eval();
   }
   const bool searches = correction_++ >= searches_from_;
   const bool accelerated = !searches && accelerate(gamma);

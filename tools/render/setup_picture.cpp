@@ -24,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Rgb kAttached = {0.80, 0.10, 0.10}, kLineEnd = {0.10, 0.25, 0.75},
-              kScaleColour = {0.16, 0.19, 0.23};
+constexpr Rgb kAttached = {0.80, 0.10, 0.10}, kSupported = {0.10, 0.55, 0.20},
+              kLineEnd = {0.10, 0.25, 0.75}, kScaleColour = {0.16, 0.19, 0.23};
 constexpr Rgb kAxes[] = {{0.75, 0.15, 0.15}, {0.15, 0.55, 0.15}, {0.15, 0.25, 0.75}};
 
 void refuse_frames(const RenderOptions& options) {
@@ -92,6 +92,15 @@ void add_attached_nodes(const sim::Model& model, double unit, Marks& marks) {
       if (tissue.nodes[i].rigid >= 0)
         attached.at.emplace_back(tissue.X.col(static_cast<Eigen::Index>(i)) / unit);
   marks.points.push_back(std::move(attached));
+}
+
+void add_supported_nodes(const sim::Model& model, double unit, Marks& marks) {
+  Marks::Points supported{{}, kSupported};
+  for (const sim::SupportModel& support : model.supports)
+    for (const sim::SupportModel::Node& node : support.nodes)
+      supported.at.emplace_back(
+          model.tissues[static_cast<std::size_t>(support.tissue)].X.col(node.node) / unit);
+  marks.points.push_back(std::move(supported));
 }
 
 void add_line_ends(const sim::Model& model, const sim::Configuration& now, double unit,
@@ -177,12 +186,15 @@ int render_setup(const RenderOptions& options) {
   Marks marks;
   add_bodies(frame, marks);
   add_attached_nodes(model, unit, marks);
+  add_supported_nodes(model, unit, marks);
   add_line_ends(model, now, unit, marks);
   const MiddlePlane plane(fit, axes);
   const double aspect = static_cast<double>(options.width) / options.height;
   add_axes(plane, aspect, marks);
   add_scale(plane, aspect, scenario.output.length_unit.name, marks);
-  marks.legend = "red: attached nodes; blue: ends of muscles and ligaments";
+  marks.legend = std::string("red: attached nodes; ") +
+                 (model.supports.empty() ? "" : "green: supported nodes; ") +
+                 "blue: ends of muscles and ligaments";
 
   const fs::path folder = options.out.empty() ? fs::path(".") : options.out;
   make_folder(folder);

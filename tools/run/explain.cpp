@@ -9,6 +9,7 @@
 
 #include "sim/assembly/solver_setup.hpp"
 #include "sim/build/build_model.hpp"
+#include "sim/model/held_blocks.hpp"
 #include "sim/model/model.hpp"
 #include "sim/output/output_size.hpp"
 #include "sim/scenario/preset.hpp"
@@ -48,7 +49,7 @@ Json explain_body(const sim::Model& model, const sim::BodyModel& body) {
                                       tissue.relaxation ? ", relaxing" : "");
     json["tetrahedra"] = tissue.elements.num_elements();
     json["nodes"] = tissue.nodes.size();
-    json["unknowns"] = 3 * free;
+    json["unknowns"] = 3 * free - sim::num_held_freedoms(model, tissue);
   } else {
     const sim::RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
     const auto held =
@@ -111,8 +112,9 @@ Json left_out(const sim::Model& model) {
     items.push_back("dampers and relaxation of tissue: the scene names none");
   if (model.muscles.empty()) items.push_back("muscles: the scene has none");
   if (model.ligaments.empty()) items.push_back("ligaments: the scene has none");
-  if (model.forces.empty()) items.push_back("forces: the scene has none");
-  if (model.gravity.isZero(0)) items.push_back("gravity: the scene has none");
+  if (model.forces.empty() && model.surface_loads.empty())
+    items.push_back("forces: the scene has none");
+  if (model.gravity.empty()) items.push_back("gravity: the scene has none");
   items.push_back("fluid flow in cartilage (poroelasticity)");
   items.push_back("wrapping of muscles over bone (straight between via points)");
   items.push_back("deformation of bone");
@@ -168,8 +170,8 @@ Json explain(const sim::Scenario& scenario, const sim::Model& model) {
           {"contact_pairs", pairs},
           {"muscles", model.muscles.size()},
           {"ligaments", model.ligaments.size()},
-          {"loads", model.forces.size()},
-          {"gravity", !model.gravity.isZero(0)},
+          {"loads", model.forces.size() + model.surface_loads.size()},
+          {"gravity", !model.gravity.empty()},
           {"unknown_velocities", 3 * model.layout.num_unknown_blocks()},
           {"muscle_activations", model.layout.num_muscles},
           {"linear_solver", linear_solver(model, scenario.integrator.scheme)},

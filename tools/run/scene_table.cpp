@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/loads/surface_load.hpp"
 #include "sim/model/mass_properties.hpp"
 #include "tools/mesh/mesh_quality.hpp"
 
@@ -111,6 +112,55 @@ std::string attachments(const sim::Scenario& scenario, const sim::Model& model) 
   return text;
 }
 
+std::string in_words(const Vec3& direction) {
+  const Vec3 d = direction.unaryExpr([](double value) { return rounded(value, 0.01); });
+  return fmt::format("({:.2f} {:.2f} {:.2f})", d.x(), d.y(), d.z());
+}
+
+std::string supports(const sim::Scenario& scenario, const sim::Model& model) {
+  std::string text;
+  for (std::size_t s = 0; s < model.supports.size(); ++s) {
+    const sim::SupportModel& support = model.supports[s];
+    const sim::Tissue& tissue = model.tissues[static_cast<std::size_t>(support.tissue)];
+    Eigen::AlignedBox3d box;
+    for (const sim::SupportModel::Node& node : support.nodes)
+      box.extend(Vec3(tissue.X.col(node.node)));
+    std::string axes;
+    for (const auto& axis : scenario.supports[s].held.colwise())
+      axes += (axes.empty() ? "" : ", ") + in_words(axis);
+    text += fmt::format(
+        "  {:<20} {:<23} {} of {} nodes, between {} and {} mm, held along {}\n",
+        scenario.supports[s].body, support.name.empty() ? "supported" : "by " + support.name,
+        support.nodes.size(), tissue.nodes.size(), in_mm(box.min()), in_mm(box.max()), axes);
+  }
+  return text;
+}
+
+/// Area at the start, and the force there by a factor of 1.
+std::string surface_loads(const sim::Model& model, const sim::Moment& start) {
+  std::string text;
+  for (const sim::SurfaceLoadModel& load : model.surface_loads) {
+    const sim::Tissue& tissue = model.tissues[static_cast<std::size_t>(load.tissue)];
+    sim::SurfaceLoadModel whole = load;
+    whole.profile = {};
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * model.num_blocks);
+    add_surface_force(whole, start.configuration, f);
+    Vec3 force = Vec3::Zero();
+    for (int block = 0; block < model.layout.num_free_nodes; ++block)
+      force += f.segment<3>(3 * block);
+    for (const sim::RigidBody& rigid : model.rigid_bodies) force += f.segment<3>(3 * rigid.block);
+    if (const double unit = 1e-6 * force.norm(); unit > 0)
+      force = force.unaryExpr([unit](double value) { return rounded(value, unit); }).eval();
+    const double area = std::accumulate(load.area.begin(), load.area.end(), 0.0);
+    const std::string name = model.bodies[static_cast<std::size_t>(tissue.body)].name;
+    text += fmt::format(
+        "  {:<20} {:<23} {} faces, {:.4g} mm^2, in all ({:.4g} {:.4g} {:.4g}) N at a factor of 1\n",
+        name, std::holds_alternative<double>(load.stress) ? "under pressure" : "under traction",
+        load.faces.size(), 1e6 * area, force.x(), force.y(), force.z());
+  }
+  return text;
+}
+
 /// From the first point of a line to the last.
 Vec3 direction(const sim::Line& line, const sim::Configuration& now) {
   return (now.position(line.path.back()) - now.position(line.path.front())).normalized();
@@ -158,6 +208,8 @@ std::string scene_table(const sim::Scenario& scenario, const sim::Model& model,
                         const sim::Stepper& start) {
   std::string text = bodies(model);
   if (!scenario.attachments.empty()) text += "\n" + attachments(scenario, model);
+  if (!model.supports.empty()) text += "\n" + supports(scenario, model);
+  if (!model.surface_loads.empty()) text += "\n" + surface_loads(model, start.now());
   if (!model.muscles.empty()) text += "\n" + muscles(model, start.now());
   if (!model.ligaments.empty()) text += "\n" + ligaments(model, start.now());
   return text;

@@ -14,6 +14,7 @@
 #include "sim/assembly/dynamics.hpp"
 #include "sim/assembly/solver_setup.hpp"
 #include "sim/contact/contact_search.hpp"
+#include "sim/model/held_blocks.hpp"
 #include "sim/time/explicit_limit.hpp"
 
 namespace articular::tools {
@@ -130,7 +131,7 @@ class Measurement {
       cost.term = fmt::format("elasticity of `{}`, {} {}{}", name, elements.num_elements(),
                               smoothed ? "smoothed" : "plain",
                               tissue.muscle >= 0 ? ", with active fibres" : "");
-      cost.unknowns = 3 * free_nodes(tissue);
+      cost.unknowns = 3 * free_nodes(tissue) - sim::num_held_freedoms(model_, tissue);
       cost.force_seconds = seconds_of([&] {
         elements.pressure(tissue.X, pressure);
         elements.add_internal_force(tissue.X, pressure, activation, f);
@@ -175,9 +176,12 @@ class Measurement {
 
   /// They are evaluated along with all others, and cost next to nothing.
   void name_loads() {
-    if (!model_.gravity.isZero(0)) costs_.terms.push_back({"gravity", 0, 0, 0});
+    if (!model_.gravity.empty()) costs_.terms.push_back({"gravity", 0, 0, 0});
     if (!model_.forces.empty())
       costs_.terms.push_back({fmt::format("{} forces", model_.forces.size()), 0, 0, 0});
+    if (!model_.surface_loads.empty())
+      costs_.terms.push_back(
+          {fmt::format("{} loads on surfaces", model_.surface_loads.size()), 0, 0, 0});
   }
 
   void measure_inertia(const sim::Dynamics& dynamics) {

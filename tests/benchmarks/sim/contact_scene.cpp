@@ -156,7 +156,7 @@ void Scene::tie(const std::string& tissue, const std::string& rigid, double z_lo
 void Scene::drive(const std::string& rigid, const std::vector<Vec3>& places) {
   MotionLoad load;
   load.body = rigid;
-  load.motion.smooth = false;
+  load.motion.interpolation = Motion::Interpolation::Linear;
   for (std::size_t i = 0; i < places.size(); ++i) {
     load.motion.time.push_back(static_cast<double>(i));
     load.motion.translation.push_back(places[i]);

@@ -28,7 +28,7 @@ Scenario carried_block(double h, double tied_height, const MotionLoad& load) {
 
 MotionLoad smooth_drive(const Vec3& way, const Vec3& turn) {
   MotionLoad load = shift("plate", 0.1, way);
-  load.motion.smooth = true;
+  load.motion.interpolation = Motion::Interpolation::Smooth;
   load.motion.rotation = {Vec3::Zero(), turn};
   load.motion.about = {0.03, -0.01, 0.02};
   return load;

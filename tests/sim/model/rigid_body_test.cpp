@@ -65,17 +65,18 @@ TEST(RigidBody, NothingJoinedChangesNothing) {
 }
 
 /// Shifts and turns by large angles about changing axes.
-Motion large_motion(bool smooth) {
+Motion large_motion(Motion::Interpolation interpolation) {
   Motion motion;
   motion.time = {0, 0.4, 1.1};
   motion.translation = {Vec3::Zero(), {0.1, 0, -0.2}, {0.3, 0.2, 0}};
   motion.rotation = {Vec3::Zero(), {1.5, -2.0, 0.7}, {-0.5, 2.5, 1.9}};
   motion.about = Vec3(0.2, -0.1, 0.05);
-  motion.smooth = smooth;
+  motion.interpolation = interpolation;
+  fit_spline(motion);
   return motion;
 }
 
-class DrivenMotion : public ::testing::TestWithParam<bool> {};
+class DrivenMotion : public ::testing::TestWithParam<Motion::Interpolation> {};
 
 // Best of a sweep of central differences; the motion's own scales are 1 m and 1 rad/s.
 TEST_P(DrivenMotion, VelocityIsTheDerivativeOfThePose) {
@@ -106,7 +107,10 @@ TEST_P(DrivenMotion, RestsBeforeItsFirstAndAfterItsLastTime) {
               1e-15);
 }
 
-INSTANTIATE_TEST_SUITE_P(RigidBody, DrivenMotion, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(RigidBody, DrivenMotion,
+                         ::testing::Values(Motion::Interpolation::Linear,
+                                           Motion::Interpolation::Smooth,
+                                           Motion::Interpolation::Spline));
 
 TEST(RigidBody, ASmallRotationVectorTurnsLikeTheCrossProduct) {
   const Vec3 theta(1e-9, -2e-9, 3e-9);

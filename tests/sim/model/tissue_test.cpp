@@ -290,7 +290,7 @@ TEST(Tissue, RelaxationHasTheOrderOfTheScheme) {
     s.integrator.scheme = scheme;
     s.integrator.step = step;
     s.loads = {shift("grip", 32e-3, {0, 0, 0.006})};
-    std::get<MotionLoad>(s.loads[0]).motion.smooth = true;
+    std::get<MotionLoad>(s.loads[0]).motion.interpolation = Motion::Interpolation::Smooth;
     Simulation run(s);
     run.advance(24e-3);
     return -run.force_on(1).z();

@@ -452,7 +452,7 @@ INSTANTIATE_TEST_SUITE_P(
                 kStart + "[[load]]\nkind = \"gravity\"\nacceleration = \"0 0 -9.81 m/s^2\"\n@force "
                          "= \"0 0 1 N\"\n",
                 "[[load]] of kind \"gravity\": unknown key `force`; expected one of `kind`, "
-                "`acceleration`"},
+                "`acceleration`, `profile`"},
         Mistake{"ForceOnFixed",
                 kStart + "[[load]]\nkind = \"force\"\nbody = @\"skull\"\npoint = \"0 0 0 "
                          "m\"\nforce = \"0 0 1 N\"\n",

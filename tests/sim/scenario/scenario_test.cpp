@@ -396,7 +396,7 @@ TEST_F(CompleteScenario, HasItsLoads) {
   EXPECT_EQ(motion.motion.translation[1], Vec3(0, 0, -5e-3));
   EXPECT_TRUE(motion.motion.rotation[1].isApprox(Vec3(10 * kDegree, 0, 0)));
   EXPECT_EQ(motion.motion.about, Vec3(0, 0, 7e-3));
-  EXPECT_FALSE(motion.motion.smooth);
+  EXPECT_EQ(motion.motion.interpolation, Motion::Interpolation::Linear);
 }
 
 TEST_F(CompleteScenario, HasItsContactsAndProbes) {

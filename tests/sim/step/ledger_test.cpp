@@ -36,7 +36,7 @@ MotionLoad drive(const std::string& body, double duration, const Vec3& way,
                  const Vec3& turn = Vec3::Zero()) {
   MotionLoad load = shift(body, duration, way);
   load.motion.rotation = {Vec3::Zero(), turn};
-  load.motion.smooth = true;
+  load.motion.interpolation = Motion::Interpolation::Smooth;
   return load;
 }
 double path(double s) { return s * s * (3 - 2 * s); }

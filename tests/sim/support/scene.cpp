@@ -78,7 +78,7 @@ MotionLoad shift(const std::string& body, double duration, const Vec3& translati
   load.body = body;
   load.motion.time = {0, duration};
   load.motion.translation = {Vec3::Zero(), translation};
-  load.motion.smooth = false;
+  load.motion.interpolation = Motion::Interpolation::Linear;
   return load;
 }
 

@@ -101,6 +101,16 @@ density = "2 g/cm^3"
 body = "disc"
 to = "floor"
 region = { box = ["-9 -9 -2.1 mm", "9 9 -1.9 mm"] }
+[[support]]
+name = "side"
+body = "disc"
+region = { box = ["1.9 -9 -1 mm", "9 9 9 mm"] }
+freedoms = ["translation.x"]
+[[load]]
+kind = "pressure"
+body = "disc"
+region = { box = ["-9 -9 1.99 mm", "9 9 9 mm"] }
+pressure = "2 kPa"
 [[muscle]]
 name = "lip"
 path = [{ body = "floor", point = "20 0 10 mm" }, { body = "bone", point = "20 0 1 mm" }]
@@ -123,6 +133,9 @@ slack_length = "8 mm"
         "0.016         -      -",
         "disc                 to floor                9 of 27 nodes, between (-2.0 -2.0 -2.0) and "
         "(2.0 2.0 -2.0) mm",
+        "disc                 by side                 6 of 27 nodes, between (2.0 -2.0 0.0) and "
+        "(2.0 2.0 2.0) mm, held along (1.00 0.00 0.00)",
+        "disc                 under pressure          8 faces, 16 mm^2, in all (0 0 -0.032) N",
         "9.00  ( 0.00  0.00 -1.00)", "3 N, 6.00 mm",
         "9.00  (-1.00  0.00  0.00)          2  8.00 mm, +12.50 %",
         "At the start, where nothing presses yet, nothing but inertia resists: "})

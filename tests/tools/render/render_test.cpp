@@ -112,6 +112,7 @@ int num_pixels_of(int channel, vtkImageData& image) {
   return count;
 }
 int num_red_pixels(vtkImageData& image) { return num_pixels_of(0, image); }
+int num_green_pixels(vtkImageData& image) { return num_pixels_of(1, image); }
 int num_blue_pixels(vtkImageData& image) { return num_pixels_of(2, image); }
 
 /// Drawing needs a display, or Xvfb to make one.
@@ -187,6 +188,13 @@ TEST_F(Drawing, AScenarioIsDrawnBeforeAnyRunWithWhatIsAttached) {
   const auto bare = read_png(folder / "bare_setup.png");
   EXPECT_GT(num_red_pixels(*with), num_red_pixels(*bare) + 20);
   EXPECT_GT(num_blue_pixels(*with), num_blue_pixels(*bare) + 5);
+  text +=
+      "[[support]]\nbody = \"block\"\nregion = { box = [\"-9 -9 -2.1 mm\", \"9 9 -1.9 "
+      "mm\"] }\nfreedoms = [\"translation.z\"]\n";
+  options_.run = folder.file("supported.toml", text);
+  print_of(options_);
+  const auto supported = read_png(folder / "supported_setup.png");
+  EXPECT_GT(num_green_pixels(*supported), num_green_pixels(*bare) + 20);
 }
 
 TEST_F(Drawing, AScenarioHasNoFrames) {

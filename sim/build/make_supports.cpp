@@ -1,0 +1,143 @@
+#include "sim/build/make_supports.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+
+#include "sim/base/mistakes.hpp"
+#include "sim/build/region.hpp"
+#include "sim/build/weighted_points.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Axes that differ by less [rad] are one.
+constexpr double kSameAxis = 1e-6;
+
+/// A support that holds a node: index into Model::supports, and into the nodes of that.
+struct Holder {
+  std::size_t support, place;
+};
+
+/// Projection onto what is orthogonal to all axes: I − Q Qᵀ, Q by Gram–Schmidt. Exact for axes of
+/// space.
+Mat3 orthogonal_projection(const Eigen::Matrix3Xd& axes) {
+  Mat3 free = Mat3::Identity();
+  int held = 0;
+  for (const auto& axis : axes.colwise()) {
+    const Vec3 rest = free * axis;
+    if (!(rest.norm() > kSameAxis)) continue;
+    const Vec3 unit = rest.normalized();
+    free -= unit * unit.transpose();
+    ++held;
+  }
+  return held < 3 ? free : Mat3(Mat3::Zero());
+}
+
+/// "the [[attach]] at jaw.toml:12" that has taken a node of a tissue.
+std::string attachment_of(const Scenario& scenario, const Model& model,
+                          const std::vector<BodyGeometry>& geometry, const std::string& tissue,
+                          int rigid, const Vec3& x, bool on_surface) {
+  for (const Attachment& attachment : scenario.attachments) {
+    const auto to = static_cast<std::size_t>(body_index(scenario, attachment.to));
+    if (attachment.body == tissue && model.bodies[to].rigid == rigid &&
+        RegionTest(attachment.region, model, geometry).contains(x, on_surface))
+      return fmt::format("`{}`, by the [[attach]] at {}:{}", attachment.to, attachment.where.file,
+                         attachment.where.line);
+  }
+  return "a body";
+}
+
+class Supporter {
+ public:
+  Supporter(const Scenario& scenario, const std::vector<BodyGeometry>& geometry,
+            const std::vector<collision::Surface>& surfaces, Model& model)
+      : scenario_(scenario), geometry_(geometry), surfaces_(surfaces), model_(model) {}
+
+  void support_all() {
+    holders_.resize(static_cast<std::size_t>(model_.layout.num_free_nodes));
+    read_each(scenario_.supports, [&](const Support& support) { add(support); });
+    for (std::size_t block = 0; block < holders_.size(); ++block)
+      if (!holders_[block].empty()) hold(static_cast<int>(block), holders_[block]);
+  }
+
+ private:
+  void add(const Support& given) {
+    const auto body = static_cast<std::size_t>(body_index(scenario_, given.body));
+    SupportModel support{given.name, model_.bodies[body].tissue, {}, Vec3::Zero()};
+    const auto t = static_cast<std::size_t>(support.tissue);
+    const Tissue& tissue = model_.tissues[t];
+    const RegionTest test(given.region, model_, geometry_);
+    const std::vector<char> on_surface = surface_nodes(tissue, surfaces_[t]);
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+      const Vec3 x = tissue.X.col(static_cast<Eigen::Index>(i));
+      if (!test.contains(x, on_surface[i] != 0)) continue;
+      if (tissue.nodes[i].rigid >= 0)
+        refuse_attached(given, tissue.nodes[i].rigid, x, on_surface[i] != 0);
+      holders_[static_cast<std::size_t>(tissue.nodes[i].block)].push_back(
+          {model_.supports.size(), support.nodes.size()});
+      support.nodes.push_back({static_cast<int>(i), 0, Mat3::Zero()});
+      box.extend(x);
+    }
+    if (support.nodes.empty())
+      throw InputError(given.where, fmt::format("no node of tissue `{}` lies in the region of the "
+                                                "[[support]]",
+                                                given.body));
+    support.center = box.center();
+    axes_.push_back(given.held);
+    model_.supports.push_back(std::move(support));
+  }
+
+  [[noreturn]] void refuse_attached(const Support& given, int rigid, const Vec3& x,
+                                    bool on_surface) const {
+    throw InputError(
+        given.where,
+        fmt::format("the node of `{}` at ({:.3f} {:.3f} {:.3f}) mm is supported here and attached "
+                    "to {}: expected regions without common nodes",
+                    given.body, 1e3 * x.x(), 1e3 * x.y(), 1e3 * x.z(),
+                    attachment_of(scenario_, model_, geometry_, given.body, rigid, x, on_surface)));
+  }
+
+  /// Of the force R = B a on all axes B at the node, each support takes what its own axes carry,
+  /// with the least a.
+  void hold(int block, const std::vector<Holder>& holders) {
+    Eigen::Matrix3Xd all(3, 0);
+    for (const Holder& holder : holders) {
+      const Eigen::Matrix3Xd& own = axes_[holder.support];
+      all.conservativeResize(Eigen::NoChange, all.cols() + own.cols());
+      all.rightCols(own.cols()) = own;
+    }
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> split;
+    split.setThreshold(kSameAxis);
+    const Eigen::MatrixXd carried = split.compute(all).pseudoInverse();
+    const auto held = static_cast<int>(model_.held_blocks.size());
+    model_.held_blocks.push_back({block, orthogonal_projection(all)});
+    Eigen::Index row = 0;
+    for (const Holder& holder : holders) {
+      const Eigen::Matrix3Xd& own = axes_[holder.support];
+      SupportModel::Node& node = model_.supports[holder.support].nodes[holder.place];
+      node.held = held;
+      node.share = own * carried.middleRows(row, own.cols());
+      row += own.cols();
+    }
+  }
+
+  const Scenario& scenario_;
+  const std::vector<BodyGeometry>& geometry_;
+  const std::vector<collision::Surface>& surfaces_;
+  Model& model_;
+  std::vector<Eigen::Matrix3Xd> axes_;        // of each support
+  std::vector<std::vector<Holder>> holders_;  // of each free node, by block
+};
+
+}  // namespace
+
+void make_supports(const Scenario& scenario, const std::vector<BodyGeometry>& geometry,
+                   const std::vector<collision::Surface>& surfaces, Model& model) {
+  if (!scenario.supports.empty()) Supporter(scenario, geometry, surfaces, model).support_all();
+}
+
+}  // namespace articular::sim
