@@ -1,5 +1,6 @@
 #include "fem/solver/solver_choice.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace articular::fem {
@@ -25,7 +26,30 @@ constexpr int kStartFrom = 5;  // solutions
 constexpr int kMostFactoredInContact = 2'500, kMostFactoredAtRest = 6'000;
 constexpr double kShortWay = 40;
 
+// Block Jacobi passes on what happens by one element in an iteration. From so many elements on
+// everything else is several times as fast, and up to so few nothing is faster at any size below
+// such a Poisson's ratio. Between them the size decides; with contact, what is tied to something
+// fixed and not far from it is still block Jacobi's, but for friction, which asks for several
+// solutions with each matrix.
+constexpr double kFar = 25, kNear = 6, kNearlyIncompressible = 0.47;
+
+/// How far that is: in a step no farther than waves travel.
+double way(const SolverProblem& problem) {
+  return problem.in_time ? std::min(problem.reach, problem.elements_a_step) : problem.reach;
+}
+
+/// Of tissue that is tied to what stands or is driven, and to no bone that moves by itself.
+bool is_held_within(double elements, const SolverProblem& problem) {
+  return problem.is_held && problem.num_nodes == problem.num_blocks && way(problem) < elements;
+}
+
 SolverChoice choose_with_contact(const SolverProblem& problem) {
+  if (!problem.has_friction && is_held_within(kFar, problem)) {
+    return {
+        SolverKind::ConjugateGradients, 0,
+        "contact changes the matrix, and what holds the tissue is near: nothing needs to be set "
+        "up"};
+  }
   const bool short_steps = problem.in_time && problem.elements_a_step < kShortWay;
   if (problem.num_blocks <= (short_steps ? kMostFactoredInContact : kMostFactoredAtRest)) {
     return {problem.has_pressure ? SolverKind::SaddlePoint : SolverKind::Cholesky, 0,
@@ -39,6 +63,11 @@ SolverChoice choose_with_contact(const SolverProblem& problem) {
 }
 
 bool is_for_block_jacobi(const SolverProblem& problem) {
+  if (way(problem) > kFar) return false;
+  if (problem.largest_nu < kNearlyIncompressible && problem.reach < kNear &&
+      is_held_within(kNear, problem)) {
+    return true;
+  }
   if (!problem.has_pressure) {
     return problem.largest_nu < kCompressible && problem.num_blocks < kFewForMultigrid;
   }
@@ -68,7 +97,10 @@ SolverChoice choose_solver(const SolverProblem& problem) {
   }
   if (is_for_block_jacobi(problem)) {
     return {SolverKind::ConjugateGradients, kept,
-            "too few unknowns for what a cycle of multigrid costs"};
+            "too few unknowns, or too short ways, for what a cycle of multigrid costs"};
+  }
+  if (problem.has_pressure && problem.num_blocks < kFewWithPressure && way(problem) > kFar) {
+    return {SolverKind::SaddlePoint, 0, "a slender body of few unknowns is soon factored"};
   }
   if (problem.has_pressure) {
     return {SolverKind::Multigrid, kept,

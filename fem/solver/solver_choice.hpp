@@ -13,8 +13,13 @@ struct SolverProblem {
   bool in_time = false;        // each system follows from the last, with a mass in it
   bool has_pressure = false;   // terms of a nodal pressure: prepare_with_pressure()
   bool has_contact = false;    // couplings come and go, and with them the pattern
+  bool has_friction = false;   // each system is solved for several right sides
   double largest_nu = 0;       // Poisson's ratio [-] of the least compressible tissue
   double elements_a_step = 0;  // in time: how far waves of pressure travel, in elements [-]
+  /// How far it is from a force to what holds the tissue, in elements, times how slender the way is
+  /// [-]: what iterations without a coarse level grow with. A cube held at a side: cells along it.
+  double reach = 10;
+  bool is_held = true;  // all tissue is tied to what does not move freely
 };
 
 enum class SolverKind { Cholesky, SaddlePoint, ConjugateGradients, Multigrid };

@@ -123,21 +123,6 @@ void append_motions(const Model& model, const Configuration& now, int b,
 /// To two decimals, without a negative zero.
 Vec3 rounded(const Vec3& v) { return (100 * v).array().round() / 100 + 0.0; }
 
-std::string in_words(const Model& model, const BodyMotions& motions,
-                     const Eigen::Matrix<double, 6, 1>& part) {
-  const Vec3 shift = part.head<3>(), turn = part.tail<3>();
-  const bool shifts = shift.norm() >= turn.norm();
-  const Vec3 axis = rounded((shifts ? shift : turn).normalized());
-  const std::string name = model.bodies[static_cast<std::size_t>(motions.body)].name;
-  if (shifts)
-    return fmt::format("body `{}` can shift along ({:.2f} {:.2f} {:.2f})", name, axis.x(), axis.y(),
-                       axis.z());
-  const Vec3 mm = 1e3 * motions.center;
-  return fmt::format(
-      "body `{}` can turn about the axis ({:.2f} {:.2f} {:.2f}) through ({:.3g} {:.3g} {:.3g}) mm",
-      name, axis.x(), axis.y(), axis.z(), mm.x(), mm.y(), mm.z());
-}
-
 /// The largest stiffness of a free node or of a rigid body's translation [N/m].
 double stiffest_node(const Model& model, const fem::BlockMatrix& K) {
   double stiffest = 0;
@@ -151,6 +136,16 @@ double stiffest_node(const Model& model, const fem::BlockMatrix& K) {
 }
 
 }  // namespace
+
+std::string rigid_motion_in_words(const Vec3& shift, const Vec3& turn, const Vec3& center) {
+  const bool shifts = shift.norm() >= turn.norm();
+  const Vec3 axis = rounded((shifts ? shift : turn).normalized());
+  if (shifts)
+    return fmt::format("shift along ({:.2f} {:.2f} {:.2f})", axis.x(), axis.y(), axis.z());
+  const Vec3 mm = 1e3 * center;
+  return fmt::format("turn about the axis ({:.2f} {:.2f} {:.2f}) through ({:.3g} {:.3g} {:.3g}) mm",
+                     axis.x(), axis.y(), axis.z(), mm.x(), mm.y(), mm.z());
+}
 
 std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& dynamics) {
   std::vector<BodyMotions> bodies;
@@ -194,7 +189,11 @@ std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& 
   std::size_t most = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (part(b).norm() > part(most).norm()) most = b;
-  return RigidBodyMode{bodies[most].body, in_words(model, bodies[most], part(most))};
+  const BodyMotions& body = bodies[most];
+  return RigidBodyMode{
+      body.body,
+      fmt::format("body `{}` can {}", model.bodies[static_cast<std::size_t>(body.body)].name,
+                  rigid_motion_in_words(part(most).head<3>(), part(most).tail<3>(), body.center))};
 }
 
 }  // namespace articular::sim

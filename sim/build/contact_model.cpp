@@ -12,13 +12,29 @@
 namespace articular::sim {
 namespace {
 
-/// Contact stiffness of a side is this times constrained modulus / element height. From a thousand
+/// Contact stiffness of a side is this times modulus / element height. From a thousand
 /// on forces of averaged depths no longer depend on it. Statics ends there and begins softer: from
 /// afar a stiff iteration is thrown back and forth. In time, where that ends by how far things
 /// still move, it takes the accurate preset's tolerance, which asks for it: what is left of motion
 /// is noise of the forces; by other tolerances a tenth of it is enough. Explicit steps are as long
 /// as the stiffness lets them. Two rigid bodies, which give way nowhere, have nothing of it.
 constexpr double kSoftFactor = 10, kFirmFactor = 100, kStiffFactor = 1000;
+
+/// The modulus is the constrained one, as of a column between its neighbours, but at most so many
+/// punch moduli: near ν = 0.5 a column gives way a hundred or a thousand times less than a spot of
+/// the surface does, and contact that is as stiff throws Newton's iteration back and forth. Up to
+/// ν = 0.41 (statics: 0.494) that is no limit. Statics, whose residual and line search bear more,
+/// gets more: a thin layer that is bonded to bone can give way no more than a column.
+constexpr double kMostPunches = 1, kMostPunchesAtRest = 10;
+
+/// What the compliance of a body's side is to be multiplied by for that: 1 of rigid bodies.
+double softening(const Model& model, int body) {
+  const int t = model.bodies[static_cast<std::size_t>(body)].tissue;
+  if (t < 0) return 1;
+  const Tissue& tissue = model.tissues[static_cast<std::size_t>(t)];
+  const double most = model.is_static ? kMostPunchesAtRest : kMostPunches;
+  return std::max(1.0, constrained_modulus(tissue) / (most * punch_modulus(tissue)));
+}
 
 /// Of the elements at the surface: what friction at 0.7 of its limit creeps in a second, or in a
 /// thousand steps where these take longer. A finer step creeps no faster, and a scene of hours with
@@ -41,7 +57,7 @@ bool is_nonmortar(const Model& model, int a, int b, const Collider& A, const Col
   constexpr double kMuchSofter = 3;
   const auto modulus = [&](int body) {
     const int tissue = model.bodies[static_cast<std::size_t>(body)].tissue;
-    return constrained_modulus(model.tissues[static_cast<std::size_t>(tissue)]);
+    return punch_modulus(model.tissues[static_cast<std::size_t>(tissue)]);
   };
   const bool soft_a = model.bodies[static_cast<std::size_t>(a)].tissue >= 0;
   const bool soft_b = model.bodies[static_cast<std::size_t>(b)].tissue >= 0;
@@ -68,23 +84,26 @@ void add_contact(const Scenario& scenario, int a, int b, const ContactPair& pair
   contact.share = a == b ? 0.5 : 1;
   const double factor = contact_stiffness_factor(scenario, contact.averaged);
   const double layers = A->layer_compliance + B->layer_compliance;
-  contact.mean_stiffness = 1 / ((A->mean_compliance + B->mean_compliance) / factor + layers);
+  const double mean_a = softening(model, a) * A->mean_compliance;
+  const double mean_b = softening(model, b) * B->mean_compliance;
+  contact.mean_stiffness = 1 / ((mean_a + mean_b) / factor + layers);
   contact.max_penetration = kMaxPenetration * std::min(A->size, B->size);
   // The depth of a layer is its own compression.
   contact.is_bounded = layers == 0 && is_static;
-  const auto of_groups = [&](const Collider& side, const Collider& other, double c) {
-    if (!contact.averaged)
-      return Eigen::VectorXd::Constant(std::ssize(side.group_node),
-                                       contact.share * contact.mean_stiffness)
-          .eval();
-    const Eigen::ArrayXd compliance = side.compliance(side.group_node);
-    return (contact.share / ((compliance + other.mean_compliance) / c + layers)).matrix().eval();
-  };
   contact.reversed = a != b && !is_nonmortar(model, a, b, *A, *B);
   const Collider& nonmortar = contact.reversed ? *B : *A;
-  const Collider& other = contact.reversed ? *A : *B;
-  contact.stiffness = of_groups(nonmortar, other, factor);
-  contact.soft = of_groups(nonmortar, other, kSoftFactor);
+  const double softened = softening(model, contact.reversed ? b : a);
+  const double mean_other = contact.reversed ? mean_a : mean_b;
+  const auto of_groups = [&](double c) {
+    if (!contact.averaged)
+      return Eigen::VectorXd::Constant(std::ssize(nonmortar.group_node),
+                                       contact.share * contact.mean_stiffness)
+          .eval();
+    const Eigen::ArrayXd compliance = softened * nonmortar.compliance(nonmortar.group_node).array();
+    return (contact.share / ((compliance + mean_other) / c + layers)).matrix().eval();
+  };
+  contact.stiffness = of_groups(factor);
+  contact.soft = of_groups(kSoftFactor);
   contact.law.friction = pair.friction;
   contact.law.damping = contact.share * pair.damping;
   contact.law.slip_velocity =

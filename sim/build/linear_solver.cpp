@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
 
 #include "sim/model/tissue.hpp"
 
@@ -13,13 +16,48 @@ double poisson_ratio(const Tissue& tissue) {
   return (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
 }
 
+bool is_tied(const Tissue& tissue) {
+  return std::any_of(tissue.nodes.begin(), tissue.nodes.end(),
+                     [](const NodeRef& node) { return node.rigid >= 0; });
+}
+
+/// See fem::SolverProblem::reach. Of a body with the box a ≥ b ≥ c and the volume V, and its
+/// farthest point D from the nearest node that is tied, or where none is from its middle: D/h ·
+/// max(1, D a b/V).
+double reach_of(const Tissue& tissue) {
+  constexpr std::size_t kMostTied = 400, kMostNodes = 2000;  // looked at: enough for a scale
+  std::vector<Eigen::Index> tied, all;
+  for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+    all.push_back(static_cast<Eigen::Index>(i));
+    if (tissue.nodes[i].rigid >= 0) tied.push_back(all.back());
+  }
+  Vec3 box = tissue.X.rowwise().maxCoeff() - tissue.X.rowwise().minCoeff();
+  double farthest = tied.empty() ? 0.5 * box.norm() : 0;
+  for (std::size_t i = 0; !tied.empty() && i < all.size(); i += 1 + all.size() / kMostNodes) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < tied.size(); j += 1 + tied.size() / kMostTied)
+      nearest = std::min(nearest, (tissue.X.col(all[i]) - tissue.X.col(tied[j])).norm());
+    farthest = std::max(farthest, nearest);
+  }
+  std::sort(box.data(), box.data() + 3);
+  const std::vector<double>& volumes = tissue.elements.rest_volume();
+  const double volume = std::accumulate(volumes.begin(), volumes.end(), 0.0);
+  return farthest / element_size(tissue) * std::max(1.0, farthest * box[2] * box[1] / volume);
+}
+
 fem::SolverProblem problem_of(const Scenario& scenario, const Model& model) {
   fem::SolverProblem problem;
   problem.num_blocks = model.layout.num_unknown_blocks();
   problem.num_nodes = model.layout.num_free_nodes;
   problem.has_contact = !model.contacts.empty();
+  problem.has_friction =
+      std::any_of(model.contacts.begin(), model.contacts.end(),
+                  [](const ContactModel& contact) { return contact.law.friction > 0; });
   problem.in_time = !model.is_static;
+  problem.reach = 0;
   for (const Tissue& tissue : model.tissues) {
+    problem.reach = std::max(problem.reach, reach_of(tissue));
+    problem.is_held = problem.is_held && is_tied(tissue);
     problem.has_pressure |= tissue.elements.smoothed() != nullptr;
     problem.largest_nu = std::max(problem.largest_nu, poisson_ratio(tissue));
     const double density = *scenario.bodies[static_cast<std::size_t>(tissue.body)].density;

@@ -15,6 +15,11 @@ double constrained_modulus(const Tissue& tissue) {
   return tissue.bulk_modulus + 4 * tissue.shear_modulus / 3;
 }
 
+double punch_modulus(const Tissue& tissue) {
+  const double kappa = tissue.bulk_modulus, mu = tissue.shear_modulus;
+  return 8 * mu * (3 * kappa + mu) / (3 * kappa + 4 * mu);
+}
+
 double constrained_modulus(double E, double nu) { return E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)); }
 
 }  // namespace articular::sim

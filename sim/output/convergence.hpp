@@ -12,6 +12,7 @@ namespace articular::sim {
 /// The first line.
 std::string convergence_header(const LengthUnit& unit);
 /// One line each.
-std::string convergence_rows(const std::vector<ConvergenceRow>& rows, const LengthUnit& unit);
+std::string convergence_rows(const Model& model, const std::vector<ConvergenceRow>& rows,
+                             const LengthUnit& unit);
 
 }  // namespace articular::sim

@@ -217,7 +217,7 @@ class Run {
     history_file_->append(history_.take_rows());
     if (convergence_file_)
       convergence_file_->append(
-          convergence_rows(stepper_.take_convergence(), scenario_.output.length_unit));
+          convergence_rows(model_, stepper_.take_convergence(), scenario_.output.length_unit));
   }
 
   /// All results so far are on the disk.

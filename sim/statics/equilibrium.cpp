@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "sim/assembly/line_search.hpp"
@@ -60,6 +61,8 @@ class Equilibrium::Solver {
   Solver(const Model& model, Dynamics& dynamics, const StepSettings& settings);
   bool solve(Eigen::VectorXd& y, double t, double damping, const Conditions& conditions);
   bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
+  bool linearise(double damping);
+  bool respond(const Eigen::VectorXd& f, Eigen::VectorXd& x);
   void restart() { linear_ = make_linear_solver(model_); }
   /// The largest force, or moment by the rigid body's size, of a vector of block forces [N].
   /// Infinite where one is not a number: std::max would pass over it.
@@ -92,6 +95,9 @@ class Equilibrium::Solver {
   const Eigen::VectorXd& residual_at(const Eigen::VectorXd& u);
   bool prepare(fem::Tangent tangent);
   bool solve_linear();
+  /// With the projected matrix where the consistent one turns out not to be positive definite: a
+  /// factorization says so at once, iterations when they meet it.
+  bool solve_by_either_tangent();
   /// How far things move [m].
   double motion_scale() const {
     return std::isfinite(model_.trusted_motion) ? model_.trusted_motion : 1;
@@ -110,6 +116,7 @@ class Equilibrium::Solver {
   bool known_ = false;                               // r_ belongs to u_
   bool from_afar_ = false;                           // contact is stiff, and things may be far off
   int short_in_a_row_ = 0;                           // corrections of which little was taken
+  std::optional<Supports> supports_;                 // where the last correction began
   PressurePrediction prediction_;
   PredictedPressures taken_;  // by the last correction
   Conditions conditions_;
@@ -216,6 +223,11 @@ bool Equilibrium::Solver::solve_linear() {
   return report.converged && correction_.allFinite();
 }
 
+bool Equilibrium::Solver::solve_by_either_tangent() {
+  return solve_linear() || (tangent_ == fem::Tangent::Consistent &&
+                            prepare(fem::Tangent::Projected) && solve_linear());
+}
+
 int Equilibrium::Solver::assemble(N_Vector u, N_Vector, SUNMatrix, void* data, N_Vector, N_Vector) {
   auto& self = *static_cast<Solver*>(data);
   return guarded(self.error_, [&] {
@@ -258,11 +270,8 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
   return guarded(self.error_, [&] {
     ++self.counts.newton_iterations;
     self.rhs_ = view(b);
-    // Not positive definite: a factorization says so at once, iterations when they meet it.
-    const bool solved =
-        self.solve_linear() || (self.tangent_ == fem::Tangent::Consistent &&
-                                self.prepare(fem::Tangent::Projected) && self.solve_linear());
-    if (!solved) return 1;
+    Supports supports(self.dynamics_.now());
+    if (!self.solve_by_either_tangent()) return 1;
     keep_free_part(self.model_, self.correction_);  // round-off out of what is held
     self.prediction_.predict(self.dynamics_.now(), self.dynamics_.matrix(), self.correction_);
     // A rigid body's correction is a rotation on top of where it is.
@@ -280,6 +289,8 @@ int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, 
     self.short_in_a_row_ = s <= kShort ? self.short_in_a_row_ + 1 : 0;
     if (self.from_afar_ && self.short_in_a_row_ == kMostShort) return 1;
     self.iterations.push_back({residual, s * self.largest_displacement(self.correction_), s});
+    if (self.supports_) self.iterations.back().changes = supports.changes_since(*self.supports_);
+    self.supports_ = std::move(supports);
     if (self.watch && self.watch(self.t_, self.iterations.back())) throw Interruption();
     return 0;
   });
@@ -376,6 +387,7 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping,
   damping_ = damping;
   known_ = false;
   iterations.clear();
+  supports_.reset();
   view(solution_).setZero();
   if (view(solution_).size() == 0) {  // only driven rigid bodies
     dynamics_.evaluate(y.data(), t, conditions);
@@ -410,14 +422,25 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping,
 }
 
 bool Equilibrium::Solver::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y) {
-  taken_ = {};
-  damping_ = damping;
-  if (!prepare(fem::Tangent::Consistent) && !prepare(fem::Tangent::Projected)) return false;
+  if (!linearise(damping)) return false;
   rhs_ = f.head(view(solution_).size());
   if (!solve_linear()) return false;
   keep_free_part(model_, correction_);
   start_ = y;
   move(correction_, y);
+  return true;
+}
+
+bool Equilibrium::Solver::linearise(double damping) {
+  taken_ = {};
+  damping_ = damping;
+  return prepare(fem::Tangent::Consistent) || prepare(fem::Tangent::Projected);
+}
+
+bool Equilibrium::Solver::respond(const Eigen::VectorXd& f, Eigen::VectorXd& x) {
+  rhs_ = f.head(view(solution_).size());
+  if (!solve_by_either_tangent()) return false;
+  x = correction_;
   return true;
 }
 
@@ -431,6 +454,10 @@ bool Equilibrium::solve(Eigen::VectorXd& y, double t, double damping,
 }
 bool Equilibrium::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y) {
   return solver_->yield(f, damping, y);
+}
+bool Equilibrium::linearise(double damping) { return solver_->linearise(damping); }
+bool Equilibrium::respond(const Eigen::VectorXd& f, Eigen::VectorXd& x) {
+  return solver_->respond(f, x);
 }
 void Equilibrium::set_watch(IterationWatch watch) { solver_->watch = std::move(watch); }
 void Equilibrium::restart() { solver_->restart(); }

@@ -7,6 +7,7 @@
 #include "sim/assembly/dynamics.hpp"
 #include "sim/model/state.hpp"
 #include "sim/model/step_settings.hpp"
+#include "sim/statics/supports.hpp"
 
 namespace articular::sim {
 
@@ -15,6 +16,7 @@ struct NewtonIteration {
   double residual = 0;    // largest force that is not balanced, relative to the largest force
   double correction = 0;  // [m] largest displacement
   double fraction = 1;    // of the correction that the line search took
+  std::vector<SupportChange> changes = {};  // where it begins, since the one before
 };
 
 /// Told of each iteration, towards the loads of t [s]; true asks to stop: Interruption is thrown.
@@ -50,6 +52,13 @@ class Equilibrium {
   /// @param damping  d [1/s²]
   /// @return false when that can't be solved; y is as before
   [[nodiscard]] bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
+  /// Makes (K + d M) of the last Dynamics::evaluate() ready, or the projected matrix where that
+  /// one is not positive definite.
+  /// @return false when neither can be factored
+  [[nodiscard]] bool linearise(double damping);
+  /// x = (K + d M)⁻¹ f, with the matrix that was made ready last.
+  /// @param f  block forces [N]  @param[out] x  of the unknown blocks [m, rad]
+  [[nodiscard]] bool respond(const Eigen::VectorXd& f, Eigen::VectorXd& x);
   void set_watch(IterationWatch watch);
   /// Drops what the linear solver knows of earlier ones.
   void restart();

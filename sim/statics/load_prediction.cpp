@@ -112,17 +112,16 @@ Eigen::VectorXd force_rate(const DrivenWay& way, double part, double t, const Ei
   return (dynamics.now().forces - before) / part;
 }
 
-/// [1/s²]
-double holding_damping(const Model& model, Dynamics& dynamics) {
+}  // namespace
+
+double fastest_rate(const Model& model, Dynamics& dynamics) {
   const fem::BlockMatrix& K = dynamics.assemble({0, 0, 1}, fem::Tangent::Consistent).A;
   double fastest = 0;
   for (int block = 0; block < model.layout.num_free_nodes; ++block)
     fastest = std::max(
         fastest, K.block(K.slot(block, block)).diagonal().maxCoeff() / model.node_mass[block]);
-  return kLeastSpeed * fastest;
+  return fastest;
 }
-
-}  // namespace
 
 std::optional<Eigen::VectorXd> predict_load_step(const Model& model, Dynamics& dynamics,
                                                  Equilibrium& equilibrium, double t_before,
@@ -134,7 +133,7 @@ std::optional<Eigen::VectorXd> predict_load_step(const Model& model, Dynamics& d
   const double part = std::isfinite(trusted) ? std::min(1.0, kSmallMotion * trusted / motion) : 1;
   const Eigen::VectorXd rate = force_rate(way, part, t, y, dynamics);
   const double damping =
-      find_rigid_body_mode(model, dynamics) ? holding_damping(model, dynamics) : 0;
+      find_rigid_body_mode(model, dynamics) ? kLeastSpeed * fastest_rate(model, dynamics) : 0;
   std::optional<Eigen::VectorXd> predicted = y;
   if (!equilibrium.yield(rate, damping, *predicted)) predicted.reset();
   way.carry(1, y);

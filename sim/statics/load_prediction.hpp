@@ -25,4 +25,8 @@ std::optional<Eigen::VectorXd> predict_load_step(const Model& model, Dynamics& d
                                                  Equilibrium& equilibrium, double t_before,
                                                  double t, Eigen::VectorXd& y);
 
+/// The largest K_ii/m_i of a free node at the last Dynamics::evaluate() [1/s²]: a damping that is a
+/// small part of it holds what is loose, and nothing else feels it.
+double fastest_rate(const Model& model, Dynamics& dynamics);
+
 }  // namespace articular::sim

@@ -22,7 +22,7 @@ constexpr double kLooseMotion = 1e-3;
 class LoadStep {
  public:
   LoadStep(const Model& model, Dynamics& dynamics, Equilibrium& equilibrium,
-           const ContactHooks& contacts, double t_before, double t,
+           const ContactHooks& contacts, double t_before, double t, int most_iterations,
            std::vector<ConvergenceRow>& convergence)
       : model_(model),
         dynamics_(dynamics),
@@ -30,6 +30,7 @@ class LoadStep {
         contacts_(contacts),
         t_before_(t_before),
         t_(t),
+        most_iterations_(most_iterations),
         convergence_(convergence),
         reach_(std::isfinite(model.trusted_motion) ? model.trusted_motion : kLooseMotion) {}
 
@@ -46,6 +47,7 @@ class LoadStep {
     if (!result.reached)
       result.reached = approach_in_pseudo_time(
           reach_, kMostSolutions, [&](double motion) { return settle(motion, y, result); });
+    result.iterations = iterations_;
     return result;
   }
 
@@ -76,11 +78,15 @@ class LoadStep {
     dynamics_.evaluate(y.data(), t_, conditions);
   }
 
+  bool is_exhausted() const { return iterations_ >= most_iterations_; }
+
   bool solve(Eigen::VectorXd& y, double damping) {
+    if (is_exhausted()) return false;
     const bool solved = equilibrium_.solve(y, t_, damping);
     int k = 0;
     for (const NewtonIteration& newton : equilibrium_.iterations())
       convergence_.push_back({t_, solution_, damping, k++, newton});
+    iterations_ += k;
     ++solution_;
     if (solved) dynamics_.evaluate(y.data(), t_);
     return solved;
@@ -101,6 +107,7 @@ class LoadStep {
   }
 
   PseudoStep settle(double motion, Eigen::VectorXd& y, LoadStepResult& result) {
+    if (is_exhausted()) return PseudoStep::GaveUp;
     look(y, motion);
     const double damping = equilibrium_.largest_acceleration() / motion;
     const Eigen::VectorXd before = dynamics_.now().forces;
@@ -143,17 +150,21 @@ class LoadStep {
   Equilibrium& equilibrium_;
   const ContactHooks& contacts_;
   double t_before_, t_;
+  int most_iterations_;
   std::vector<ConvergenceRow>& convergence_;
   double reach_;
   int solution_ = 0;
+  int iterations_ = 0;  // of all solutions
 };
 
 }  // namespace
 
 LoadStepResult take_load_step(const Model& model, Dynamics& dynamics, Equilibrium& equilibrium,
                               const ContactHooks& contacts, double t_before, double t,
-                              Eigen::VectorXd& y, std::vector<ConvergenceRow>& convergence) {
-  return LoadStep(model, dynamics, equilibrium, contacts, t_before, t, convergence).take(y);
+                              int most_iterations, Eigen::VectorXd& y,
+                              std::vector<ConvergenceRow>& convergence) {
+  return LoadStep(model, dynamics, equilibrium, contacts, t_before, t, most_iterations, convergence)
+      .take(y);
 }
 
 }  // namespace articular::sim

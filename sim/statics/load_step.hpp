@@ -31,6 +31,7 @@ struct LoadStepResult {
   bool reached = false;
   double settling_loss = 0;  // [J] work against pseudo-time damping while something was loose
   std::optional<RigidBodyMode> loose;  // what nothing holds where it ended
+  int iterations = 0;                  // of Newton, of all solutions
 };
 
 /// Equilibrium under the loads of time t, from the one that y is at t_before.
@@ -39,8 +40,10 @@ struct LoadStepResult {
 /// carried in pseudo-time: each solution with damping d moves them on from rest by what the forces
 /// do in a time d^(−1/2); then d falls, and contacts are looked for again. The load step is reached
 /// when the forces balance without damping.
+/// @param most_iterations  once they were taken, no more solutions begin and it is not reached
 LoadStepResult take_load_step(const Model& model, Dynamics& dynamics, Equilibrium& equilibrium,
                               const ContactHooks& contacts, double t_before, double t,
-                              Eigen::VectorXd& y, std::vector<ConvergenceRow>& convergence);
+                              int most_iterations, Eigen::VectorXd& y,
+                              std::vector<ConvergenceRow>& convergence);
 
 }  // namespace articular::sim

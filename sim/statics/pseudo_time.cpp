@@ -18,6 +18,7 @@ bool approach_in_pseudo_time(double reach, int most,
   for (int k = 0; k < most; ++k) {
     const PseudoStep step = take(motion);
     if (step == PseudoStep::Arrived) return true;
+    if (step == PseudoStep::GaveUp) return false;
     motion =
         step == PseudoStep::Moved ? std::min(kMotionRise * motion, reach) : kMotionFall * motion;
   }

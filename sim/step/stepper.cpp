@@ -38,6 +38,11 @@ const char* words_for(Rejection why) {
 
 }  // namespace
 
+int most_load_step_iterations(const StepSettings& settings) {
+  constexpr int kMost = 1000, kMostSolutions = 10;
+  return std::max(kMost, kMostSolutions * settings.max_iterations);
+}
+
 double numerical_loss(const State& state, const StoredEnergy& now) {
   const EnergyLedger& l = state.energy;
   return l.start + l.muscle_work + l.load_work + l.motion_work - l.ligament_loss - l.tissue_loss -
@@ -104,10 +109,12 @@ void Stepper::step(State& state, double t_target) {
 
   double tried = h;
   const double t_start = state.t;
+  first_row_ = convergence_.size();
+  iterations_ = 0;
   for (;;) {
     if (try_step(state, tried)) break;
+    if (0.5 * tried < kLeastPart * nominal || is_exhausted()) fail(state, tried);
     tried *= 0.5;
-    if (tried < kLeastPart * nominal) fail(state, tried);
   }
   if (last && state.t - t_start >= remaining * (1 - 1e-12)) state.t = t_target;
   if (free_steps)
@@ -155,6 +162,10 @@ void Stepper::remember_start(const State& state) {
   loads_before_.clear();
   for (const ForceModel& force : model_.forces)
     loads_before_.push_back(start_.position(force.point));
+}
+
+bool Stepper::is_exhausted() const {
+  return equilibrium_ && iterations_ >= most_load_step_iterations(settings_);
 }
 
 bool Stepper::try_step(State& state, double h) {
@@ -223,8 +234,10 @@ bool Stepper::try_load_step(State& state, double h) {
   if (search_)
     contacts = contact_hooks(model_, *search_, *dynamics_, state.next_margin,
                              state.counts.rejected_motion);
-  const LoadStepResult result = take_load_step(model_, *dynamics_, *equilibrium_, contacts, state.t,
-                                               state.t + h, y_, convergence_);
+  const LoadStepResult result =
+      take_load_step(model_, *dynamics_, *equilibrium_, contacts, state.t, state.t + h,
+                     most_load_step_iterations(settings_) - iterations_, y_, convergence_);
+  iterations_ += result.iterations;
   loose_ = result.loose;
   if (!result.reached) {
     why_ = Rejection::NoEquilibrium;
@@ -335,18 +348,35 @@ void Stepper::stop_where_energy_is_made(const State& state) const {
                   failure_diagnosis(model_, start_, dynamics_->now().configuration)));
 }
 
+/// Of a load step nothing has a speed: what is loose says more.
+EquilibriumDiagnosis Stepper::why_no_equilibrium(const State& state, double h) {
+  if (loose_)
+    return {.cause = fmt::format("; {}: a support is missing, or contact is not made{}",
+                                 loose_->words, yielding_tissues(model_))};
+  const std::string squeezed = failure_diagnosis(model_, start_, dynamics_->now().configuration);
+  dynamics_->evaluate(y_.data(), state.t + h);
+  find_contacts(dynamics_->now().configuration, state.next_margin);
+  dynamics_->evaluate(y_.data(), state.t + h);
+  const std::optional<SoftMotion> softest = find_softest_motion(model_, *dynamics_, *equilibrium_);
+  EquilibriumDiagnosis diagnosis =
+      diagnose_equilibrium(dynamics_->now(), softest, std::span(convergence_).subspan(first_row_));
+  if (!diagnosis.is_nearly_free) diagnosis.cause += squeezed;
+  return diagnosis;
+}
+
 void Stepper::fail(const State& state, double h) {
-  // Of a load step nothing has a speed: what is loose says more.
-  const std::string cause =
-      loose_ ? fmt::format("; {}: a support is missing, or contact is not made{}", loose_->words,
-                           yielding_tissues(model_))
-             : failure_diagnosis(model_, start_, dynamics_->now().configuration);
+  EquilibriumDiagnosis why;
+  if (equilibrium_)
+    why = why_no_equilibrium(state, h);
+  else
+    why.cause = failure_diagnosis(model_, start_, dynamics_->now().configuration);
   // Back to the last state, for what the summary says of it.
   find_contacts(start_, state.next_margin);
   dynamics_->evaluate(state.y.data(), state.t, {.step_start = state.t});
-  throw SimulationError(fmt::format(
-      "the simulation cannot go on at t = {:.6g} s: {} of {:.3g} s{}; results are valid until then",
-      state.t, words_for(why_), h, cause));
+  throw SimulationError(
+      fmt::format("the simulation cannot go on at t = {:.6g} s: {} of {:.3g} s{}; results are "
+                  "valid until then{}",
+                  state.t, words_for(why_), h, why.cause, why.details));
 }
 
 StoredEnergy Stepper::stored_energy() const {

@@ -7,6 +7,7 @@
 #include "sim/contact/contact_search.hpp"
 #include "sim/model/state.hpp"
 #include "sim/statics/load_step.hpp"
+#include "sim/step/equilibrium_diagnosis.hpp"
 #include "sim/time/time_integrator.hpp"
 
 namespace articular::sim {
@@ -31,6 +32,11 @@ struct PhaseTimes {
 /// Why a step was not taken.
 enum class Rejection { NoConvergence, NoEquilibrium, TooFast, NotFinite };
 
+/// Newton's iterations that a load step may take, with its shorter tries, until a part of it is
+/// reached. Shipped scenarios take at most 130 with 20 a solution; who allows more in each allows
+/// more in all.
+int most_load_step_iterations(const StepSettings& settings);
+
 /// Scratch memory, trees, integrator and factors for one model.
 class Stepper {
  public:
@@ -41,7 +47,9 @@ class Stepper {
   /// One step of Listing 1.5.1 towards t_target: find contacts, advance (or, in a static analysis,
   /// find equilibrium under the loads of its end), check, account. Halves the step as often as
   /// needed.
-  /// @throws SimulationError when the step would get shorter than 0.1 µs
+  /// @throws SimulationError when that does not help: the step would get shorter than 2^-13 of the
+  /// one that was asked for, or no part of a load step
+  /// was reached in most_load_step_iterations()
   void step(State& state, double t_target);
 
   /// Of a static analysis: told of each iteration, see Equilibrium. step() then throws Interruption
@@ -75,12 +83,14 @@ class Stepper {
   void remember_start(const State& state);
   bool try_step(State& state, double h);
   bool is_finite() const;
+  bool is_exhausted() const;
   bool try_time_step(State& state, double h);
   bool try_load_step(State& state, double h);
   SolverCounts solver_counts() const;
   void account(State& after);
   void stop_where_energy_is_made(const State& state) const;
   [[noreturn]] void fail(const State& state, double h);
+  EquilibriumDiagnosis why_no_equilibrium(const State& state, double h);
 
   const Model& model_;
   const StepSettings settings_;
@@ -92,6 +102,9 @@ class Stepper {
   std::vector<ConvergenceRow> convergence_;
   std::optional<RigidBodyMode> loose_;  // in the last load step: what nothing holds
   std::vector<RigidBodyMode> indifferent_;
+  /// Of Newton's iterations, all towards the load step that is being tried.
+  std::size_t first_row_ = 0;
+  int iterations_ = 0;
   Eigen::VectorXd y_;                         // being tried
   Rejection why_ = Rejection::NoConvergence;  // the last step that was not taken
 

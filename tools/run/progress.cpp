@@ -1,5 +1,8 @@
 #include "tools/run/progress.hpp"
 
+#include "sim/build/build_model.hpp"
+#include "sim/step/stepper.hpp"
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
@@ -15,6 +18,7 @@ constexpr std::chrono::milliseconds kBarInterval(100);
 Progress::Progress(const sim::Scenario& scenario, bool quiet)
     : quiet_(quiet),
       is_static_(scenario.analysis == sim::Scenario::Analysis::Static),
+      most_iterations_(sim::most_load_step_iterations(sim::step_settings(scenario))),
       duration_(scenario.duration) {}
 
 void Progress::update(const sim::State& state) {
@@ -45,8 +49,14 @@ void Progress::update(double t, const sim::NewtonIteration& iteration) {
   const std::string what =
       t > 0 ? fmt::format("load step to {:.4g} % of the load", 100 * t / duration_)
             : std::string("pushing bodies apart");
-  put(fmt::format("{}: iteration {}, residual {:.1e} of the largest force", what, iterations_,
-                  iteration.residual));
+  int changed = 0;
+  for (const sim::SupportChange& change : iteration.changes)
+    changed += change.began + change.ceased;
+  const std::string limit =
+      t > 0 ? fmt::format(" of at most {} a load step", most_iterations_) : std::string();
+  put(fmt::format("{}: iteration {}{}, residual {:.1e} of the largest force{}", what, iterations_,
+                  limit, iteration.residual,
+                  changed > 0 ? fmt::format(", {} nodes begin or cease to touch", changed) : ""));
 }
 
 void Progress::print(const sim::State& state) {

@@ -26,7 +26,8 @@ class Progress {
 
   using Clock = std::chrono::steady_clock;
   bool quiet_, is_static_;
-  double duration_;  // [s]
+  int most_iterations_;  // of a load step
+  double duration_;      // [s]
   StatusLine status_;
   Clock::time_point start_ = Clock::now(), shown_ = Clock::now();
   double first_time_ = -1;  // simulated time at the first update [s]

@@ -15,11 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string last_line(const fs::path& file) {
+/// The line that says why a run could not go on, which details may follow, or else the last one.
+std::string told(const fs::path& file) {
   std::ifstream in(file);
   std::string line, last;
-  while (std::getline(in, line))
+  while (std::getline(in, line)) {
     if (!line.empty()) last = line;
+    if (line.find("the simulation cannot go on") != std::string::npos) break;
+  }
   return last;
 }
 
@@ -42,7 +45,7 @@ ProgramRun Bench::start(const std::vector<std::string>& arguments, const std::st
   return {.exit_code = use.end == tools::ProgramUse::End::Exited ? use.code : -1,
           .timed_out = use.end == tools::ProgramUse::End::TimeLimit,
           .seconds = use.wall_seconds,
-          .message = last_line(log),
+          .message = told(log),
           .results = folder_ / name};
 }
 

@@ -15,7 +15,7 @@ struct ProgramRun {
   int exit_code = -1;  // -1: ended by a signal, or by us
   bool timed_out = false;
   double seconds = 0;             // wall time
-  std::string message;            // last line on stderr
+  std::string message;            // why it could not go on, or the last line on stderr
   std::filesystem::path results;  // folder
 };
 

@@ -36,6 +36,7 @@ struct Extreme {
 std::vector<Extreme> time_steps();
 std::vector<Extreme> materials();
 std::vector<Extreme> densities();
+std::vector<Extreme> dragged_spheres();
 std::vector<Extreme> meshes();
 std::vector<Extreme> squeezes();
 std::vector<Extreme> start_shapes();

@@ -29,6 +29,28 @@ Finding falling_bone(const Bench& bench) {
   return named(bench.run("falls", scene, 60), "bone");
 }
 
+/// On a smooth slope, held back by a thread: it leaves the slope before the thread balances it.
+Finding plate_on_a_slope(const Bench& bench) {
+  const std::string scene =
+      statics(1, 1) + carrier("frame") +
+      box("slope", "tissue",
+          {.size = {0.06, 0.02, 0.004}, .cells = {12, 4, 1}, .center = {0, 0, -0.002}},
+          solid(1000, "neo-hookean", 2e4, 0.3, ", element = \"smoothed\"")) +
+      attach("slope", "frame", {-1, -1, -1}, {1, 1, -0.00399}) +
+      box("plate", "rigid", {.size = {0.01, 0.01, 0.002}, .center = {-0.02, 0, 0.001}},
+          density(2000)) +
+      "[[ligament]]\nname = \"thread\"\nstiffness = \"0.001 N/m\"\npath = [{ body = \"frame\", "
+      "point = "
+      "\"-60 0 1 mm\" }, { body = \"plate\", point = \"-25 0 1 mm\" }]\n"
+      "[[load]]\nkind = \"gravity\"\nacceleration = \"3 0 -9.3 m/s^2\"\n";
+  const ProgramRun run = bench.run("slides", scene, 60);
+  const auto end = ended_early(run);
+  if (!end) return {Outcome::Failed, "it went on without a support"};
+  if (end->outcome == Outcome::Refused && run.message.find("`plate`") == std::string::npos)
+    return {Outcome::Failed, run.message};
+  return *end;
+}
+
 /// Held in one point only, in a ligament: it turns about it, and finds the way to hang.
 Finding hanging_bone(const Bench& bench) {
   const std::string scene =
@@ -57,6 +79,11 @@ std::vector<Extreme> missing_supports() {
            .expected = Outcome::Refused,
            .quick = true,
            .study = falling_bone},
+          {.name = "static, a support is missing",
+           .range = "rigid plate on a smooth slope",
+           .expected = Outcome::Refused,
+           .quick = true,
+           .study = plate_on_a_slope},
           {.name = "static, a support is missing",
            .range = "body on one ligament at its corner",
            .quick = true,

@@ -27,6 +27,7 @@ TEST(SolverChoice, FollowsTheSizeAndTheTissue) {
 TEST(SolverChoice, ContactAsksForLittleSetUp) {
   SolverProblem problem = tissue(1'500, 0.45);
   problem.in_time = problem.has_contact = true;
+  problem.is_held = false;
   EXPECT_EQ(choose_solver(problem).kind, SolverKind::Cholesky);
   problem.has_pressure = true;
   EXPECT_EQ(choose_solver(problem).kind, SolverKind::SaddlePoint);
@@ -45,6 +46,41 @@ TEST(SolverChoice, ContactAsksForLittleSetUp) {
   EXPECT_EQ(choose_solver(problem).kind, SolverKind::ConjugateGradients);
   problem.elements_a_step = 100;
   EXPECT_EQ(choose_solver(problem).kind, SolverKind::SaddlePoint);
+}
+
+// Iterations that pass on by an element each are nothing for a slender body, however few its
+// unknowns, but for steps in which waves get no farther.
+TEST(SolverChoice, SlenderBodiesAreNotIteratedOnElementByElement) {
+  for (const bool pressure : {false, true}) {
+    SolverProblem beam = tissue(280, 0);
+    beam.has_pressure = pressure;
+    EXPECT_EQ(choose_solver(beam).kind, SolverKind::ConjugateGradients);
+    beam.reach = 800;
+    EXPECT_NE(choose_solver(beam).kind, SolverKind::ConjugateGradients);
+    beam.in_time = true;
+    beam.elements_a_step = 80;
+    EXPECT_NE(choose_solver(beam).kind, SolverKind::ConjugateGradients);
+    beam.elements_a_step = 4;
+    EXPECT_EQ(choose_solver(beam).kind, SolverKind::ConjugateGradients);
+  }
+}
+
+TEST(SolverChoice, WhatIsHeldNearbyIsIteratedOnElementByElement) {
+  SolverProblem layer = tissue(3'000, 0.45);
+  EXPECT_EQ(choose_solver(layer).kind, SolverKind::Multigrid);
+  layer.reach = 3;
+  EXPECT_EQ(choose_solver(layer).kind, SolverKind::ConjugateGradients);
+  layer.has_contact = true;
+  layer.reach = 12;
+  EXPECT_EQ(choose_solver(layer).kind, SolverKind::ConjugateGradients);
+  layer.has_friction = true;
+  EXPECT_EQ(choose_solver(layer).kind, SolverKind::Cholesky);
+  layer.has_friction = false;
+  layer.reach = 200;
+  EXPECT_EQ(choose_solver(layer).kind, SolverKind::Cholesky);
+  layer.reach = 12;
+  layer.num_nodes -= 10;  // bones
+  EXPECT_EQ(choose_solver(layer).kind, SolverKind::Cholesky);
 }
 
 TEST(SolverChoice, KeepsSolutionsInTimeOnlyAndSaysWhy) {
