@@ -60,6 +60,7 @@ class Builder {
     make_loads();
     make_contacts(scenario_, model_);
     refuse_coincident_bodies(scenario_, model_);
+    refuse_bodies_within_others(scenario_, model_);
     model_.probes = make_probes(scenario_, model_, geometry_, surface_, model_.warnings);
     model_.position_tolerance = position_tolerance(scenario_.integrator, model_);
     model_.detection_margin = detection_margin(model_);

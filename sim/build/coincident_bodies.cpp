@@ -2,43 +2,104 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "sim/base/error.hpp"
+#include "sim/mesh/triangle_tree.hpp"
 
 namespace articular::sim {
 namespace {
 
-/// Of a body's extent: rounding of positions in files and of placements.
-constexpr double kRounding = 1e-9;
+/// Of the height of an element at the surface: surfaces nearer than this all over are one. Facets
+/// of a round body stray less from those of its finer mesh, and no two bodies lie so that are not
+/// the same.
+constexpr double kSame = 0.1;
+/// Of that height: a node nearer than this to a surface is on neither side of it.
+constexpr double kOnSurface = 1e-3;
+/// Of areas: vectors that cancel by less than this show an open surface.
+constexpr double kOpen = 1e-3;
 
-/// Of the nodes of the surface, in the order of x [m].
-std::vector<Vec3> surface_positions(const Collider& body) {
-  std::vector<char> used(static_cast<std::size_t>(body.X.cols()), 0);
-  for (const int i : body.surface.faces.reshaped()) used[static_cast<std::size_t>(i)] = 1;
-  std::vector<Vec3> positions;
-  for (Eigen::Index i = 0; i < body.X.cols(); ++i)
-    if (used[static_cast<std::size_t>(i)] != 0) positions.emplace_back(body.X.col(i));
-  std::sort(positions.begin(), positions.end(),
-            [](const Vec3& p, const Vec3& q) { return p.x() < q.x(); });
-  return positions;
+double height(const Collider& a, const Collider& b) { return std::min(a.size, b.size); }
+
+/// Nodes of a surface and the middles of its faces, each with every corner's part of it.
+Positions surface_points(const Collider& body) {
+  const Eigen::Matrix3Xi& faces = body.surface.faces;
+  Positions points(3, 4 * faces.cols());
+  for (Eigen::Index f = 0; f < faces.cols(); ++f) {
+    const Mat3 corners = body.X(Eigen::all, faces.col(f));
+    points.middleCols<3>(4 * f) = corners;
+    points.col(4 * f + 3) = corners.rowwise().mean();
+  }
+  return points;
 }
 
-bool holds(const std::vector<Vec3>& sorted, const Vec3& x, double tolerance) {
-  auto p = std::lower_bound(sorted.begin(), sorted.end(), x.x() - tolerance,
-                            [](const Vec3& q, double least) { return q.x() < least; });
-  for (; p != sorted.end() && p->x() <= x.x() + tolerance; ++p)
-    if ((*p - x).lpNorm<Eigen::Infinity>() <= tolerance) return true;
-  return false;
+Eigen::AlignedBox3d box_of(const Positions& x) {
+  return {x.rowwise().minCoeff(), x.rowwise().maxCoeff()};
+}
+
+Vec3 area_vector(const Collider& body) {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& face : body.surface.faces.colwise()) {
+    const Vec3 a = body.X.col(face[0]);
+    sum += 0.5 * (Vec3(body.X.col(face[1])) - a).cross(Vec3(body.X.col(face[2])) - a);
+  }
+  return sum;
+}
+
+/// Two sheets that lie face to face are not the same one.
+bool face_each_other(const Collider& a, const Collider& b) {
+  const double area = std::accumulate(a.face_area.begin(), a.face_area.end(), 0.0);
+  return area_vector(a).dot(area_vector(b)) < -kOpen * area * area;
+}
+
+bool lies_on(const Positions& points, const Collider& body, double distance) {
+  const TriangleTree tree(body.X, body.surface.faces);
+  return std::all_of(points.colwise().begin(), points.colwise().end(),
+                     [&](const auto& x) { return tree.is_within(x, distance); });
 }
 
 bool coincide(const Collider& a, const Collider& b) {
-  const Vec3 low = a.X.rowwise().minCoeff(), high = a.X.rowwise().maxCoeff();
-  const double tolerance = kRounding * (high - low).norm();
-  const std::vector<Vec3> of_a = surface_positions(a), of_b = surface_positions(b);
-  return of_a.size() == of_b.size() && std::all_of(of_a.begin(), of_a.end(), [&](const Vec3& x) {
-           return holds(of_b, x, tolerance);
-         });
+  const double distance = kSame * height(a, b);
+  const Positions of_a = surface_points(a), of_b = surface_points(b);
+  const Eigen::AlignedBox3d p = box_of(of_a), q = box_of(of_b);
+  return (p.min() - q.min()).lpNorm<Eigen::Infinity>() <= distance &&
+         (p.max() - q.max()).lpNorm<Eigen::Infinity>() <= distance && !face_each_other(a, b) &&
+         lies_on(of_a, b, distance) && lies_on(of_b, a, distance);
+}
+
+/// How often a surface goes around a point: 1 inside a closed one, 0 outside [Van Oosterom,
+/// Strackee 1983, IEEE Trans Biomed Eng 30:125].
+double windings(const Collider& body, const Vec3& x) {
+  double half_angles = 0;
+  for (const auto& face : body.surface.faces.colwise()) {
+    const Vec3 a = body.X.col(face[0]) - x, b = body.X.col(face[1]) - x,
+               c = body.X.col(face[2]) - x;
+    const double A = a.norm(), B = b.norm(), C = c.norm();
+    half_angles +=
+        std::atan2(a.dot(b.cross(c)), A * B * C + a.dot(b) * C + b.dot(c) * A + c.dot(a) * B);
+  }
+  return half_angles / (2 * M_PI);
+}
+
+/// All of a's surface lies inside b's, a node at least clearly so.
+bool lies_within(const Collider& a, const Collider& b) {
+  const double flush = kOnSurface * height(a, b);
+  const Positions of_a = surface_points(a);
+  Eigen::AlignedBox3d around = box_of(surface_points(b));
+  around = Eigen::AlignedBox3d(around.min().array() - flush, around.max().array() + flush);
+  if (!around.contains(box_of(of_a))) return false;
+  const TriangleTree tree(b.X, b.surface.faces);
+  bool any = false;
+  for (const Vec3 x : of_a.colwise()) {
+    if (tree.is_within(x, flush)) continue;
+    if (windings(b, x) < 0.5) return false;
+    any = true;
+  }
+  return any;
 }
 
 }  // namespace
@@ -57,12 +118,31 @@ bool are_tied(const Model& model, const ContactModel& contact) {
 void refuse_coincident_bodies(const Scenario& scenario, const Model& model) {
   for (const ContactModel& contact : model.contacts) {
     if (contact.a == contact.b || are_tied(model, contact)) continue;
-    const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
-    if (!coincide(*model.bodies[a].collider, *model.bodies[b].collider)) continue;
-    throw InputError(scenario.bodies[b].where,
-                     fmt::format("bodies `{}` and `{}` are the same mesh at the same place; "
+    const BodyModel &a = model.bodies[static_cast<std::size_t>(contact.a)],
+                    &b = model.bodies[static_cast<std::size_t>(contact.b)];
+    if (!coincide(*a.collider, *b.collider)) continue;
+    throw InputError(scenario.bodies[static_cast<std::size_t>(contact.b)].where,
+                     fmt::format("bodies `{}` and `{}` are the same body at the same place; "
                                  "expected one of them, or another place",
-                                 model.bodies[a].name, model.bodies[b].name));
+                                 a.name, b.name));
+  }
+}
+
+void refuse_bodies_within_others(const Scenario& scenario, const Model& model) {
+  for (const ContactModel& contact : model.contacts) {
+    if (contact.a == contact.b || are_tied(model, contact)) continue;
+    for (const auto& [inner, outer] :
+         {std::pair(contact.a, contact.b), std::pair(contact.b, contact.a)}) {
+      const BodyModel &in = model.bodies[static_cast<std::size_t>(inner)],
+                      &out = model.bodies[static_cast<std::size_t>(outer)];
+      if (!lies_within(*in.collider, *out.collider)) continue;
+      throw InputError(
+          scenario.bodies[static_cast<std::size_t>(inner)].where,
+          fmt::format("body `{}` lies wholly inside `{}`, and contact can't tell the way out; "
+                      "expected another place, an [[attach]] of one to the other, or [[contact]] "
+                      "pairs without these two",
+                      in.name, out.name));
+    }
   }
 }
 

@@ -1,10 +1,11 @@
 #include "sim/contact/contact_search.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <tuple>
+
+#include "sim/contact/body_sweep.hpp"
 
 namespace articular::sim {
 namespace {
@@ -18,18 +19,6 @@ double seconds_since(Clock::time_point start) {
 /// Or, not yet, but it may turn until the step's end.
 bool may_face(const FaceBounds& s, const FaceBounds& face) {
   return s.normal.dot(face.normal) <= -0.5 * kFacingNone;
-}
-
-/// A triangle and a face that move with the same rigid body, or share a node, do not touch: tissue
-/// tied to a rigid body, or neighbours in one tissue.
-bool tied(const Collider& a, int triangle, const Collider& b, int face) {
-  for (const int i : a.surface.faces.col(triangle))
-    for (const int j : b.surface.faces.col(face)) {
-      const NodeRef &p = a.nodes[static_cast<std::size_t>(i)],
-                    &q = b.nodes[static_cast<std::size_t>(j)];
-      if (p.rigid == q.rigid && (p.rigid >= 0 || p.block == q.block)) return true;
-    }
-  return false;
 }
 
 /// Keeps the candidates whose face itself meets the triangle's body. A triangle that passes the
@@ -66,6 +55,16 @@ void merge(const std::vector<ContactCandidate>& more, std::vector<ContactCandida
 }
 
 }  // namespace
+
+bool are_tied(const Collider& a, int triangle, const Collider& b, int face) {
+  for (const int i : a.surface.faces.col(triangle))
+    for (const int j : b.surface.faces.col(face)) {
+      const NodeRef &p = a.nodes[static_cast<std::size_t>(i)],
+                    &q = b.nodes[static_cast<std::size_t>(j)];
+      if (p.rigid == q.rigid && (p.rigid >= 0 || p.block == q.block)) return true;
+    }
+  return false;
+}
 
 DepthRange depth_range(const Collider& triangles, const Collider& faces, bool averaged) {
   return {averaged ? triangles.open_depth : 0, std::min(2 * triangles.reach, faces.reach)};
@@ -217,7 +216,7 @@ void ContactSearch::collect(const Penetrations& found, const Penetrations& rever
         if (!may_face(s, face)) continue;
         const FaceProximity what = face_proximity(s, face, range, margin);
         deep = deep || what.deeper;
-        if (what.may && !tied(A, triangle, B, f)) pairs.push_back({triangle, f, range.reach});
+        if (what.may && !are_tied(A, triangle, B, f)) pairs.push_back({triangle, f, range.reach});
       }
     }
     if (deep) deep_.push_back({first, end});
@@ -249,7 +248,7 @@ void ContactSearch::add_deep_pairs(const Penetrations& found, const Moving& a, c
     const DepthRange deeper{range.open, kOfDepth * depth + margin};
     for (std::size_t f = 0; f < b.faces.size(); ++f) {
       const auto face = static_cast<int>(f);
-      if (!may_face(s, b.faces[f]) || tied(A, triangle, B, face)) continue;
+      if (!may_face(s, b.faces[f]) || are_tied(A, triangle, B, face)) continue;
       if (!face_proximity(s, b.faces[f], deeper, margin).may) continue;
       pairs.push_back({triangle, face, deeper.reach});
       ++counts_.deep_pairs;
@@ -257,41 +256,22 @@ void ContactSearch::add_deep_pairs(const Penetrations& found, const Moving& a, c
   }
 }
 
-namespace {
-
-/// What a collider sweeps, and the range of its nodes' displacements.
-struct Sweep {
-  Eigen::AlignedBox3d way, displacement;
-};
-
-Sweep sweep_of(const Collider& collider, const Configuration& from, const Configuration& to) {
-  Sweep sweep;
-  for (const NodeRef& node : collider.nodes) {
-    const Vec3 a = from.position(node), b = to.position(node);
-    sweep.way.extend(a).extend(b);
-    sweep.displacement.extend(Vec3(b - a));
-  }
-  return sweep;
-}
-
-}  // namespace
-
 bool ContactSearch::passes_unseen(const Configuration& from, const Configuration& to) const {
-  std::vector<Sweep> sweeps;
-  for (const Moving& moving : moving_)
-    sweeps.push_back(
-        sweep_of(*model_.bodies[static_cast<std::size_t>(moving.body)].collider, from, to));
+  std::vector<BodySweep> sweeps;
+  for (const Moving& moving : moving_) {
+    BodySweep& sweep = sweeps.emplace_back();
+    for (const NodeRef& node : model_.bodies[static_cast<std::size_t>(moving.body)].collider->nodes)
+      sweep.add(from.position(node), to.position(node));
+  }
   for (std::size_t c = 0; c < pairs_.size(); ++c) {
     if (pairs_[c].a == pairs_[c].b) continue;
-    const Sweep &a = sweeps[static_cast<std::size_t>(pairs_[c].a)],
-                &b = sweeps[static_cast<std::size_t>(pairs_[c].b)];
+    const BodySweep &a = sweeps[static_cast<std::size_t>(pairs_[c].a)],
+                    &b = sweeps[static_cast<std::size_t>(pairs_[c].b)];
     if (!a.way.intersects(b.way)) continue;
-    const Vec3 most = (a.displacement.max() - b.displacement.min())
-                          .cwiseMax(b.displacement.max() - a.displacement.min());
     const ContactModel& pair = model_.contacts[c];
     const Collider& A = *model_.bodies[static_cast<std::size_t>(pair.a)].collider;
     const Collider& B = *model_.bodies[static_cast<std::size_t>(pair.b)].collider;
-    if (most.norm() >
+    if (most_relative_motion(a, b) >
         std::max(depth_range(A, B, pair.averaged).reach, depth_range(B, A, pair.averaged).reach))
       return true;
   }

@@ -27,6 +27,10 @@ struct CandidateList {
   std::vector<ContactCandidate> pairs;
 };
 
+/// A triangle and a face that move with the same rigid body, or share a node, do not touch: tissue
+/// tied to a rigid body, or neighbours in one tissue.
+bool are_tied(const Collider& a, int triangle, const Collider& b, int face);
+
 /// The depths of a side's triangles behind another's faces that count. Deeper than an element of
 /// either side it was not this face that was crossed.
 DepthRange depth_range(const Collider& triangles, const Collider& faces, bool averaged);

@@ -61,12 +61,17 @@ FaceProximity face_proximity(const FaceBounds& s, const FaceBounds& face, const 
 
 namespace {
 
-double depth_of_point(const Vec3& x, const std::vector<FaceBounds>& surface) {
+/// @param at  the index in the surface of the k-th face
+template <class At>
+NearestFace nearest_of(const Vec3& x, const std::vector<FaceBounds>& surface, std::size_t count,
+                       At&& at) {
   // Faces as near as this part of the distance share the edge or corner that is nearest; the one
   // that the point lies farthest off, seen along its normal, knows the side.
   constexpr double kSame = 1e-9;
+  NearestFace nearest;
   double least = std::numeric_limits<double>::infinity(), depth = 0;
-  for (const FaceBounds& face : surface) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const FaceBounds& face = surface[at(k)];
     const double farthest = (least + face.size) * (1 + kSame);
     if ((face.corners.col(0) - x).squaredNorm() > farthest * farthest) continue;
     const double distance = std::sqrt(
@@ -76,11 +81,23 @@ double depth_of_point(const Vec3& x, const std::vector<FaceBounds>& surface) {
     if (distance >= least * (1 - kSame) && std::abs(below) <= std::abs(depth)) continue;
     least = std::min(least, distance);
     depth = below;
+    nearest.face = static_cast<int>(at(k));
   }
-  return std::copysign(least, depth);
+  nearest.depth = std::copysign(least, depth);
+  return nearest;
 }
 
 }  // namespace
+
+NearestFace nearest_face(const Vec3& x, const std::vector<FaceBounds>& surface) {
+  return nearest_of(x, surface, surface.size(), [](std::size_t k) { return k; });
+}
+
+NearestFace nearest_face(const Vec3& x, const std::vector<FaceBounds>& surface,
+                         std::span<const int> among) {
+  return nearest_of(x, surface, among.size(),
+                    [&](std::size_t k) { return static_cast<std::size_t>(among[k]); });
+}
 
 bool has_corner_in(const FaceBounds& s, const Eigen::Matrix<double, 3, 4>& tetrahedron) {
   Mat3 edges;
@@ -98,9 +115,9 @@ bool has_corner_in(const FaceBounds& s, const Eigen::Matrix<double, 3, 4>& tetra
 }
 
 double depth_below(const FaceBounds& s, const std::vector<FaceBounds>& surface) {
-  double deepest = depth_of_point(s.corners.rowwise().mean(), surface);
+  double deepest = nearest_face(s.corners.rowwise().mean(), surface).depth;
   for (const auto& corner : s.corners.colwise())
-    deepest = std::max(deepest, depth_of_point(corner, surface));
+    deepest = std::max(deepest, nearest_face(corner, surface).depth);
   return deepest;
 }
 

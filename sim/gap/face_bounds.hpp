@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "sim/gap/contact_patch.hpp"
@@ -34,6 +35,15 @@ FaceProximity face_proximity(const FaceBounds& s, const FaceBounds& face, const 
 
 /// Whether a corner of the triangle, or its centre, lies in the tetrahedron with these corners.
 bool has_corner_in(const FaceBounds& s, const Eigen::Matrix<double, 3, 4>& tetrahedron);
+
+struct NearestFace {
+  int face = -1;     // none: the surface has no faces
+  double depth = 0;  // [m] distance from it, < 0 in front of it
+};
+/// @param among  indices into the surface: the others do not count
+NearestFace nearest_face(const Vec3& x, const std::vector<FaceBounds>& surface);
+NearestFace nearest_face(const Vec3& x, const std::vector<FaceBounds>& surface,
+                         std::span<const int> among);
 
 /// How deep the triangle's deepest corner, or its centre, lies below a surface [m]: the distance
 /// from the nearest face; < 0 in front of it. All faces are looked at: for the few that ask.

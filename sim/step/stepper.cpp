@@ -32,6 +32,8 @@ const char* words_for(Rejection why) {
       return "bodies move by more than an element, or past each other, in a step";
     case Rejection::NotFinite:
       return "forces are not finite after a step";
+    case Rejection::Crossing:
+      return "surfaces go through each other in a step";
   }
   return "";
 }
@@ -56,7 +58,9 @@ Stepper::Stepper(const Model& model, const StepSettings& settings)
     equilibrium_ = std::make_unique<Equilibrium>(model, *dynamics_, settings);
   else
     integrator_ = make_time_integrator(model, *dynamics_, settings);
-  if (!model.contacts.empty()) search_ = std::make_unique<ContactSearch>(model, settings);
+  if (model.contacts.empty()) return;
+  search_ = std::make_unique<ContactSearch>(model, settings);
+  crossings_ = std::make_unique<CrossingSearch>(model);
 }
 
 State Stepper::initial() {
@@ -149,6 +153,7 @@ void Stepper::remember_start(const State& state) {
   forces_before_ = dynamics_->now().forces;
   start_ = dynamics_->now().configuration;
   t_before_ = state.t;
+  depths_before_ = dynamics_->now().contact.point_depths();
   damping_before_ = damping_.power(dynamics_->now());
   contact_power_before_ = dynamics_->now().contact.damping_power();
   fibre_energy_before_.assign(model_.tissues.size(), 0);
@@ -176,6 +181,17 @@ bool Stepper::try_step(State& state, double h) {
 
 /// The door of every step: where it ended, with the forces there.
 bool Stepper::is_finite() const { return y_.allFinite() && dynamics_->now().forces.allFinite(); }
+
+/// What has gone through another body since the step's start is lost to contact: there is no force,
+/// and an equilibrium without it.
+bool Stepper::crosses(State& state) {
+  if (!crossings_) return false;
+  crossing_ = crossings_->find(start_, dynamics_->now().configuration, depths_before_);
+  if (!crossing_) return false;
+  ++state.counts.rejected_motion;
+  why_ = Rejection::Crossing;
+  return true;
+}
 
 bool Stepper::try_time_step(State& state, double h) {
   // Implicit Euler needs contacts where the step ends: they are looked for where everything will be
@@ -219,6 +235,7 @@ bool Stepper::try_time_step(State& state, double h) {
         continue;
       }
     }
+    if (crosses(state)) return false;
     state.y = y_;
     state.t = *reached;
     return true;
@@ -248,6 +265,7 @@ bool Stepper::try_load_step(State& state, double h) {
     why_ = Rejection::NotFinite;
     return false;
   }
+  if (crosses(state)) return false;
   const auto same_body = [&](const RigidBodyMode& other) { return other.body == loose_->body; };
   if (loose_ && std::none_of(indifferent_.begin(), indifferent_.end(), same_body))
     indifferent_.push_back(*loose_);
@@ -366,7 +384,9 @@ EquilibriumDiagnosis Stepper::why_no_equilibrium(const State& state, double h) {
 
 void Stepper::fail(const State& state, double h) {
   EquilibriumDiagnosis why;
-  if (equilibrium_)
+  if (why_ == Rejection::Crossing)
+    why.cause = "; " + words_for(model_, *crossing_);
+  else if (equilibrium_)
     why = why_no_equilibrium(state, h);
   else
     why.cause = failure_diagnosis(model_, start_, dynamics_->now().configuration);

@@ -5,6 +5,7 @@
 #include "sim/assembly/reactions.hpp"
 #include "sim/assembly/tissue_damping.hpp"
 #include "sim/contact/contact_search.hpp"
+#include "sim/contact/crossing.hpp"
 #include "sim/model/state.hpp"
 #include "sim/statics/load_step.hpp"
 #include "sim/step/equilibrium_diagnosis.hpp"
@@ -30,7 +31,7 @@ struct PhaseTimes {
 };
 
 /// Why a step was not taken.
-enum class Rejection { NoConvergence, NoEquilibrium, TooFast, NotFinite };
+enum class Rejection { NoConvergence, NoEquilibrium, TooFast, NotFinite, Crossing };
 
 /// Newton's iterations that a load step may take, with its shorter tries, until a part of it is
 /// reached. Shipped scenarios take at most 130 with 20 a solution; who allows more in each allows
@@ -46,10 +47,9 @@ class Stepper {
 
   /// One step of Listing 1.5.1 towards t_target: find contacts, advance (or, in a static analysis,
   /// find equilibrium under the loads of its end), check, account. Halves the step as often as
-  /// needed.
+  /// needed, also where surfaces have gone through each other.
   /// @throws SimulationError when that does not help: the step would get shorter than 2^-13 of the
-  /// one that was asked for, or no part of a load step
-  /// was reached in most_load_step_iterations()
+  /// one that was asked for, or no part of a load step was reached in most_load_step_iterations()
   void step(State& state, double t_target);
 
   /// Of a static analysis: told of each iteration, see Equilibrium. step() then throws Interruption
@@ -84,6 +84,7 @@ class Stepper {
   bool try_step(State& state, double h);
   bool is_finite() const;
   bool is_exhausted() const;
+  bool crosses(State& state);
   bool try_time_step(State& state, double h);
   bool try_load_step(State& state, double h);
   SolverCounts solver_counts() const;
@@ -95,6 +96,7 @@ class Stepper {
   const Model& model_;
   const StepSettings settings_;
   std::unique_ptr<ContactSearch> search_;
+  std::unique_ptr<CrossingSearch> crossings_;
   std::unique_ptr<Dynamics> dynamics_;
   TissueDamping damping_;
   std::unique_ptr<TimeIntegrator> integrator_;  // dynamic analysis
@@ -107,6 +109,7 @@ class Stepper {
   int iterations_ = 0;
   Eigen::VectorXd y_;                         // being tried
   Rejection why_ = Rejection::NoConvergence;  // the last step that was not taken
+  std::optional<Crossing> crossing_;          // in that step
 
   /// What the step started from, for the prediction and the ledger.
   Configuration start_;
@@ -114,6 +117,7 @@ class Stepper {
   std::vector<Vec3> loads_before_;
   std::vector<Vec6> reactions_before_;  // of held rigid bodies that are driven, by rigid body
   Eigen::VectorXd forces_before_;
+  std::vector<double> depths_before_;  // of any point, by contact [m]
   double t_before_ = 0;
   double damping_before_ = 0;                // [W]
   double contact_power_before_ = 0;          // [W]

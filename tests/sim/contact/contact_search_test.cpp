@@ -12,18 +12,21 @@
 
 namespace articular::sim::contact_search_test {
 
-/// A small fixed box that lies wholly inside a block of tissue: no triangle of the tissue is in it.
-Scenario swallowed() {
+constexpr double kAbove = 0.1;  // [m]
+
+/// A small fixed box above a block of tissue. Moved down by kAbove it lies wholly inside it: no
+/// triangle of the tissue is in it.
+Scenario block_and_seed() {
   Scenario s = contact_scene(1e-3);
-  s.bodies = {
-      box_body("block", Body::Kind::Tissue, {0.1, 0.1, 0.1}, Vec3::Zero(), {10, 10, 10}),
-      box_body("seed", Body::Kind::Fixed, {0.012, 0.012, 0.012}, {0.002, 0.001, 0.021}, {2, 2, 2})};
+  s.bodies = {box_body("block", Body::Kind::Tissue, {0.1, 0.1, 0.1}, Vec3::Zero(), {10, 10, 10}),
+              box_body("seed", Body::Kind::Fixed, {0.012, 0.012, 0.012},
+                       {0.002, 0.001, 0.021 + kAbove}, {2, 2, 2})};
   return s;
 }
 
 TEST(ContactSearch, WhatLiesDeepInsideTheNonMortarSideIsACandidateOfItsFaces) {
   for (const Detection::Tree tree : {Detection::Tree::Blocks, Detection::Tree::Buckets}) {
-    Scenario scenario = swallowed();
+    Scenario scenario = block_and_seed();
     scenario.detection.tree = tree;
     const Model model = build_model(scenario);
     ASSERT_EQ(model.contacts.size(), 1U);
@@ -31,6 +34,7 @@ TEST(ContactSearch, WhatLiesDeepInsideTheNonMortarSideIsACandidateOfItsFaces) {
     ContactSearch search(model, step_settings(scenario));
     Configuration now;
     read_state(model, initial_state(model).data(), 0, now);
+    now.poses[0].p.z() -= kAbove;
     search.find(now, model.detection_margin);
     ASSERT_EQ(search.candidates().size(), 1U);
     const DepthRange range =

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/contact/initial_overlap.hpp"
+#include "sim/step/overlap_report.hpp"
 #include "sim/step/overlap_resolution.hpp"
 #include "tests/sim/support/contact_scene.hpp"
 
@@ -132,23 +133,29 @@ TEST(OverlapResolution, TissueAroundABoneThatCannotGiveWayKeepsTheStress) {
   }
 }
 
-// Nearer to the upper side than to the lower one.
-TEST(OverlapResolution, AWholeBodyInAnotherFindsTheNearestWayOut) {
+// All but its top lies in the other: nearer to the upper side than to the lower one.
+TEST(OverlapResolution, ABodyThatHardlyLooksOutOfAnotherFindsTheNearestWayOut) {
   Scenario s = block_in_block();
-  s.bodies[2].geometry = BoxGeometry{{6e-3, 6e-3, 6e-3}, {3, 3, 3}, {0, 0, -6e-3}};
+  s.bodies[2].geometry = BoxGeometry{{6e-3, 6e-3, 6e-3}, {3, 3, 3}, {0, 0, -2.9e-3}};
   const Settled settled(s);
   ASSERT_EQ(settled.resolution.overlaps.size(), 1U);
-  EXPECT_NEAR(settled.resolution.overlaps[0].before, 9e-3, 1e-4);
+  EXPECT_NEAR(settled.resolution.overlaps[0].before, 5.9e-3, 1e-4);
   EXPECT_LT(settled.resolution.overlaps[0].after, 0.01 * 2e-3);
   const double lowest = nodes_of(settled.run, 1).row(2).minCoeff();
   EXPECT_GT(lowest, -1e-3);
 }
 
-// In the very middle of another: pushed from all sides alike.
+// A rod through the middle of a block that is a surface alone: below the shell contact finds
+// nothing.
 TEST(OverlapResolution, ABodyThatCannotFindTheWayOutIsRefused) {
+  const TemporaryFolder folder;
   Scenario s = contact_scene(1e-3);
-  s.bodies = {box_body("large", Body::Kind::Tissue, Vec3::Constant(0.1), Vec3::Zero(), {4, 4, 4}),
-              box_body("small", Body::Kind::Tissue, Vec3::Constant(0.01), Vec3::Zero(), {1, 1, 1})};
+  const MeshData solid = box_mesh({{0.1, 0.1, 0.1}, {20, 20, 20}, {0, 0, 0}});
+  MeshData skin;
+  skin.X = solid.X;
+  skin.triangles = collision::build_surface(solid.tets, static_cast<int>(solid.X.cols())).faces;
+  s.bodies = {mesh_body("large", Body::Kind::Fixed, skin, folder),
+              box_body("small", Body::Kind::Tissue, {0.02, 0.02, 0.06}, {0, 0, 0.04}, {1, 1, 3})};
   Simulation run(s);
   try {
     resolve_overlaps(s, run.model, run.state.y);
@@ -158,6 +165,22 @@ TEST(OverlapResolution, ABodyThatCannotFindTheWayOutIsRefused) {
     EXPECT_EQ(message.find("`large` and `small` overlap at the start by "), 0U) << message;
     EXPECT_NE(message.find("move one of them"), std::string::npos) << message;
   }
+}
+
+// `check` prints these, and `run` tells them.
+TEST(OverlapReport, SaysOfEachOverlapWhatRunDoes) {
+  const auto words_of = [](double overlap) {
+    const Scenario s = block_in_block(overlap);
+    const Simulation run(s);
+    const auto reports = overlap_reports(s, run.model, run.state.y);
+    return reports.empty() ? std::string() : reports.front().words;
+  };
+  EXPECT_EQ(words_of(-1e-3), "");
+  EXPECT_EQ(words_of(0), "");
+  EXPECT_EQ(words_of(1e-3).find("`base` and `top` overlap at the start by 1 mm, at ("), 0U);
+  EXPECT_NE(words_of(1e-3).find(": `run` sets them apart first"), std::string::npos);
+  EXPECT_EQ(words_of(1e-6).find("`base` and `top` overlap at the start by 0.001 mm"), 0U);
+  EXPECT_NE(words_of(1e-6).find(": `run` starts so, pressed together"), std::string::npos);
 }
 
 // One element a side: no node of either lies inside the other.

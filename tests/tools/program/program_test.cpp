@@ -70,6 +70,81 @@ TEST(Check, TellsWhichBodiesOverlapAtTheStartAndByHowMuch) {
       << result.out;
 }
 
+/// A plate is driven onto a sheet, of which every node is held.
+const std::string kSheetAndPlate = R"(
+duration = "1 s"
+analysis = "static"
+[[body]]
+name = "frame"
+kind = "fixed"
+[[body]]
+name = "sheet"
+kind = "tissue"
+density = "1 g/cm^3"
+material = { law = "linear", young_modulus = "5 MPa", poisson_ratio = 0.3, element = "plain" }
+geometry = { box = { size = "10 10 2 mm", cells = [3, 3, 1], center = "0 0 -1 mm" } }
+[[body]]
+name = "plate"
+kind = "fixed"
+geometry = { box = { size = "6 6 2 mm", cells = [2, 2, 1], center = "0 0 1.2 mm" } }
+[[attach]]
+body = "sheet"
+to = "frame"
+region = { box = ["-6 -6 -3 mm", "6 6 1 mm"] }
+[[load]]
+kind = "motion"
+body = "plate"
+time = ["0 s", "1 s"]
+translation = ["0 0 0 mm", "0 0 -6 mm"]
+)";
+
+TEST(Check, ContactShowsPairsAndSurfaces) {
+  const TemporaryFolder folder;
+  folder.file("scene.toml", kSheetAndPlate);
+  const ProgramResult result = run_program(folder, "check scene.toml --contact");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* words : {"non-mortar side", "near, 0.2 mm", "flat elements"})
+    EXPECT_NE(result.out.find(words), std::string::npos) << words << "\n" << result.out;
+}
+
+TEST(Check, DiagnoseNamesTheContactThatMakesAStepFail) {
+  const TemporaryFolder folder;
+  folder.file("scene.toml", kSheetAndPlate);
+  const ProgramResult result = run_program(folder, "check scene.toml --diagnose");
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_NE(result.out.find("contact of `sheet` and `plate` makes it fail"), std::string::npos)
+      << result.out;
+  EXPECT_NE(result.err.find("diagnose: without contact"), std::string::npos) << result.err;
+  EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{".stderr", ".stdout", "scene.toml"}));
+  const ProgramResult run = run_program(folder, "run scene.toml --quiet --out out");
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("surfaces go through each other in a step of"), std::string::npos)
+      << run.err;
+  const ProgramResult sound = run_program(
+      folder,
+      "check scene.toml --diagnose --set load.0.translation='[\"0 0 0 mm\", \"0 0 1 mm\"]'");
+  EXPECT_EQ(sound.exit_code, 0) << sound.err;
+  EXPECT_NE(sound.out.find("no step failed until t = 1 s, the end"), std::string::npos)
+      << sound.out;
+}
+
+// What `check` prints of an overlap that stays `run` says too, in its summary as well.
+TEST(Check, AndRunAgreeOnOverlaps) {
+  const TemporaryFolder folder;
+  std::string scene = kSheetAndPlate;
+  scene = with(scene, "0 0 1.2 mm", "0 0 0.999 mm");
+  scene = with(scene, "0 0 -6 mm", "0 0 1 mm");
+  folder.file("scene.toml", scene);
+  const std::string words =
+      "`sheet` and `plate` overlap at the start by 0.001 mm: `run` starts so, pressed together";
+  const ProgramResult check = run_program(folder, "check scene.toml");
+  EXPECT_NE(check.out.find("warning: " + words), std::string::npos) << check.out;
+  const ProgramResult run = run_program(folder, "run scene.toml --quiet --out out");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("warning: " + words), std::string::npos) << run.err;
+  EXPECT_NE(content(folder / "out/summary.json").find(words), std::string::npos);
+}
+
 nlohmann::json summary_of(const TemporaryFolder& folder, const std::string& arguments) {
   EXPECT_EQ(run_program(folder, kRun + " --overwrite " + arguments).exit_code, 0) << arguments;
   return nlohmann::json::parse(content(folder / "out/summary.json"));

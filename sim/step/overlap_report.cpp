@@ -1,0 +1,64 @@
+#include "sim/step/overlap_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/contact/initial_overlap.hpp"
+#include "sim/step/overlap_resolution.hpp"
+
+namespace articular::sim {
+namespace {
+
+std::string pair_of(const Model& model, const ContactModel& contact) {
+  const std::string& a = model.bodies[static_cast<std::size_t>(contact.a)].name;
+  if (contact.a == contact.b) return fmt::format("`{}` and itself", a);
+  return fmt::format("`{}` and `{}`", a, model.bodies[static_cast<std::size_t>(contact.b)].name);
+}
+
+/// By the surfaces as drawn.
+std::string as_drawn(const InitialOverlap& overlap) {
+  const Vec3 mm = 1e3 * overlap.place;
+  return fmt::format(" overlap at the start by {:.3g} mm, at ({:.3f} {:.3f} {:.3f}) mm, {} node{}",
+                     1e3 * overlap.depth, mm.x(), mm.y(), mm.z(), overlap.num_nodes,
+                     overlap.num_nodes == 1 ? " of one in the other" : "s in the other body");
+}
+
+std::string what_run_does(const ContactModel& contact, const OverlapAtStart* found) {
+  if (found == nullptr) return "contact finds nothing of it, for the mean around each node is open";
+  if (found->is_set_apart) return "`run` sets them apart first";
+  return fmt::format(
+      "`run` starts so, pressed together, for it is below 1/100 of an element ({:.3g} mm)",
+      1e3 * contact.max_penetration);
+}
+
+}  // namespace
+
+std::vector<OverlapReport> overlap_reports(const Scenario& scenario, const Model& model,
+                                           const Eigen::VectorXd& y) {
+  const std::vector<OverlapAtStart> found = overlaps_at_start(scenario, model, y);
+  const std::vector<InitialOverlap> drawn = initial_overlaps(model);
+  std::vector<OverlapReport> reports;
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const ContactModel& contact = model.contacts[c];
+    const auto by_contact = std::find_if(found.begin(), found.end(), [&](const auto& overlap) {
+      return overlap.contact == static_cast<int>(c);
+    });
+    const auto by_faces = std::find_if(drawn.begin(), drawn.end(), [&](const auto& overlap) {
+      return overlap.a == contact.a && overlap.b == contact.b;
+    });
+    const OverlapAtStart* const of_contact = by_contact == found.end() ? nullptr : &*by_contact;
+    if (of_contact == nullptr &&
+        (by_faces == drawn.end() || by_faces->depth <= contact.max_penetration))
+      continue;
+    const std::string size =
+        by_faces != drawn.end()
+            ? as_drawn(*by_faces)
+            : fmt::format(" overlap at the start by {:.3g} mm", 1e3 * by_contact->depth);
+    reports.push_back({static_cast<int>(c), of_contact != nullptr && of_contact->is_set_apart,
+                       pair_of(model, contact) + size + ": " + what_run_does(contact, of_contact)});
+  }
+  return reports;
+}
+
+}  // namespace articular::sim

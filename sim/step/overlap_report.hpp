@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/model/model.hpp"
+
+namespace articular::sim {
+
+/// Two bodies that overlap before anything has moved.
+struct OverlapReport {
+  int contact = 0;            // index into Model::contacts
+  bool is_set_apart = false;  // before the run
+  std::string words;          // "`a` and `b` overlap at the start by 0.2 mm, ..."
+};
+
+/// All overlaps of a start, as they are drawn and as contact finds them: what `check` prints and
+/// `run` tells. What is drawn shallower than 1/100 of an element, and not found by contact, is
+/// facets of what lies close.
+/// @throws SimulationError when contact can't tell the way out
+std::vector<OverlapReport> overlap_reports(const Scenario& scenario, const Model& model,
+                                           const Eigen::VectorXd& y);
+
+}  // namespace articular::sim
