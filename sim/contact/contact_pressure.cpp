@@ -5,40 +5,42 @@
 #include <limits>
 
 namespace articular::sim {
+namespace {
+
+/// Of a patch whose points count: its pressure by k d, which dampers change.
+double damping_factor(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
+                      const Eigen::Matrix3Xi& groups) {
+  if (pair_state.drag.empty()) return 1;
+  const Vec3 depths = depth_integrals(entry.patch).cwiseMax(0);
+  if (!(depths.sum() > 0)) return 1;
+  Vec3 factor = Vec3::Ones();
+  for (int i = 0; i < 3; ++i) {
+    const int group = groups(i, entry.triangle);
+    const double elastic = pair_state.penalty(group);
+    if (elastic > 0) factor[i] = pair_state.pressure[group] / elastic;
+  }
+  return factor.dot(depths) / depths.sum();
+}
+
+}  // namespace
 
 Vec3 pressure_integrals(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
                         const Eigen::Matrix3Xi& groups) {
   Vec3 p;
-  double damped = 1;  // p by k d
-  if (pair_state.point_stiffness > 0) {
-    p = pair_state.point_stiffness * entry.patch.depth;
-    if (!pair_state.drag.empty()) {
-      const Vec3 depths = depth_integrals(entry.patch).cwiseMax(0);
-      Vec3 ratio;
-      for (int i = 0; i < 3; ++i) {
-        const int group = groups(i, entry.triangle);
-        const double elastic = pair_state.penalty(group);
-        ratio[i] = elastic > 0 ? pair_state.pressure[group] / elastic : 1;
-      }
-      if (depths.sum() > 0) damped = ratio.dot(depths) / depths.sum();
-    }
-  } else {
+  if (pair_state.point_stiffness > 0)
+    p = damping_factor(pair_state, entry, groups) * pair_state.point_stiffness * entry.patch.depth;
+  else
     for (int i = 0; i < 3; ++i) p[i] = pair_state.pressure[groups(i, entry.triangle)];
-  }
-  return (damped * normal_forces(entry.patch, p)).cwiseMax(0);  // by round-off
-}
-
-Eigen::VectorXd face_areas(const Configuration& configuration, const Collider& collider) {
-  Eigen::VectorXd areas(collider.surface.faces.cols());
-  for (int f = 0; f < areas.size(); ++f)
-    areas[f] = 0.5 * flat_triangle(corners_of(configuration, collider, f)).twice_area;
-  return areas;
+  return normal_forces(entry.patch, p).cwiseMax(0);  // by round-off
 }
 
 SurfaceLoad no_load(const Configuration& configuration, const Collider& collider) {
-  const Eigen::VectorXd groups = Eigen::VectorXd::Zero(std::ssize(collider.group_node));
-  return {face_areas(configuration, collider), Eigen::VectorXd::Zero(collider.surface.faces.cols()),
-          groups, groups};
+  SurfaceLoad load;
+  load.through = load.face_area = Eigen::VectorXd::Zero(collider.surface.faces.cols());
+  load.force = load.covered = Eigen::VectorXd::Zero(std::ssize(collider.group_node));
+  for (int f = 0; f < load.face_area.size(); ++f)
+    load.face_area[f] = 0.5 * flat_triangle(corners_of(configuration, collider, f)).twice_area;
+  return load;
 }
 
 void add_load(const ContactSides& side, const ContactPairState& pair_state, double share,
@@ -92,8 +94,9 @@ Eigen::VectorXd node_pressures(const Collider& collider, const SurfaceLoad& load
   Eigen::VectorXd pressures = Eigen::VectorXd::Zero(collider.X.cols());
   for (Eigen::Index g = 0; g < of_groups.size(); ++g) {
     double& p = pressures[collider.group_node[static_cast<std::size_t>(g)]];
-    const bool is_larger = !(of_groups[g] <= p);
-    if (is_larger && !(std::isnan(of_groups[g]) && p > 0)) p = of_groups[g];
+    const double of_group = of_groups[g];
+    const bool is_blank = std::isnan(of_group);
+    if (is_blank ? !(p > 0) : of_group > 0 && !(of_group <= p)) p = of_group;
   }
   return pressures;
 }

@@ -6,25 +6,23 @@
 
 /// Contact pressure as a field on surfaces.
 ///
-/// On a patch the pressure is a density over its polygon: where depths are averaged Σ N_a p_a,
-/// point by point k d. Both are nowhere negative there, though k d at the triangle's nodes may be.
-/// Damping acts with one pressure around a node, which where surfaces part is negative, but for an
-/// average only: point by point it is spread as k d is, k d Σ N_a p_a/(k g_a), so that no part of a
-/// surface pulls and the sum stays.
+/// On a patch it is a density over the polygon: Σ N_a p_a where depths are averaged, k d where they
+/// count point by point. Both are nowhere negative there, though k d at the nodes of the triangle
+/// may be. Dampers have one pressure around a node, which may be negative where surfaces part: on
+/// points they act as a factor on k d, so that no part of a surface pulls and the sum around the
+/// node is the same.
 ///
-/// With M_f the patches on a face f, by the normal of which they act, and A_f its area now,
+/// On a face of the area A_f now, with the forces of its patches along its normal,
 ///
-///   p_f = Σ_{M_f} ∫ p dA / A_f,   so that Σ p_f A_f is the normal force;
+///   p_f = Σ ∫ p dA / A_f,   so that Σ p_f A_f is the normal force;
 ///
-/// around a node a, over the faces of its smooth group,
+/// around a node a, over the patches on the faces of a smoothing group,
 ///
-///   p_a = Σ ∫ N_a p dA / Σ ∫ N_a dA over what lies opposite and carries, now:
+///   p_a = Σ ∫ N_a p dA / Σ ∫ N_a dA,   areas now:
 ///
-/// a projection with a lumped mass matrix, no larger than p is anywhere there. Where less than
-/// kResolvedShare of a group lies opposite, the mean is over a sliver, whose p a mesh of that size
-/// does not resolve: it is blank. [Wriggers 2006, ch. 9] has the projection.
-///
-/// [Wriggers 2006] Wriggers. Computational Contact Mechanics, 2nd ed. Springer.
+/// a projection with a lumped mass matrix, no larger than p is anywhere on these patches. Where
+/// they cover less than kResolvedShare of the group's area they are but slivers, where a mesh of
+/// that size does not resolve p: it is blank.
 namespace articular::sim {
 
 /// Of the area around a node, to tell a pressure there.
@@ -35,9 +33,6 @@ inline constexpr int kResolvedNodes = 3;
 /// ∫ N_i p dA by node i of a patch's triangle [N], none negative.
 Vec3 pressure_integrals(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
                         const Eigen::Matrix3Xi& groups);
-
-/// Areas of a collider's faces now [m²].
-Eigen::VectorXd face_areas(const Configuration& configuration, const Collider& collider);
 
 /// What patches put on one body's surface.
 struct SurfaceLoad {

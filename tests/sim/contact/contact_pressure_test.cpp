@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -258,6 +259,35 @@ TEST(ContactPressure, ASharpEdgeOnASliverDoesNotSetThePeak) {
   EXPECT_GT(kStiffness * sum.max_point_depth, 2.9 * p);
   EXPECT_GT(sum.max_pressure, 1.1 * p);
   EXPECT_LT(sum.max_pressure, 1.7 * p);
+}
+
+TEST(ContactPressure, AtACreaseIsTheLargestOfWhatIsKnownOfItsSides) {
+  const Pressed pressed(under_a_plate_from(0));
+  const Collider& collider = pressed.collider(0);
+  std::vector<int> sides;  // of the first node that has three
+  for (int node = 0; sides.size() < 3; ++node) {
+    sides.clear();
+    for (int g = 0; g < std::ssize(collider.group_node); ++g)
+      if (collider.group_node[static_cast<std::size_t>(g)] == node) sides.push_back(g);
+  }
+  const int node = collider.group_node[static_cast<std::size_t>(sides[0])];
+  const std::array<double, 3> whole{3, 0, 2}, one_blank{-1, 0, 2}, other_blank{2, 0, -1},
+      blank{0, -1, 0}, nothing{0, 0, 0};
+  const auto pressure_of = [&](const std::array<double, 3>& p) {  // < 0: of a sliver
+    SurfaceLoad load = no_load(pressed.now, collider);
+    const Eigen::VectorXd areas = group_areas(collider, load);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int g = sides[i];
+      load.covered[g] = (p[i] < 0 ? 0.9 : 1.1) * kResolvedShare * areas[g];
+      load.force[g] = std::abs(p[i]) * load.covered[g];
+    }
+    return node_pressures(collider, load)[node];
+  };
+  EXPECT_NEAR(pressure_of(whole), 3, 1e-12);
+  EXPECT_NEAR(pressure_of(one_blank), 2, 1e-12);
+  EXPECT_NEAR(pressure_of(other_blank), 2, 1e-12);
+  EXPECT_TRUE(std::isnan(pressure_of(blank)));
+  EXPECT_EQ(pressure_of(nothing), 0);
 }
 
 TEST(ContactPressure, IsNotToldOfAContactThatIsNowhereResolved) {
