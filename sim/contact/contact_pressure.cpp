@@ -82,9 +82,9 @@ Eigen::VectorXd group_pressures(const Collider& collider, const SurfaceLoad& loa
   Eigen::VectorXd pressures = Eigen::VectorXd::Zero(areas.size());
   for (Eigen::Index g = 0; g < areas.size(); ++g) {
     if (!(load.force[g] > 0)) continue;
-    pressures[g] = load.covered[g] < kResolvedShare * areas[g]
-                       ? std::numeric_limits<double>::quiet_NaN()
-                       : load.force[g] / load.covered[g];
+    pressures[g] = load.force[g] / std::max(load.covered[g], kLeastShare * areas[g]);
+    if (load.covered[g] < kBlankShare * areas[g])
+      pressures[g] = std::numeric_limits<double>::quiet_NaN();
   }
   return pressures;
 }

@@ -20,14 +20,16 @@
 ///
 ///   p_a = Σ ∫ N_a p dA / Σ ∫ N_a dA,   areas now:
 ///
-/// a projection with a lumped mass matrix, no larger than p is anywhere on these patches. Where
-/// they cover less than kResolvedShare of the group's area they are but slivers, where a mesh of
-/// that size does not resolve p: it is blank.
+/// a projection with a lumped mass matrix, no larger than p is anywhere on these patches. As
+/// averaged depths may make any p on a sliver, the mean is over kLeastShare of the group's area at
+/// least: where the patches cover less, p falls to nothing with what they cover. Below kBlankShare
+/// it is blank: there a mesh of that size says nothing of p.
 namespace articular::sim {
 
-/// Of the area around a node, to tell a pressure there.
-inline constexpr double kResolvedShare = 0.25;
-/// Nodes with a pressure, to tell those of a contact: fewer span no area.
+/// Of the area around a node.
+inline constexpr double kLeastShare = 0.25, kBlankShare = 0.05;
+/// Nodes of which at least kLeastShare carries, to tell the pressures of a contact: fewer span no
+/// area.
 inline constexpr int kResolvedNodes = 3;
 
 /// ∫ N_i p dA by node i of a patch's triangle [N], none negative.
@@ -49,7 +51,7 @@ void add_load(const ContactSides& side, const ContactPairState& pair_state, doub
 
 /// Area now around each smoothing group [m²].
 Eigen::VectorXd group_areas(const Collider& collider, const SurfaceLoad& load);
-/// By smoothing group [Pa]; 0 where nothing presses, NaN where the pressure is not resolved.
+/// By smoothing group [Pa]; 0 where nothing presses, NaN where it is blank.
 Eigen::VectorXd group_pressures(const Collider& collider, const SurfaceLoad& load);
 /// By node: the largest of its groups.
 Eigen::VectorXd node_pressures(const Collider& collider, const SurfaceLoad& load);

@@ -98,11 +98,12 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
 /// The pressures of a body's surface in the summary. @return around how many nodes they are
 /// resolved
 int add_pressures(const CountedLoad& on_body, const Collider& collider, ContactSummary& sum) {
-  const Eigen::VectorXd pressures = group_pressures(collider, on_body.all);
+  const Eigen::VectorXd pressures = group_pressures(collider, on_body.all),
+                        areas = group_areas(collider, on_body.all);
   int num_resolved = 0;
   for (Eigen::Index g = 0; g < pressures.size(); ++g) {
     if (on_body.is_group[static_cast<std::size_t>(g)] == 0 || !(pressures[g] > 0)) continue;
-    ++num_resolved;
+    if (on_body.all.covered[g] >= kLeastShare * areas[g]) ++num_resolved;
     sum.max_pressure = std::max(sum.max_pressure, pressures[g]);
   }
   for (Eigen::Index f = 0; f < on_body.through.size(); ++f)
