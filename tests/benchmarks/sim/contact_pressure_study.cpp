@@ -157,7 +157,7 @@ double normal_force(const ContactRun& run) { return std::abs(run.contact().force
 
 void punch(const StudyOptions& options) {
   print_header("Flat punch: largest error up to 0.6 a [%]");
-  for (const int elements : {2, 4, 8}) {
+  for (const int elements : {2, 3, 4, 8}) {
     if (elements > options.finest) continue;
     Scene scene(options);
     add_block(scene, kRadius / elements);
@@ -202,7 +202,7 @@ void sphere(const StudyOptions& options) {
 void edge(const StudyOptions& options) {
   print_header("Edge of a wedge: peak [kPa]");
   constexpr double kLayer = 1, kBefore = 1.5, kBehind = 0.37;  // of what it presses on [m]
-  for (const int elements : {4, 8, 16}) {
+  for (const int elements : {4, 6, 8, 16}) {
     if (elements > 2 * options.finest) continue;
     const double h = kWedge / elements;
     const int cells = static_cast<int>(std::lround((kBefore + kWedge + kBehind) / (0.83 * h)));
