@@ -39,19 +39,6 @@ Mat3 corners_of(const Configuration& configuration, const Collider& collider, in
   return x;
 }
 
-Vec3 nodal_pressures(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
-                     const Eigen::Matrix3Xi& groups) {
-  Vec3 p;
-  for (int i = 0; i < 3; ++i) {
-    const int group = groups(i, entry.triangle);
-    p[i] = pair_state.pressure[group];
-    if (!(pair_state.point_stiffness > 0)) continue;
-    p[i] = pair_state.point_stiffness * entry.patch.depth[i];
-    if (!pair_state.drag.empty()) p[i] += pair_state.drag[static_cast<std::size_t>(group)].pressure;
-  }
-  return p;
-}
-
 PatchSum mean_depths(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
                      const Eigen::Matrix3Xi& groups, const Vec3& p) {
   PatchSum sum{p};

@@ -65,10 +65,6 @@ std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider
 /// The corners of a face where they are now [m], one a column.
 Mat3 corners_of(const Configuration& configuration, const Collider& collider, int face);
 
-/// Pressures at the nodes of a patch's triangle [Pa].
-Vec3 nodal_pressures(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
-                     const Eigen::Matrix3Xi& groups);
-
 /// A patch's part of Σ p_a A_a δg_a, A_a δg_a = δG_a − g_a δA_a, for p at the nodes of its
 /// triangle.
 PatchSum mean_depths(const ContactPairState& pair_state, const ContactPairState::Patch& entry,

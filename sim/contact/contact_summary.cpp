@@ -3,27 +3,38 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <utility>
+
+#include "sim/contact/contact_pressure.hpp"
 
 namespace articular::sim {
 namespace {
 
+/// A contact's surface of one body: what all patches put on it, and where those that count do.
+struct CountedLoad {
+  SurfaceLoad all;
+  Eigen::VectorXd through;     // by face: normal force of what counts [N]
+  std::vector<char> is_group;  // that something of it presses on
+};
+
 /// A summary on its way: its center is still Σ p x dA.
 struct SummarySums {
   ContactSummary summary;
-  Vec3 moment = Vec3::Zero();            // about the origin
-  Eigen::VectorXd through_a, through_b;  // normal force through each face of the two bodies [N]
+  Vec3 moment = Vec3::Zero();  // about the origin
+  CountedLoad on_a, on_b;      // of a body with itself all is on a
 };
 
-SummarySums no_summary(const Model& model, int contact) {
-  const auto faces = [&](int body) {
-    return Eigen::VectorXd::Zero(
-        model.bodies[static_cast<std::size_t>(body)].collider->surface.faces.cols());
+SummarySums no_summary(const Model& model, const Configuration& configuration, int contact) {
+  const auto nothing_on = [&](int body) -> CountedLoad {
+    const Collider& collider = *model.bodies[static_cast<std::size_t>(body)].collider;
+    return {no_load(configuration, collider), Eigen::VectorXd::Zero(collider.surface.faces.cols()),
+            std::vector<char>(collider.group_node.size(), 0)};
   };
   const ContactModel& pair = model.contacts[static_cast<std::size_t>(contact)];
   SummarySums sums;
   sums.summary.contact = contact;
-  sums.through_a = faces(pair.a);
-  sums.through_b = faces(pair.b);
+  sums.on_a = nothing_on(pair.a);
+  sums.on_b = nothing_on(pair.b);
   return sums;
 }
 
@@ -37,10 +48,11 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
   const ContactModel& contact = model.contacts[static_cast<std::size_t>(pair_state.contact)];
   const double share = contact.share;
   const bool is_self = side.is_self();
-  Eigen::VectorXd& through_triangle = contact.reversed ? sums.through_b : sums.through_a;
-  Eigen::VectorXd& through_face = contact.reversed || is_self ? sums.through_a : sums.through_b;
+  CountedLoad& on_triangles = contact.reversed ? sums.on_b : sums.on_a;
+  CountedLoad& on_faces = contact.reversed || is_self ? sums.on_a : sums.on_b;
   const auto& groups = side.triangles.groups;
   for (const ContactPairState::Patch& entry : pair_state.patches()) {
+    add_load(side, pair_state, share, entry, on_triangles.all, on_faces.all);
     if (!carries(pair_state, entry.triangle, groups) || !counts(entry)) continue;
     const Mat3 x = corners_of(configuration, side.triangles, entry.triangle);
     const Vec3 area = nodal_areas(entry.patch);
@@ -56,7 +68,6 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
                       std::max(0.0, pair_state.depth[group]) * pair_state.measure[group] * area[i] /
                       pair_state.area[group];
       }
-      sum.max_pressure = std::max(sum.max_pressure, pair_state.pressure[group] / share);
       if (pair_state.depth[group] > sum.max_depth) {
         sum.max_depth = pair_state.depth[group];
         sum.deepest = x.col(i);
@@ -64,11 +75,16 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
     }
     sum.max_point_depth = std::max(sum.max_point_depth, entry.patch.depth_max);
     sum.energy += value(entry.patch, point_energy(entry.patch, pair_state.point_stiffness));
-    const Vec3 q = normal_forces(entry.patch, nodal_pressures(pair_state, entry, groups));
+    const Vec3 q = pressure_integrals(pair_state, entry, groups);
     sum.normal_force += q.sum();
     sum.center += x * q;
-    through_triangle[entry.triangle] += q.sum();
-    through_face[entry.face] += q.sum() / -entry.patch.cosine;  // it acts along the face's normal
+    on_triangles.through[entry.triangle] += q.sum();
+    on_faces.through[entry.face] +=
+        q.sum() / -entry.patch.cosine;  // it acts along the face's normal
+    for (int i = 0; i < 3; ++i) {
+      on_triangles.is_group[static_cast<std::size_t>(groups(i, entry.triangle))] = 1;
+      on_faces.is_group[static_cast<std::size_t>(side.faces.groups(i, entry.face))] = 1;
+    }
     if (is_self) continue;
     const Vec18 on_nodes = forces_on_nodes(pair_state, entry, groups);
     for (int i = 0; i < 3; ++i) {
@@ -79,22 +95,35 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
   }
 }
 
-ContactSummary finished(const Model& model, SummarySums sums, const Configuration& configuration) {
+/// The pressures of a body's surface in the summary. @return around how many nodes they are
+/// resolved
+int add_pressures(const CountedLoad& on_body, const Collider& collider, ContactSummary& sum) {
+  const Eigen::VectorXd pressures = group_pressures(collider, on_body.all),
+                        areas = group_areas(collider, on_body.all);
+  int num_resolved = 0;
+  for (Eigen::Index g = 0; g < pressures.size(); ++g) {
+    if (on_body.is_group[static_cast<std::size_t>(g)] == 0 || !(pressures[g] > 0)) continue;
+    if (on_body.all.covered[g] >= kLeastShare * areas[g]) ++num_resolved;
+    sum.max_pressure = std::max(sum.max_pressure, pressures[g]);
+  }
+  for (Eigen::Index f = 0; f < on_body.through.size(); ++f)
+    if (on_body.through[f] > 0)
+      sum.max_face_pressure =
+          std::max(sum.max_face_pressure, on_body.through[f] / on_body.all.face_area[f]);
+  return num_resolved;
+}
+
+ContactSummary finished(const Model& model, SummarySums sums) {
   ContactSummary& sum = sums.summary;
   if (sum.normal_force > 0) sum.center /= sum.normal_force;
   sum.moment = sums.moment - sum.center.cross(sum.force);
-  const auto add_faces = [&](const Eigen::VectorXd& through, int body) {
-    const Collider& collider = *model.bodies[static_cast<std::size_t>(body)].collider;
-    for (Eigen::Index f = 0; f < through.size(); ++f) {
-      if (!(through[f] > 0)) continue;
-      const Mat3 x = corners_of(configuration, collider, static_cast<int>(f));
-      const double area = 0.5 * flat_triangle(x).twice_area;
-      if (area > 0) sum.max_face_pressure = std::max(sum.max_face_pressure, through[f] / area);
-    }
-  };
   const ContactModel& pair = model.contacts[static_cast<std::size_t>(sum.contact)];
-  add_faces(sums.through_a, pair.a);
-  add_faces(sums.through_b, pair.b);
+  const auto collider = [&](int body) -> const Collider& {
+    return *model.bodies[static_cast<std::size_t>(body)].collider;
+  };
+  const int num_resolved = std::max(add_pressures(sums.on_a, collider(pair.a), sum),
+                                    add_pressures(sums.on_b, collider(pair.b), sum));
+  sum.is_resolved = !(sum.normal_force > 0) || num_resolved >= kResolvedNodes;
   return sum;
 }
 
@@ -107,10 +136,10 @@ std::vector<ContactSummary> contact_summaries(const Model& model, const ContactR
   std::vector<ContactSummary> result;
   for (std::size_t d = 0; d < pair_states.size();) {
     const int contact = pair_states[d]->contact;
-    SummarySums sums = no_summary(model, contact);
+    SummarySums sums = no_summary(model, configuration, contact);
     for (; d < pair_states.size() && pair_states[d]->contact == contact; ++d)
       add_to_summary(model, *pair_states[d], configuration, all, sums);
-    result.push_back(finished(model, std::move(sums), configuration));
+    result.push_back(finished(model, std::move(sums)));
   }
   return result;
 }
@@ -118,7 +147,7 @@ std::vector<ContactSummary> contact_summaries(const Model& model, const ContactR
 ContactSummary summary_through(const Model& model, const ContactResponse& response,
                                const Configuration& configuration, int contact, int body,
                                const std::vector<char>& selected) {
-  SummarySums sums = no_summary(model, contact);
+  SummarySums sums = no_summary(model, configuration, contact);
   for (const ContactPairState* pair_state : response.pair_states()) {
     if (pair_state->contact != contact) continue;
     const bool is_triangle = sides_of(model, *pair_state).triangle_body == body;
@@ -128,7 +157,7 @@ ContactSummary summary_through(const Model& model, const ContactResponse& respon
     };
     add_to_summary(model, *pair_state, configuration, counts, sums);
   }
-  return finished(model, std::move(sums), configuration);
+  return finished(model, std::move(sums));
 }
 
 std::vector<Positions> nodal_contact_forces(const Model& model, const ContactResponse& response) {
@@ -156,92 +185,56 @@ std::vector<Positions> nodal_contact_forces(const Model& model, const ContactRes
 
 namespace {
 
-/// Sums over the patches at the nodes and faces of a body.
-struct SurfaceSums {
-  Eigen::VectorXd node_force, node_area;            // ∫ N p dA [N], ∫ N dA [m²]
-  Eigen::VectorXd face_force, face_gap, face_area;  // [N], [m³], [m²]
+/// What lies opposite a body's faces: the gap's integral [m³] by its area [m²].
+struct GapSums {
+  Eigen::VectorXd gap, area;
 };
 
-/// Of one patch, with N at the triangle's nodes and β at the face's.
-void add_nodes(const ContactPairState::Patch& entry, const Vec3& p, double share,
-               const Collider& triangles, const Collider& faces, SurfaceSums& of_triangles,
-               SurfaceSums& of_faces) {
-  const Vec3 area = nodal_areas(entry.patch);
-  const Vec3 reaction = entry.patch.beta * entry.patch.Q * p, opposite = entry.patch.beta * area;
-  for (int i = 0; i < 3; ++i) {
-    const int node = triangles.surface.faces(i, entry.triangle);
-    of_triangles.node_force[node] += p[i] * area[i];  // gives p[i] back where all is one contact's
-    of_triangles.node_area[node] += share * area[i];
-    const int other = faces.surface.faces(i, entry.face);
-    of_faces.node_force[other] += reaction[i];
-    of_faces.node_area[other] += share * opposite[i];
-  }
-}
-
-void add_faces(const ContactPairState::Patch& entry, const Vec3& p, SurfaceSums& of_triangles,
-               SurfaceSums& of_faces) {
-  const double force = normal_forces(entry.patch, p).sum(),
-               gap = -depth_integrals(entry.patch).sum();
-  const auto add = [&](int face, double normal_force, SurfaceSums& sums) {
-    sums.face_force[face] += normal_force;
-    sums.face_gap[face] += gap;
-    sums.face_area[face] += entry.patch.area;
-  };
-  add(entry.triangle, force, of_triangles);
-  add(entry.face, force / -entry.patch.cosine, of_faces);  // what acts is along the face's normal
-}
-
-SurfaceSums no_sums(const Collider& collider) {
-  const Eigen::VectorXd nodes = Eigen::VectorXd::Zero(collider.X.cols());
-  const Eigen::VectorXd faces = Eigen::VectorXd::Zero(collider.surface.faces.cols());
-  return {nodes, nodes, faces, faces, faces};
-}
-
-SurfaceContact means(const SurfaceSums& sums, const Collider& collider,
-                     const Configuration& configuration) {
+Eigen::VectorXd mean_gaps(const GapSums& sums, const Collider& collider) {
   // Of a face: where less than this lies opposite, it does so by round-off, and means are noise.
   constexpr double kLeastPart = 1e-9;
   double largest = 0;
-  Eigen::VectorXd area_now(sums.face_area.size());
-  for (Eigen::Index f = 0; f < area_now.size(); ++f) {
-    largest = std::max(largest, collider.face_area[static_cast<std::size_t>(f)]);
-    const int face = static_cast<int>(f);
-    area_now[f] = 0.5 * flat_triangle(corners_of(configuration, collider, face)).twice_area;
+  for (const double area : collider.face_area) largest = std::max(largest, area);
+  return (sums.area.array() > kLeastPart * largest)
+      .select(sums.gap.array() / sums.area.array(), std::numeric_limits<double>::quiet_NaN());
+}
+
+/// By body, of its faces.
+std::vector<Eigen::VectorXd> face_gaps(const Model& model, const ContactResponse& response) {
+  std::vector<GapSums> sums(model.bodies.size());
+  for (std::size_t b = 0; b < sums.size(); ++b)
+    if (model.bodies[b].collider)
+      sums[b].gap = sums[b].area =
+          Eigen::VectorXd::Zero(model.bodies[b].collider->surface.faces.cols());
+  for (const ContactPairState* pair_state : response.pair_states()) {
+    const ContactSides side = sides_of(model, *pair_state);
+    for (const ContactPairState::Patch& entry : pair_state->patches()) {
+      const double gap = -depth_integrals(entry.patch).sum();
+      const auto add = [&](int face, GapSums& of_body) {
+        of_body.gap[face] += gap;
+        of_body.area[face] += entry.patch.area;
+      };
+      add(entry.triangle, sums[static_cast<std::size_t>(side.triangle_body)]);
+      add(entry.face, sums[static_cast<std::size_t>(side.face_body)]);
+    }
   }
-  const auto mean = [least = kLeastPart * largest](const Eigen::VectorXd& sum,
-                                                   const Eigen::VectorXd& area, double nothing) {
-    return Eigen::VectorXd((area.array() > least).select(sum.array() / area.array(), nothing));
-  };
-  return {mean(sums.node_force, sums.node_area, 0), mean(sums.face_force, area_now, 0),
-          mean(sums.face_gap, sums.face_area, std::numeric_limits<double>::quiet_NaN())};
+  std::vector<Eigen::VectorXd> gaps(sums.size());
+  for (std::size_t b = 0; b < sums.size(); ++b)
+    if (model.bodies[b].collider) gaps[b] = mean_gaps(sums[b], *model.bodies[b].collider);
+  return gaps;
 }
 
 }  // namespace
 
 std::vector<SurfaceContact> surface_contacts(const Model& model, const ContactResponse& response,
                                              const Configuration& configuration) {
-  std::vector<SurfaceSums> sums(model.bodies.size());
-  for (std::size_t b = 0; b < sums.size(); ++b)
-    if (model.bodies[b].collider) sums[b] = no_sums(*model.bodies[b].collider);
-  for (const ContactPairState* pair_state : response.pair_states()) {
-    const ContactSides side = sides_of(model, *pair_state);
-    const double share = model.contacts[static_cast<std::size_t>(pair_state->contact)].share;
-    SurfaceSums& of_triangles = sums[static_cast<std::size_t>(side.triangle_body)];
-    SurfaceSums& of_faces = sums[static_cast<std::size_t>(side.face_body)];
-    const auto& groups = side.triangles.groups;
-    for (const ContactPairState::Patch& entry : pair_state->patches()) {
-      const Vec3 p = nodal_pressures(*pair_state, entry, groups);
-      add_faces(entry, p, of_triangles, of_faces);
-      // What is near, but carries nothing, must not thin out another contact at the same node. Of a
-      // body with itself both directions count, or half the pressure would stand for all of it.
-      if (carries(*pair_state, entry.triangle, groups) || side.is_self())
-        add_nodes(entry, p, share, side.triangles, side.faces, of_triangles, of_faces);
-    }
-  }
-  std::vector<SurfaceContact> result(sums.size());
-  for (std::size_t b = 0; b < sums.size(); ++b)
+  const std::vector<SurfaceLoad> loads = surface_loads(model, response, configuration);
+  std::vector<Eigen::VectorXd> gaps = face_gaps(model, response);
+  std::vector<SurfaceContact> result(loads.size());
+  for (std::size_t b = 0; b < result.size(); ++b)
     if (model.bodies[b].collider)
-      result[b] = means(sums[b], *model.bodies[b].collider, configuration);
+      result[b] = {node_pressures(*model.bodies[b].collider, loads[b]), face_pressures(loads[b]),
+                   std::move(gaps[b])};
   return result;
 }
 

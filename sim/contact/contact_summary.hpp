@@ -15,8 +15,9 @@ struct ContactSummary {
   Vec3 moment = Vec3::Zero();    // about that centre [N m]
   double area = 0;               // [m²] rest area of the nodes that carry
   double normal_force = 0;       // ∫ p dA over it [N]
-  double max_pressure = 0;       // [Pa] at a node
-  double max_face_pressure = 0;  // [Pa] normal force through a face, of either body, over its area
+  double max_pressure = 0;       // [Pa] around a node of either body, see contact_pressure.hpp
+  double max_face_pressure = 0;  // [Pa] normal force through a face, of either body, by its area
+  bool is_resolved = true;       // or too few nodes have a pressure to tell the largest
   double max_depth = 0;          // [m] mean depth at a node
   Vec3 deepest = Vec3::Zero();   // that node [m]
   double max_point_depth = 0;    // [m] of any point: facets can't follow a curve
@@ -25,9 +26,8 @@ struct ContactSummary {
 
 /// What contact with all others puts on the surface of one body.
 struct SurfaceContact {
-  Eigen::VectorXd node_pressure;  // [Pa] mean of p around a node over what lies opposite another
-                                  // surface: at nodes that depths are averaged at, their p
-  Eigen::VectorXd face_pressure;  // [Pa] normal force through a face over its area now
+  Eigen::VectorXd node_pressure;  // [Pa] see contact_pressure.hpp; NaN where it is not resolved
+  Eigen::VectorXd face_pressure;  // [Pa] normal force through a face by its area now
   Eigen::VectorXd face_gap;       // [m] mean over what lies opposite another surface, < 0 in
                                   // penetration; NaN where nothing does within the open depth
 };

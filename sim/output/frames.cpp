@@ -17,8 +17,10 @@ struct Contacts {
 std::vector<Field> contact_point_fields(const Contacts& contacts, std::size_t body,
                                         Eigen::Index num_nodes) {
   return {{"contact_force", "N", contacts.forces[body].leftCols(num_nodes)},
-          {"contact_pressure", "Pa",
-           contacts.surfaces[body].node_pressure.head(num_nodes).transpose()}};
+          {.name = "contact_pressure",
+           .unit = "Pa",
+           .values = contacts.surfaces[body].node_pressure.head(num_nodes).transpose(),
+           .may_be_blank = true}};
 }
 
 void append(std::vector<Field> more, std::vector<Field>& fields) {

@@ -150,9 +150,12 @@ void list(const ContactSummary& sum, Columns& columns) {
   columns.vector("moment", "N m", sum.moment);
   columns.place("center", where(sum.center));
   columns.area("area", sum.area);
-  columns.number("mean_pressure", "Pa", carries ? sum.normal_force / sum.area : 0);
-  columns.number("max_pressure", "Pa", sum.max_pressure);
-  columns.number("max_face_pressure", "Pa", sum.max_face_pressure);
+  const auto pressure = [&](const char* what, double p) {
+    columns.number(what, "Pa", sum.is_resolved ? std::optional(p) : std::nullopt);
+  };
+  pressure("mean_pressure", carries ? sum.normal_force / sum.area : 0);
+  pressure("max_pressure", sum.max_pressure);
+  pressure("max_face_pressure", sum.max_face_pressure);
   columns.length("max_penetration", sum.max_depth);
   columns.place("max_penetration_at", where(sum.deepest));
   columns.length("max_point_penetration", sum.max_point_depth);

@@ -5,6 +5,8 @@
 
 namespace articular::tools {
 
+constexpr Rgb kBlank = {0.80, 0.80, 0.80};
+
 ColourMap viridis() {
   return {{0.267, 0.005, 0.329}, {0.283, 0.141, 0.458}, {0.254, 0.265, 0.530},
           {0.207, 0.372, 0.553}, {0.164, 0.471, 0.558}, {0.128, 0.567, 0.551},
@@ -32,6 +34,7 @@ vtkSmartPointer<vtkLookupTable> colour_table(const ColourMap& map, double low, d
   auto table = vtkSmartPointer<vtkLookupTable>::New();
   table->SetNumberOfTableValues(kNumColours);
   table->SetRange(low, high);
+  table->SetNanColor(kBlank[0], kBlank[1], kBlank[2], 1);
   for (int i = 0; i < kNumColours; ++i) {
     Rgb c{};
     between->GetColor(static_cast<double>(i) / (kNumColours - 1), c.data());

@@ -21,7 +21,7 @@ ColourMap cool_to_warm();
 /// Dark at rest, bright when active.
 ColourMap muscle_colours();
 
-/// 256 colours between, interpolated in CIELAB.
+/// 256 colours between, interpolated in CIELAB; light grey where a value is blank (NaN).
 vtkSmartPointer<vtkLookupTable> colour_table(const ColourMap& map, double low, double high);
 
 }  // namespace articular::tools

@@ -182,6 +182,17 @@ std::string RenderScene::range_text() const {
                      display_unit_);
 }
 
+namespace {
+
+bool has_blank(vtkPolyData& surface, const char* name) {
+  vtkDataArray& values = *surface.GetPointData()->GetArray(name);
+  for (vtkIdType i = 0; i < values.GetNumberOfTuples(); ++i)
+    if (std::isnan(values.GetComponent(i, 0))) return true;
+  return false;
+}
+
+}  // namespace
+
 vtkActor& RenderScene::add_surface(vtkPolyData& surface) {
   vtkNew<vtkPolyDataNormals> normals;  // smooth, but for edges sharper than this
   normals->SetInputData(&surface);
@@ -209,7 +220,8 @@ void RenderScene::add_coloured(const Part& part, vtkPolyData& surface) {
   mapper.SelectColorArray(kShown);
   mapper.SetLookupTable(colours_);
   mapper.UseLookupTableScalarRangeOn();
-  mapper.InterpolateScalarsBeforeMappingOn();
+  // Values are interpolated, which what is blank has none for: around that, colours are.
+  mapper.SetInterpolateScalarsBeforeMapping(has_blank(surface, kShown) ? 0 : 1);
   mapper.ScalarVisibilityOn();
 }
 

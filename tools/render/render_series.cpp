@@ -128,8 +128,12 @@ void check_only(const fs::path& file, const std::vector<std::string>& only,
 }
 
 void add_values(const Part& part, Survey& survey) {
-  const std::vector<double> values = nodal_values(*part.set, survey.field);
+  std::vector<double> values = nodal_values(*part.set, survey.field);
   if (values.empty()) return;
+  // What is blank must not stretch the scale.
+  std::replace_if(
+      values.begin(), values.end(), [](double value) { return std::isnan(value); },
+      rest_value(survey.field));
   const bool is_first = survey.coloured.empty();
   survey.coloured.insert(part.name);
   if (is_first) survey.unit = unit_of(*part.set, survey.field);

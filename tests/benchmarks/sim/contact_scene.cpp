@@ -149,8 +149,12 @@ void Scene::add_rigid(const std::string& name, const MeshData& mesh) {
 
 void Scene::tie(const std::string& tissue, const std::string& rigid, double z_low, double z_high) {
   constexpr double kFar = 1e3;  // [m]
-  scenario_.attachments.push_back(
-      attach(tissue, rigid, {-kFar, -kFar, z_low}, {kFar, kFar, z_high}));
+  tie_box(tissue, rigid, {-kFar, -kFar, z_low}, {kFar, kFar, z_high});
+}
+
+void Scene::tie_box(const std::string& tissue, const std::string& rigid, const Vec3& low,
+                    const Vec3& high) {
+  scenario_.attachments.push_back(attach(tissue, rigid, low, high));
 }
 
 void Scene::drive(const std::string& rigid, const std::vector<Vec3>& places) {

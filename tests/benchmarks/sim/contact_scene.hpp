@@ -55,6 +55,9 @@ class Scene {
   void add(Body body) { scenario_.bodies.push_back(std::move(body)); }
   /// Nodes of a tissue between two heights [m] move with a fixed body.
   void tie(const std::string& tissue, const std::string& rigid, double z_low, double z_high);
+  /// Those between two corners [m].
+  void tie_box(const std::string& tissue, const std::string& rigid, const Vec3& low,
+               const Vec3& high);
   /// A fixed body goes along straight lines from one place to the next, one a unit of time.
   void drive(const std::string& rigid, const std::vector<Vec3>& places);
   /// The one pair that touches.
@@ -107,6 +110,8 @@ class ContactRun {
   /// Cauchy's stress σ_zz of every element of a tissue [Pa].
   Eigen::VectorXd axial_stress(std::size_t tissue) const;
   const Model& model() const { return model_; }
+  const ContactResponse& response() const { return stepper_.now().contact; }
+  const Configuration& configuration() const { return stepper_.now().configuration; }
 
  private:
   const Model model_;

@@ -8,6 +8,7 @@
 //     hertz      a rigid sphere on a large block          cylinders  two of tissue, crossed
 //     layer      a thin layer on bone under a large rigid sphere
 //     lines      a punch with edges pushed across the mesh lines of a block
+//     pressure   what is told of the pressure: a flat punch, a sphere, a wedge with a sharp edge
 //     responses  both rules at three stiffnesses, by three of these scenes
 //
 //     contact_study patch
@@ -38,7 +39,7 @@ struct Study {
 constexpr Study kStudies[] = {{"patch", study_patch},        {"drag", study_drag},
                               {"hertz", study_hertz},        {"cylinders", study_cylinders},
                               {"layer", study_layer},        {"lines", study_lines},
-                              {"responses", study_responses}};
+                              {"responses", study_responses}, {"pressure", study_pressure}};
 
 const Study* find_study(const std::string& name) {
   for (const Study& study : kStudies)

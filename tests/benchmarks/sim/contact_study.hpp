@@ -38,5 +38,6 @@ void study_hertz(const StudyOptions& options);
 void study_cylinders(const StudyOptions& options);
 void study_layer(const StudyOptions& options);
 void study_lines(const StudyOptions& options);
+void study_pressure(const StudyOptions& options);
 
 }  // namespace articular::sim

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 #include <random>
 
@@ -480,6 +481,28 @@ TEST(NodalValues, ACellFieldIsTheMeanOverTheCellsAtAPointAndAVectorItsLength) {
   EXPECT_EQ(nodal_values(set, "v"), std::vector<double>(5, 13));
   EXPECT_EQ(nodal_values(set, "w"), std::vector<double>());
   EXPECT_EQ(unit_of(set, "s"), "Pa");
+}
+
+TEST(Survey, WhatIsBlankDoesNotStretchTheScale) {
+  const TemporaryFolder run;
+  sim::FrameWriter writer(run.path(), "blank", {1, "m"});
+  const double blank = std::numeric_limits<double>::quiet_NaN();
+  const Tetrahedra tets = Eigen::Vector4i(0, 1, 2, 3);
+  const auto write = [&](const std::string& name, const Eigen::RowVector4d& pressure) {
+    const sim::Field field{
+        .name = "contact_pressure", .unit = "Pa", .values = pressure, .may_be_blank = true};
+    writer.write_tissue({name, Positions::Random(3, 4), tets, {field}, {}}, 0, 0);
+  };
+  write("first", Eigen::RowVector4d::Constant(blank));
+  write("second", {0, blank, 2, 1});
+  writer.finish_frame(0, 0);
+  ViewFit fit({Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, {1, 1, 1, 1});
+  const Survey seen = survey(open_series(run.path()), "contact_pressure", "", fit);
+  EXPECT_EQ(seen.coloured.size(), 2U);
+  EXPECT_EQ(seen.lowest, 0);
+  EXPECT_EQ(seen.highest, 2);
+  EXPECT_GT(seen.high_percentile, 0);
+  EXPECT_LE(seen.high_percentile, 2);
 }
 
 TEST(Legend, ScalesEndAtRoundNumbersAndLabelsStayInside) {
