@@ -34,8 +34,8 @@ Vec3 pressure_integrals(const ContactPairState& pair_state, const ContactPairSta
   return normal_forces(entry.patch, p).cwiseMax(0);  // by round-off
 }
 
-SurfaceLoad no_load(const Configuration& configuration, const Collider& collider) {
-  SurfaceLoad load;
+PressureLoad no_load(const Configuration& configuration, const Collider& collider) {
+  PressureLoad load;
   load.through = load.face_area = Eigen::VectorXd::Zero(collider.surface.faces.cols());
   load.force = load.covered = Eigen::VectorXd::Zero(std::ssize(collider.group_node));
   for (int f = 0; f < load.face_area.size(); ++f)
@@ -44,8 +44,8 @@ SurfaceLoad no_load(const Configuration& configuration, const Collider& collider
 }
 
 void add_load(const ContactSides& side, const ContactPairState& pair_state, double share,
-              const ContactPairState::Patch& entry, SurfaceLoad& on_triangles,
-              SurfaceLoad& on_faces) {
+              const ContactPairState::Patch& entry, PressureLoad& on_triangles,
+              PressureLoad& on_faces) {
   const auto& groups = side.triangles.groups;
   if (entry.patch.nearest != ContactPatch::kFace) return;  // acts along the face
   // What is near, but carries nothing, must not thin out another contact at the same node. Of a
@@ -70,14 +70,14 @@ void add_load(const ContactSides& side, const ContactPairState& pair_state, doub
   }
 }
 
-Eigen::VectorXd group_areas(const Collider& collider, const SurfaceLoad& load) {
+Eigen::VectorXd group_areas(const Collider& collider, const PressureLoad& load) {
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(load.force.size());
   for (Eigen::Index f = 0; f < load.face_area.size(); ++f)
     for (const int group : collider.groups.col(f)) areas[group] += load.face_area[f] / 3;
   return areas;
 }
 
-Eigen::VectorXd group_pressures(const Collider& collider, const SurfaceLoad& load) {
+Eigen::VectorXd group_pressures(const Collider& collider, const PressureLoad& load) {
   const Eigen::VectorXd areas = group_areas(collider, load);
   Eigen::VectorXd pressures = Eigen::VectorXd::Zero(areas.size());
   for (Eigen::Index g = 0; g < areas.size(); ++g) {
@@ -89,7 +89,7 @@ Eigen::VectorXd group_pressures(const Collider& collider, const SurfaceLoad& loa
   return pressures;
 }
 
-Eigen::VectorXd node_pressures(const Collider& collider, const SurfaceLoad& load) {
+Eigen::VectorXd node_pressures(const Collider& collider, const PressureLoad& load) {
   const Eigen::VectorXd of_groups = group_pressures(collider, load);
   Eigen::VectorXd pressures = Eigen::VectorXd::Zero(collider.X.cols());
   for (Eigen::Index g = 0; g < of_groups.size(); ++g) {
@@ -101,16 +101,16 @@ Eigen::VectorXd node_pressures(const Collider& collider, const SurfaceLoad& load
   return pressures;
 }
 
-Eigen::VectorXd face_pressures(const SurfaceLoad& load) {
+Eigen::VectorXd face_pressures(const PressureLoad& load) {
   return (load.through.array() > 0)
       .select(load.through.array() / load.face_area.array(),
               Eigen::ArrayXd::Zero(load.through.size()))
       .matrix();
 }
 
-std::vector<SurfaceLoad> surface_loads(const Model& model, const ContactResponse& response,
-                                       const Configuration& configuration) {
-  std::vector<SurfaceLoad> loads(model.bodies.size());
+std::vector<PressureLoad> pressure_loads(const Model& model, const ContactResponse& response,
+                                         const Configuration& configuration) {
+  std::vector<PressureLoad> loads(model.bodies.size());
   for (std::size_t b = 0; b < loads.size(); ++b)
     if (model.bodies[b].collider) loads[b] = no_load(configuration, *model.bodies[b].collider);
   for (const ContactPairState* pair_state : response.pair_states()) {

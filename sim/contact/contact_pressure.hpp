@@ -37,29 +37,29 @@ Vec3 pressure_integrals(const ContactPairState& pair_state, const ContactPairSta
                         const Eigen::Matrix3Xi& groups);
 
 /// What patches put on one body's surface.
-struct SurfaceLoad {
+struct PressureLoad {
   Eigen::VectorXd face_area;       // now [m²]
   Eigen::VectorXd through;         // by face: normal force [N]
   Eigen::VectorXd force, covered;  // by smoothing group: Σ ∫ N p dA [N], Σ ∫ N dA [m²], now
 };
-SurfaceLoad no_load(const Configuration& configuration, const Collider& collider);
+PressureLoad no_load(const Configuration& configuration, const Collider& collider);
 
 /// @param on_triangles, on_faces  of the two sides; of a body with itself the same
 void add_load(const ContactSides& side, const ContactPairState& pair_state, double share,
-              const ContactPairState::Patch& entry, SurfaceLoad& on_triangles,
-              SurfaceLoad& on_faces);
+              const ContactPairState::Patch& entry, PressureLoad& on_triangles,
+              PressureLoad& on_faces);
 
 /// Area now around each smoothing group [m²].
-Eigen::VectorXd group_areas(const Collider& collider, const SurfaceLoad& load);
+Eigen::VectorXd group_areas(const Collider& collider, const PressureLoad& load);
 /// By smoothing group [Pa]; 0 where nothing presses, NaN where it is blank.
-Eigen::VectorXd group_pressures(const Collider& collider, const SurfaceLoad& load);
+Eigen::VectorXd group_pressures(const Collider& collider, const PressureLoad& load);
 /// By node: the largest of its groups.
-Eigen::VectorXd node_pressures(const Collider& collider, const SurfaceLoad& load);
+Eigen::VectorXd node_pressures(const Collider& collider, const PressureLoad& load);
 /// By face [Pa].
-Eigen::VectorXd face_pressures(const SurfaceLoad& load);
+Eigen::VectorXd face_pressures(const PressureLoad& load);
 
 /// Of all contacts, by body; of one that touches nothing empty.
-std::vector<SurfaceLoad> surface_loads(const Model& model, const ContactResponse& response,
-                                       const Configuration& configuration);
+std::vector<PressureLoad> pressure_loads(const Model& model, const ContactResponse& response,
+                                         const Configuration& configuration);
 
 }  // namespace articular::sim

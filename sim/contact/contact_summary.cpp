@@ -12,7 +12,7 @@ namespace {
 
 /// A contact's surface of one body: what all patches put on it, and where those that count do.
 struct CountedLoad {
-  SurfaceLoad all;
+  PressureLoad all;
   Eigen::VectorXd through;     // by face: normal force of what counts [N]
   std::vector<char> is_group;  // that something of it presses on
 };
@@ -228,7 +228,7 @@ std::vector<Eigen::VectorXd> face_gaps(const Model& model, const ContactResponse
 
 std::vector<SurfaceContact> surface_contacts(const Model& model, const ContactResponse& response,
                                              const Configuration& configuration) {
-  const std::vector<SurfaceLoad> loads = surface_loads(model, response, configuration);
+  const std::vector<PressureLoad> loads = pressure_loads(model, response, configuration);
   std::vector<Eigen::VectorXd> gaps = face_gaps(model, response);
   std::vector<SurfaceContact> result(loads.size());
   for (std::size_t b = 0; b < result.size(); ++b)

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "sim/assembly/rigid_body_modes.hpp"
-#include "sim/model/constrained_rigid_body.hpp"
+#include "sim/model/held_blocks.hpp"
 #include "sim/model/newton_weights.hpp"
 #include "sim/statics/load_prediction.hpp"
 

@@ -109,7 +109,7 @@ void print_row(const ContactRun& run, int elements, const std::string& name,
   const Model& model = run.model();
   const std::size_t b = body_of(model, name);
   const Collider& collider = *model.bodies[b].collider;
-  const SurfaceLoad load = surface_loads(model, run.response(), run.configuration())[b];
+  const PressureLoad load = pressure_loads(model, run.response(), run.configuration())[b];
   const Eigen::VectorXd areas = group_areas(collider, load), faces = face_pressures(load);
   Positions nodes(3, areas.size()), middles(3, faces.size());
   for (Eigen::Index g = 0; g < areas.size(); ++g)

@@ -48,7 +48,7 @@ struct Pressed {
     read_state(model, y.data(), 0, now);
     search.find(now, 2 * kDepth);
     response.evaluate(now, search.candidates(), {});
-    loads = surface_loads(model, response, now);
+    loads = pressure_loads(model, response, now);
   }
   static Model with_stiffness(const Scenario& scenario) {
     Model made = build_model(scenario);
@@ -65,7 +65,7 @@ struct Pressed {
   ContactSearch search;
   ContactResponse response;
   Configuration now;
-  std::vector<SurfaceLoad> loads;
+  std::vector<PressureLoad> loads;
 };
 
 /// Two rough blocks, which do not match, lie in each other.
@@ -85,7 +85,7 @@ TEST(ContactPressure, IsNowhereNegativeAndSumsUpToTheForceOnBothBodies) {
       ASSERT_GT(sum.normal_force, 0);
       const std::size_t triangles = pressed.model.contacts[0].reversed ? 1 : 0;
       for (const std::size_t b : {0, 1}) {
-        const SurfaceLoad& load = pressed.loads[b];
+        const PressureLoad& load = pressed.loads[b];
         EXPECT_GE(load.force.minCoeff(), 0);
         EXPECT_GE(load.covered.minCoeff(), 0);
         const Eigen::VectorXd faces = face_pressures(load);
@@ -297,7 +297,7 @@ TEST(ContactPressure, AtACreaseIsTheLargestOfWhatIsKnownOfItsSides) {
   const std::array<double, 3> whole{3, 0, 2}, one_blank{-1, 0, 2}, other_blank{2, 0, -1},
       blank{0, -1, 0}, nothing{0, 0, 0};
   const auto pressure_of = [&](const std::array<double, 3>& p) {  // < 0: of a sliver
-    SurfaceLoad load = no_load(pressed.now, collider);
+    PressureLoad load = no_load(pressed.now, collider);
     const Eigen::VectorXd areas = group_areas(collider, load);
     for (std::size_t i = 0; i < 3; ++i) {
       const int g = sides[i];
