@@ -79,6 +79,37 @@ std::vector<LawCase> elastic_laws() {
           {"isochoric-neo-hookean", kElastic, 0, true, {tension, swelling}}};
 }
 
+/// Coupled laws in uniaxial strain diag(1, 1, s), from their energies [Bonet, Wood 2008, ch. 6;
+/// Holmes, Mow 1990, J Biomech 23:1145]; of Holmes and Mow Q = β (s² − 1 − 2 ln s) there.
+std::vector<LawCase> coupled_laws() {
+  constexpr double s = 0.8, green = (s * s - 1) / 2;
+  const Vec3 pressed(1, 1, s);
+  const double log_law = kMu * (s - 1 / s) + kLambda * std::log(s) / s;
+  constexpr double mu = 20e3 / 2.4, lambda = 20e3 * 0.2 / (1.2 * 0.6), beta = 1.5;  // ν = 0.2
+  const double exponential = std::exp(beta * (s * s - 1 - 2 * std::log(s)));
+  const double cartilage = (lambda + 2 * mu) / 2 * (s - 1 / s) * exponential;
+  const auto along = [&](double expected) {
+    return Stress{"Pz, uniaxial strain", pressed, Measure::NominalZ, expected};
+  };
+  const auto across = [&](double expected) {
+    return Stress{"Px, uniaxial strain", pressed, Measure::NominalX, expected};
+  };
+  return {
+      {"st-venant-kirchhoff",
+       kElastic,
+       0,
+       true,
+       {across(kLambda * green), along((kLambda + 2 * kMu) * green * s)}},
+      {"coupled-neo-hookean", kElastic, 0, true, {across(kLambda * std::log(s)), along(log_law)}},
+      {"holmes-mow",
+       R"(young_modulus = "20 kPa"
+poisson_ratio = 0.2
+beta = 1.5)",
+       0,
+       true,
+       {along(cartilage)}}};
+}
+
 std::vector<LawCase> isochoric_laws() {
   constexpr double s = 1.3, swell = 1.1, kappa = 1e5;
   const Vec3 swollen = Vec3::Constant(swell);
@@ -103,6 +134,16 @@ volumetric = "logarithmic")",
            {{"sx - sz, uniaxial", uniaxial(s), Measure::Difference,
              of_invariants(s, 1037 + 2 * 486 * I1, 0)},
             {"mean stress, swollen", swollen, Measure::Mean, kappa * std::log(J) / J}}},
+          {"ogden",  // σx − σz = Σ c/m (λx^m − λz^m) [Ogden 1972]
+           R"(terms = [{ c = "10 kPa", m = 2.5 }, { c = "2 kPa", m = -3 }]
+bulk_modulus = "100 kPa"
+volumetric = "quadratic")",
+           0,
+           true,
+           {{"sx - sz, uniaxial", uniaxial(s), Measure::Difference,
+             4e3 * (std::pow(s, 2.5) - std::pow(s, -1.25)) -
+                 2e3 / 3 * (std::pow(s, -3) - std::pow(s, 1.5))},
+            {"mean stress, swollen", swollen, Measure::Mean, kappa * (J - 1)}}},
           {"veronda-westmann",
            R"(c1 = "10 kPa"
 c2 = 2
@@ -290,7 +331,7 @@ void solve(const LawCase& law, const Block& block, const std::string& element,
 
 std::vector<Problem> law_problems() {
   std::vector<Problem> problems;
-  for (const auto& laws : {elastic_laws(), isochoric_laws(), fibred_laws()})
+  for (const auto& laws : {elastic_laws(), coupled_laws(), isochoric_laws(), fibred_laws()})
     for (const LawCase& law : laws)
       problems.push_back(
           {std::string("law/") + law.name, true, [law](const Laboratory& laboratory) {
