@@ -69,11 +69,14 @@ std::vector<Finding> on_threads(const Laboratory& laboratory, Scene scene) {
   return findings;
 }
 
+/// With a block of 8640 elements: from 8192 on the loops of a tissue are shared out.
 std::vector<Finding> many_parts_on_threads(const Laboratory& laboratory) {
-  return on_threads(laboratory, shipped_scene("many_parts", {"duration=6 ms"}));
+  return on_threads(laboratory,
+                    shipped_scene("many_parts", {"body.block.geometry.box.cells=[12, 12, 10]",
+                                                 "duration=6 ms", "output.interval=3 ms"}));
 }
 
-/// 12288 elements, so that each loop is shared out, and multigrid, whose sums are too.
+/// 12288 elements, and multigrid, whose sums are shared out too.
 std::vector<Finding> multigrid_on_threads(const Laboratory& laboratory) {
   return on_threads(laboratory,
                     shipped_scene("tool_on_tissue",
@@ -85,7 +88,7 @@ std::vector<Finding> multigrid_on_threads(const Laboratory& laboratory) {
 
 std::vector<Problem> repeat_problems() {
   return {{"resume/many-parts", true, resume},
-          {"threads/many-parts", true, many_parts_on_threads},
+          {"threads/many-parts", false, many_parts_on_threads},
           {"threads/multigrid", false, multigrid_on_threads}};
 }
 
