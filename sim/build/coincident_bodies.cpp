@@ -14,9 +14,9 @@
 namespace articular::sim {
 namespace {
 
-/// Of the height of an element at the surface: surfaces nearer than this all over are one. Facets
-/// of a round body stray less from those of its finer mesh, and no two bodies lie so that are not
-/// the same.
+/// Of the height of an element at the coarser surface: surfaces nearer than this all over are one.
+/// Facets of a round body stray less from those of its finer mesh, and no two bodies lie so that
+/// are not the same.
 constexpr double kSame = 0.1;
 /// Of that height: a node nearer than this to a surface is on neither side of it.
 constexpr double kOnSurface = 1e-3;
@@ -63,7 +63,7 @@ bool lies_on(const Positions& points, const Collider& body, double distance) {
 }
 
 bool coincide(const Collider& a, const Collider& b) {
-  const double distance = kSame * height(a, b);
+  const double distance = kSame * std::max(a.size, b.size);
   const Positions of_a = surface_points(a), of_b = surface_points(b);
   const Eigen::AlignedBox3d p = box_of(of_a), q = box_of(of_b);
   return (p.min() - q.min()).lpNorm<Eigen::Infinity>() <= distance &&

@@ -108,6 +108,7 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
                   .bulk_modulus = fem::bulk_modulus(*material.law),
                   .shear_modulus = fem::shear_modulus(*material.law),
                   .law_ends = end_of(*material.law),
+                  .bears_turning = !std::holds_alternative<fem::Linear>(*material.law),
                   .start_velocity = body.velocity};
     tissue.nodes.resize(static_cast<std::size_t>(mesh.X.cols()));
     if (material.stiffness_damping > 0) {

@@ -110,6 +110,7 @@ struct Tissue {
   int muscle = -1;                  // index into Model::muscles: what activates the fibres
   double bulk_modulus = 0, shear_modulus = 0;  // at small strain [Pa]
   std::string_view law_ends = {};              // where its law has an end, in words; mostly nowhere
+  bool bears_turning = true;                   // or its law takes a rotation for a strain
   Vec3 start_velocity = Vec3::Zero();          // [m/s]
 };
 

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "fem/mesh/tetrahedron.hpp"
+#include "sim/contact/contact_summary.hpp"
+#include "sim/model/tissue.hpp"
 #include "sim/step/failure_diagnosis.hpp"
 #include "sim/step/run_extrema.hpp"
 
@@ -15,6 +18,10 @@ namespace {
 constexpr double kMuchLost = 0.05, kMuchMade = 0.01;
 /// Of the depth to which contact is followed: half an element, where it is a tissue's.
 constexpr double kDeep = 0.5;
+/// Of |F − I|: a beam whose end is turned by 20 degrees is off by some per cent.
+constexpr double kSmallMotion = 0.5;
+/// Of an element: points so deep with no force at all lie between the nodes that would carry it.
+constexpr double kMissedDepth = 0.02;
 
 const std::string& name_of(const Model& model, int body) {
   return model.bodies[static_cast<std::size_t>(body)].name;
@@ -49,6 +56,55 @@ void warn_of_energy(const Model& model, const State& state, const Stepper& stepp
         remedy(model, stepper.settings().scheme)));
 }
 
+/// The largest |F − I| of an element.
+double largest_displacement_gradient(const Tissue& tissue, const Configuration& now) {
+  Positions x;
+  positions_of(now, tissue.nodes, x);
+  double largest = 0;
+  for (const auto& tet : tissue.elements.tets().colwise()) {
+    const fem::Mat34 at_start = tissue.X(Eigen::all, tet), at_end = x(Eigen::all, tet);
+    const Mat3 F = fem::deformation_gradient(at_end, fem::edge_matrix(at_start).inverse());
+    largest = std::max(largest, (F - Mat3::Identity()).norm());
+  }
+  return largest;
+}
+
+void warn_of_small_strain_laws(const Model& model, const Configuration& now,
+                               std::vector<std::string>& warnings) {
+  for (const Tissue& tissue : model.tissues) {
+    if (tissue.bears_turning) continue;
+    const double gradient = largest_displacement_gradient(tissue, now);
+    if (gradient > kSmallMotion)
+      warnings.push_back(fmt::format(
+          "tissue `{}` has moved too far for the law \"linear\", which takes a rotation for a "
+          "strain: |F - I| is {:.2g} in an element, and the law holds for small motion (less than "
+          "{}); take \"corotated\" or \"neo-hookean\"",
+          name_of(model, tissue.body), gradient, kSmallMotion));
+  }
+}
+
+/// The force of a contact that few nodes carry is that of the mesh.
+void warn_of_unresolved_contacts(const Model& model, const Stepper& stepper,
+                                 std::vector<std::string>& warnings) {
+  for (const ContactSummary& contact : stepper.dynamics().contacts()) {
+    const ContactModel& pair = model.contacts[static_cast<std::size_t>(contact.contact)];
+    const auto body = [&](int b) -> const BodyModel& {
+      return model.bodies[static_cast<std::size_t>(b)];
+    };
+    if (body(pair.a).tissue < 0 && body(pair.b).tissue < 0)
+      continue;  // what is rigid says so itself
+    const double size = std::max(body(pair.a).collider->size, body(pair.b).collider->size);
+    const bool is_missed =
+        !(contact.normal_force > 0) && contact.max_point_depth > kMissedDepth * size;
+    if (is_missed || (contact.normal_force > 0 && !contact.is_resolved))
+      warnings.push_back(
+          fmt::format("the contact of `{}` and `{}` is not resolved at the end: too few nodes "
+                      "carry its force of "
+                      "{:.3g} N, which may be far off; expected smaller elements where they touch",
+                      body(pair.a).name, body(pair.b).name, contact.normal_force));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> run_warnings(const Model& model, const State& state,
@@ -69,6 +125,8 @@ std::vector<std::string> run_warnings(const Model& model, const State& state,
         "contact is followed: one may go through the other",
         name_of(model, contact.a), name_of(model, contact.b), extrema.overlap_at, extrema.overlap));
   }
+  warn_of_small_strain_laws(model, stepper.now().configuration, warnings);
+  warn_of_unresolved_contacts(model, stepper, warnings);
   warn_of_energy(model, state, stepper, warnings);
   for (const RigidBodyMode& motion : stepper.indifferent())
     warnings.push_back(motion.words + ": nothing holds it, and nothing drives it");

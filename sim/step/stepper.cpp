@@ -378,7 +378,7 @@ EquilibriumDiagnosis Stepper::why_no_equilibrium(const State& state, double h) {
   const std::optional<SoftMotion> softest = find_softest_motion(model_, *dynamics_, *equilibrium_);
   EquilibriumDiagnosis diagnosis =
       diagnose_equilibrium(dynamics_->now(), softest, std::span(convergence_).subspan(first_row_));
-  if (!diagnosis.is_nearly_free) diagnosis.cause += squeezed;
+  diagnosis.cause += diagnosis.is_nearly_free ? yielding_tissues(model_) : squeezed;
   return diagnosis;
 }
 

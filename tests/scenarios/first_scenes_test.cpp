@@ -75,7 +75,7 @@ kind = "fixed"
 [[body]]
 name = "beam"
 kind = "tissue"
-geometry = { box = { size = "100 10 10 mm", cells = [20, 2, 2] } }
+geometry = { box = { size = "100 10 10 mm", cells = [40, 4, 4] } }
 density = "1000 kg/m^3"
 material = { law = "linear", young_modulus = "1 MPa", poisson_ratio = 0.3 }
 [[attach]]
@@ -173,9 +173,9 @@ kind = "contact"
 bodies = ["cube", "table"]
 )";
 
-// ρ g A L⁴/(8 E I), of which shear adds 0.8 %.
+// ρ g A L⁴/(8 E I), and 0.8 % by shear. Four elements across are 5 % too stiff at most.
 TEST(FirstScenes, ABeamBendsUnderItsWeightAsBeamsDo) {
-  expect_value(kBeam, "tip.position.z [mm]", -14.8, 0.02);
+  expect_value(kBeam, "tip.position.z [mm]", -14.8, 0.05);
 }
 
 // P L³/(3 E I).
@@ -187,12 +187,12 @@ body = "beam"
 region = { box = ["49.9 -6 -6 mm", "51 6 6 mm"] }
 force = "0 0 -0.01 N"
 )" + kBeam.substr(probe),
-               "tip.position.z [mm]", -4.0, 0.03);
+               "tip.position.z [mm]", -4.0, 0.05);
 }
 
 // So soft that small strain is no answer, and so heavy that it is no tissue.
 TEST(FirstScenes, ALawBeyondItsRangeGivesAWarning) {
-  expect_warned(with(kBeam, "1 MPa", "10 kPa"), "pressed harder than its law can bear");
+  expect_warned(with(kBeam, "1 MPa", "10 kPa"), "takes a rotation for a strain");
 }
 
 TEST(FirstScenes, ASoftBeamHangsFromItsWall) {
@@ -262,12 +262,10 @@ TEST(FirstScenes, AContactThatTheMeshDoesNotResolveGivesAWarning) {
   expect_warned(kPress, "is not resolved");
 }
 
-// Hertz's force is 4/3 E/(1 − ν²) √R d^1.5 on a deep block. That the block is shallow adds to it.
-TEST(FirstScenes, AMistakenMetreDoesNotPassThroughABlock) {
-  const Outcome outcome = outcome_of(with(kPress, "0 0 -1 mm", "0 0 -1 m"));
-  EXPECT_EQ(outcome.exit, Outcome::Exit::CannotGoOn) << outcome.words;
-  EXPECT_NE(outcome.words.find("`ball`"), std::string::npos) << outcome.words;
-  EXPECT_NE(outcome.words.find("`block`"), std::string::npos) << outcome.words;
+TEST(FirstScenes, AnElementLargerThanTheBallThatPressesItGivesAWarning) {
+  const Outcome outcome =
+      outcome_of(with(with(kPress, "[4, 4, 2]", "[1, 1, 1]"), "0 0 -1 mm", "0 0 -0.4 mm"));
+  EXPECT_NE(outcome.words.find("is not resolved"), std::string::npos) << outcome.words;
 }
 
 TEST(FirstScenes, AWeightHangsOnItsMuscle) { expect_value(kLift, "lifter.force [N]", 9.81, 1e-4); }
@@ -288,9 +286,11 @@ TEST(FirstScenes, AnotherProgramsKeyIsAnsweredWithOurs) {
   expect_refused(ligament, "unknown key `slack`; expected one of");
 }
 
-// ρ V g.
+// ρ V g. That it falls first, and that the steps take what it falls with, is told.
 TEST(FirstScenes, ACubeRestsOnATableWithItsWeight) {
-  expect_value(kCube, "rest.force.z [N]", 0.01962, 1e-3);
+  const Outcome outcome = outcome_of(kCube);
+  ASSERT_EQ(outcome.exit, Outcome::Exit::Finished) << outcome.words;
+  EXPECT_NEAR(outcome.results->last("rest.force.z [N]"), 0.01962, 1e-3 * 0.01962);
 }
 
 }  // namespace articular::first_scenes_test

@@ -22,7 +22,7 @@ struct Motion {
 Motion random_motion(Random& random) {
   const auto corners = [&] {
     Mat3 q;
-    for (auto corner : q.colwise()) corner = random.vec3();
+    for (auto corner : q.colwise()) corner = 2 * random.vec3();  // large ones are met more often
     return q;
   };
   return {random.vec3(), random.vec3(), corners(), corners()};
