@@ -5,7 +5,8 @@
 #include <algorithm>
 
 #include "fem/mesh/tetrahedron.hpp"
-#include "sim/contact/contact_summary.hpp"
+#include "sim/contact/contact_pressure.hpp"
+#include "sim/contact/contact_response.hpp"
 #include "sim/model/tissue.hpp"
 #include "sim/step/failure_diagnosis.hpp"
 #include "sim/step/run_extrema.hpp"
@@ -83,25 +84,43 @@ void warn_of_small_strain_laws(const Model& model, const Configuration& now,
   }
 }
 
-/// The force of a contact that few nodes carry is that of the mesh.
+/// How a contact's non-mortar side lies against the other body.
+struct Carrying {
+  Eigen::Index num_nodes = 0;  // that have a pressure
+  double deepest_point = 0;    // [m]
+};
+
+Carrying carrying(const ContactResponse& response, int contact) {
+  Carrying result;
+  for (const ContactPairState* pair_state : response.pair_states()) {
+    if (pair_state->contact != contact) continue;
+    result.num_nodes += (pair_state->pressure.array() > 0).count();
+    for (const ContactPairState::Patch& entry : pair_state->patches())
+      result.deepest_point = std::max(result.deepest_point, entry.patch.depth_max);
+  }
+  return result;
+}
+
+/// Where few nodes carry a force, or none though points lie in the other body, it is the mesh's.
 void warn_of_unresolved_contacts(const Model& model, const Stepper& stepper,
                                  std::vector<std::string>& warnings) {
-  for (const ContactSummary& contact : stepper.dynamics().contacts()) {
-    const ContactModel& pair = model.contacts[static_cast<std::size_t>(contact.contact)];
-    const auto body = [&](int b) -> const BodyModel& {
-      return model.bodies[static_cast<std::size_t>(b)];
-    };
-    if (body(pair.a).tissue < 0 && body(pair.b).tissue < 0)
-      continue;  // what is rigid says so itself
-    const double size = std::max(body(pair.a).collider->size, body(pair.b).collider->size);
-    const bool is_missed =
-        !(contact.normal_force > 0) && contact.max_point_depth > kMissedDepth * size;
-    if (is_missed || (contact.normal_force > 0 && !contact.is_resolved))
-      warnings.push_back(
-          fmt::format("the contact of `{}` and `{}` is not resolved at the end: too few nodes "
-                      "carry its force of "
-                      "{:.3g} N, which may be far off; expected smaller elements where they touch",
-                      body(pair.a).name, body(pair.b).name, contact.normal_force));
+  const auto body = [&](int b) -> const BodyModel& {
+    return model.bodies[static_cast<std::size_t>(b)];
+  };
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const ContactModel& pair = model.contacts[c];
+    if (body(pair.a).tissue < 0 && body(pair.b).tissue < 0) continue;
+    const Carrying found = carrying(stepper.now().contact, static_cast<int>(c));
+    const double missed =
+        kMissedDepth * std::max(body(pair.a).collider->size, body(pair.b).collider->size);
+    if (found.num_nodes >= kResolvedNodes) continue;
+    if (found.num_nodes == 0 && !(found.deepest_point > missed)) continue;
+    warnings.push_back(
+        fmt::format("the contact of `{}` and `{}` is not resolved at the end: {} of the nodes of "
+                    "`{}` carry it, "
+                    "and the force may be far off; expected smaller elements where they touch",
+                    body(pair.a).name, body(pair.b).name, found.num_nodes,
+                    body(pair.reversed ? pair.b : pair.a).name));
   }
 }
 

@@ -16,6 +16,8 @@ namespace {
 constexpr int kMostDetections = 20;
 /// Solutions in pseudo-time before the load step is given up.
 constexpr int kMostSolutions = 400;
+/// Of what is loose in a scene that has nothing to come to rest on or to hang from.
+constexpr int kMostAlone = 10;
 /// Where nothing limits the motion (no tissue, no contact) [m].
 constexpr double kLooseMotion = 1e-3;
 
@@ -45,8 +47,9 @@ class LoadStep {
     result.loose = find_rigid_body_mode(model_, dynamics_);
     result.reached = !result.loose && balance(y);
     if (!result.reached)
-      result.reached = approach_in_pseudo_time(
-          reach_, kMostSolutions, [&](double motion) { return settle(motion, y, result); });
+      result.reached =
+          approach_in_pseudo_time(reach_, is_alone(result) ? kMostAlone : kMostSolutions,
+                                  [&](double motion) { return settle(motion, y, result); });
     result.iterations = iterations_;
     return result;
   }
@@ -79,6 +82,9 @@ class LoadStep {
   }
 
   bool is_exhausted() const { return iterations_ >= most_iterations_; }
+  bool is_alone(const LoadStepResult& result) const {
+    return result.loose && model_.contacts.empty() && model_.lines.empty();
+  }
 
   bool solve(Eigen::VectorXd& y, double damping) {
     if (is_exhausted()) return false;
