@@ -157,7 +157,7 @@ volumetric = "quadratic")",
 }
 
 /// Tension along the fibres adds λ dW/dλ to the ground substance: [Weiss 1996, eq. 7.2] and
-/// [Blemker 2005], see fem/README.md.
+/// [Blemker 2005], see fem/THEORY.md.
 std::vector<LawCase> fibred_laws() {
   constexpr double toe = 1.03, taut = 1.1, toe_end = 1.046;  // [-] stretches
   constexpr double c3 = 13.9e3, c4 = 116.22, c5 = 535e6, ground = 1.95e6;
