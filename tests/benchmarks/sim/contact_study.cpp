@@ -36,9 +36,9 @@ struct Study {
   const char* name;
   void (*run)(const StudyOptions&);
 };
-constexpr Study kStudies[] = {{"patch", study_patch},        {"drag", study_drag},
-                              {"hertz", study_hertz},        {"cylinders", study_cylinders},
-                              {"layer", study_layer},        {"lines", study_lines},
+constexpr Study kStudies[] = {{"patch", study_patch},         {"drag", study_drag},
+                              {"hertz", study_hertz},         {"cylinders", study_cylinders},
+                              {"layer", study_layer},         {"lines", study_lines},
                               {"responses", study_responses}, {"pressure", study_pressure}};
 
 const Study* find_study(const std::string& name) {

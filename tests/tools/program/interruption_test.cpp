@@ -34,13 +34,13 @@ TEST(Program, InterruptedRunResumesToTheSameHistory) {
 // terminal shows something before.
 TEST(Program, ALongLoadStepShowsItsIterationsAndIsInterrupted) {
   const TemporaryFolder folder;
-  const ProgramResult stopped = run_shell(
-      folder,
-      "echo 'echo $$ > pid; exec \"$articular\" run \"" ARTICULAR_SOURCE_DIR
-      "/scenarios/knee/axial-load.toml\" --out knee' > start; touch terminal; "
-      "script -qefc 'sh start' terminal > /dev/null & pid=$!; "
-      "while ! grep -q 'iteration [0-9]*, residual' terminal && kill -0 $pid; do sleep 0.05; done; "
-      "kill -INT $(cat pid); wait $pid");
+  const ProgramResult stopped =
+      run_shell(folder, "echo 'echo $$ > pid; exec \"$articular\" run \"" ARTICULAR_SOURCE_DIR
+                        "/scenarios/knee/axial-load.toml\" --out knee' > start; touch terminal; "
+                        "script -qefc 'sh start' terminal > /dev/null & pid=$!; "
+                        "while ! grep -q 'iteration [0-9]* of at most [0-9]* a load step, "
+                        "residual' terminal && kill -0 $pid; do sleep 0.05; done; "
+                        "kill -INT $(cat pid); wait $pid");
   EXPECT_EQ(stopped.exit_code, 130);
   EXPECT_NE(content(folder / "terminal").find("load step to 10 % of the load: iteration "),
             std::string::npos);
