@@ -1,12 +1,13 @@
 #include "tools/run/progress.hpp"
 
-#include "sim/build/build_model.hpp"
-#include "sim/step/stepper.hpp"
-
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
+
+#include "sim/build/build_model.hpp"
+#include "sim/step/stepper.hpp"
 
 namespace articular::tools {
 namespace {

@@ -208,7 +208,7 @@ class Block {
         model_(model_of(laboratory, scene(laboratory, law, element))),
         elements_(model_.tissues[0].elements) {}
 
-  const Positions& X() const { return model_.tissues[0].X; }
+  const Positions& start() const { return model_.tissues[0].X; }
   double energy(const Positions& x) const { return elements_.energy(x, activation_); }
   Eigen::VectorXd pressure(const Positions& x) const {
     Eigen::VectorXd p;
@@ -300,19 +300,20 @@ void solve(const LawCase& law, const Block& block, const std::string& element,
   const Mat3 R = turn(law);
   double inside = 0;  // relative to the sum of all forces
   for (const Stress& stress : law.stresses) {
-    const Positions x = R * stress.stretch.asDiagonal() * block.X();
+    const Positions x = R * stress.stretch.asDiagonal() * block.start();
     const Positions f = R.transpose() * block.force(x);
     findings.push_back(relative(fmt::format("{}, {}", stress.words, element), "Pa", stress.expected,
-                                measured(stress, nominal_stresses(block.X(), f)), kRoundOff));
-    inside = std::max(inside, force_inside(block.X(), f) / f.colwise().norm().sum());
+                                measured(stress, nominal_stresses(block.start(), f)), kRoundOff));
+    inside = std::max(inside, force_inside(block.start(), f) / f.colwise().norm().sum());
   }
   findings.push_back(vanishing("force inside, " + element, "of all forces", inside, 1, kRoundOff));
 
   Random number;
-  const Positions random = Positions::NullaryExpr(3, block.X().cols(), [&] { return number(); });
+  const Positions random =
+      Positions::NullaryExpr(3, block.start().cols(), [&] { return number(); });
   const double size = kSize.minCoeff();
   const Positions x =
-      R * (law.stresses.back().stretch.asDiagonal() * block.X()) + 0.01 * size * random;
+      R * (law.stresses.back().stretch.asDiagonal() * block.start()) + 0.01 * size * random;
   const Positions w = random.rowwise().reverse();  // another random direction
   const double h = 1e-5 * size;                    // [m]
   const Positions f = block.force(x);
