@@ -236,7 +236,7 @@ class OverlapResolver {
 
 std::vector<OverlapAtStart> overlaps_at_start(const Scenario& scenario, const Model& model,
                                               const Eigen::VectorXd& y) {
-  if (model.contacts.empty() || y.size() == 0) return {};
+  if (model.contacts.empty()) return {};
   return OverlapResolver(model, step_settings(scenario), {}).at_start(y);
 }
 

@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongCall{"NotFinite", "nan.vtu", 2, "nan.vtu: the position of point 3"},
         WrongCall{"TooFarAway", "'far_*.vtu'", 2, "far_1.vtu: point 3"},
         WrongCall{"NoPvd", "nothing.pvd", 2, "nothing.pvd"},
-        WrongCall{"PvdThatIsNone", "text.pvd", 2, "text.pvd: not readable as .pvd"},
+        WrongCall{"PvdThatIsNone", "text.pvd", 2, "text.pvd:1: not readable as .pvd"},
         WrongCall{"PvdOfBones", "bones.pvd", 2, "bones.pvd: lists no meshes with tetrahedra"},
         WrongCall{"PvdOfOneTime", "same.pvd", 2, "good_0.vtk and good_1.vtk for the same time"},
         WrongCall{"PvdWithoutThatBody", "same.pvd:disc", 2, "has no body `disc`"},
