@@ -41,7 +41,7 @@ const char* words_for(Rejection why) {
 }  // namespace
 
 int most_load_step_iterations(const StepSettings& settings) {
-  constexpr int kMost = 1000, kMostSolutions = 10;
+  constexpr int kMost = 2000, kMostSolutions = 10;
   return std::max(kMost, kMostSolutions * settings.max_iterations);
 }
 
