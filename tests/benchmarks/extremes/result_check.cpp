@@ -95,7 +95,7 @@ std::string invalid_series(const fs::path& results) {
       files.insert(results / part.file);
   }
   for (const fs::path& file : files)
-    if (const std::string broken = invalid_frame(file); !broken.empty()) return broken;
+    if (std::string broken = invalid_frame(file); !broken.empty()) return broken;
   return {};
 }
 
