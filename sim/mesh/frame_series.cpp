@@ -4,10 +4,9 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 #include "sim/base/error.hpp"
+#include "sim/base/file_bytes.hpp"
 #include "sim/mesh/mesh_readers.hpp"
 #include "sim/mesh/xml_events.hpp"
 
@@ -73,8 +72,7 @@ bool is_contact_surface(const SeriesEntry& entry) { return entry.part.ends_with(
 std::vector<SeriesEntry> read_series(const std::filesystem::path& pvd) {
   const std::string name = pvd.string();
   if (!std::filesystem::exists(pvd)) throw InputError({name}, "no such series of frames");
-  std::ifstream in(pvd, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(in), {});
+  const std::string text = file_bytes(pvd);
   std::vector<SeriesEntry> entries;
   bool has_collection = false;
   read_xml(name, ".pvd", text,

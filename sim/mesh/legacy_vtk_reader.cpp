@@ -2,13 +2,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 
 #include "sim/base/error.hpp"
+#include "sim/base/file_bytes.hpp"
 #include "sim/mesh/cell_collector.hpp"
 #include "sim/mesh/mesh_readers.hpp"
 #include "sim/mesh/number_type.hpp"
+#include "sim/mesh/white_space.hpp"
 
 namespace articular::sim {
 namespace {
@@ -37,8 +37,6 @@ constexpr NamedType kNumberTypes[] = {{"char", {1, Signed}},
                                       {"float", kFloat},
                                       {"double", {8, Real}}};
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-
 std::string lower(std::string_view text) {
   std::string result(text);
   for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -49,10 +47,8 @@ std::string lower(std::string_view text) {
 /// file claims to hold is held against what is left of it before any memory is taken.
 class LegacyVtkFile {
  public:
-  explicit LegacyVtkFile(const std::filesystem::path& file) : file_(file.string()), cells_(file_) {
-    std::ifstream in(file_, std::ios::binary);
-    bytes_.assign(std::istreambuf_iterator<char>(in), {});
-  }
+  explicit LegacyVtkFile(const std::filesystem::path& file)
+      : file_(file.string()), bytes_(file_bytes(file)), cells_(file_) {}
 
   MeshData read() {
     read_header();

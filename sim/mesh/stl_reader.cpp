@@ -1,13 +1,13 @@
 #include <array>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 
 #include "sim/base/error.hpp"
+#include "sim/base/file_bytes.hpp"
 #include "sim/mesh/mesh_readers.hpp"
 #include "sim/mesh/number_type.hpp"
+#include "sim/mesh/white_space.hpp"
 
 namespace articular::sim {
 namespace {
@@ -46,10 +46,8 @@ class CornerMerger {
 
 class StlFile {
  public:
-  explicit StlFile(const std::filesystem::path& file) : where_{file.string()} {
-    std::ifstream in(file, std::ios::binary);
-    bytes_.assign(std::istreambuf_iterator<char>(in), {});
-  }
+  explicit StlFile(const std::filesystem::path& file)
+      : where_{file.string()}, bytes_(file_bytes(file)) {}
 
   /// Some programs begin binary files with the word of text files, so the length decides first.
   MeshData read() {
@@ -96,7 +94,6 @@ class StlFile {
       text += static_cast<char>(std::tolower(static_cast<unsigned char>(bytes_[at_++])));
     return text;
   }
-  static bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
   double coordinate() {
     const std::optional<double> value = parse_number(word());

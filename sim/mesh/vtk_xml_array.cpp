@@ -11,11 +11,10 @@
 
 #include "sim/base/error.hpp"
 #include "sim/base/message_text.hpp"
+#include "sim/mesh/white_space.hpp"
 
 namespace articular::sim {
 namespace {
-
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 /// -1: no digit of base64
 int base64_digit(char c) {

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "sim/base/error.hpp"
+#include "sim/base/file_bytes.hpp"
 #include "sim/base/message_text.hpp"
 #include "sim/mesh/xml_events.hpp"
 
@@ -29,8 +28,7 @@ class VtkXmlReader {
   VtkXmlReader(const std::filesystem::path& file, VtkXmlFields fields) : fields_(fields) {
     encoding_.file = file.string();
     encoding_.format = file.extension().string();
-    std::ifstream in(file, std::ios::binary);
-    bytes_.assign(std::istreambuf_iterator<char>(in), {});
+    bytes_ = file_bytes(file);
   }
 
   VtkXmlContent read() {

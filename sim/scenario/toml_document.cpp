@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <system_error>
 
+#include "sim/base/file_bytes.hpp"
 #include "sim/base/message_text.hpp"
 #include "sim/scenario/toml_key_depth.hpp"
 
@@ -77,13 +74,7 @@ std::string read_text(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw InputError(where, "expected a scenario file, found a folder");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream || stream.bad())
-    throw InputError(where, fmt::format("cannot read this file: {}",
-                                        errno != 0 ? std::strerror(errno) : "unknown reason"));
-  return text;
+  return file_bytes(file);
 }
 
 }  // namespace

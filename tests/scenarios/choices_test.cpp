@@ -11,9 +11,9 @@ namespace articular::choices_test {
 TEST(JawChoices, AJawOpensOnTissueOnRigidDiscsAndOnBone) {
   for (const auto& [word, unknowns] :
        {std::pair("tissue", 4452), std::pair("rigid", 18), std::pair("none", 6)}) {
-    const ScenarioResults results = run_scenario(
-        "mandible/opening.toml",
-        {std::string("choice.disc=") + word, "duration=120 ms", "integrator.step=3 ms"});
+    const ScenarioResults results =
+        run_scenario("mandible/opening.toml", {std::string("choice.disc=") + word, "accuracy=fast",
+                                               "duration=110 ms", "integrator.step=5 ms"});
     EXPECT_EQ(results.summary().at("outcome"), "finished") << word;
     EXPECT_EQ(results.summary().at("settings").at("choice").at("disc"), word);
     EXPECT_EQ(results.summary().at("size").at("unknown_velocities"), unknowns) << word;

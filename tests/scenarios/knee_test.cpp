@@ -41,7 +41,8 @@ ScenarioResults loaded_knee(double duration, const std::string& cartilage = "tis
 
 TEST(KneeAxialLoad, IsTheSameByEitherTree) {
   const auto knee = [](const std::string& tree) {
-    return coarse_knee("axial-load.toml", {"duration=0.1 s", "detection.tree=" + tree});
+    return coarse_knee("axial-load.toml",
+                       {"duration=0.05 s", "choice.cartilage=layer", "detection.tree=" + tree});
   };
   const ScenarioResults blocks = knee("blocks"), buckets = knee("buckets");
   EXPECT_GT(blocks.count("reported_pairs"), 0);

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
+#include "sim/base/file_bytes.hpp"
 #include "tools/verify/scene.hpp"
 
 namespace articular::tools {
@@ -14,18 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 /// How many result files two runs have in common, bit for bit. Of all: history and frames.
 Finding same_files(const std::string& quantity, const fs::path& one, const fs::path& other) {
   int files = 0, same = 0;
   const auto compare = [&](const fs::path& file) {
-    const std::string bytes = bytes_of(file);
+    const std::string bytes = sim::file_bytes(file);
     ++files;
-    if (!bytes.empty() && bytes == bytes_of(other / fs::relative(file, one))) ++same;
+    if (!bytes.empty() && bytes == sim::file_bytes(other / fs::relative(file, one))) ++same;
   };
   compare(one / "history.csv");
   for (const fs::directory_entry& frame : fs::directory_iterator(one / "frames"))

@@ -74,7 +74,7 @@ Scenario squeezed(const TemporaryFolder& folder, int cells) {
 TEST(Squeeze, TissueBetweenTwoBonesIsSqueezedToHalfItsThicknessAndDragged) {
   constexpr double kWay = 2e-3;  // [m]
   const TemporaryFolder folder;
-  Scenario s = squeezed(folder, 14);
+  Scenario s = squeezed(folder, 10);
   Motion& motion = std::get<MotionLoad>(s.loads[0]).motion;
   motion.time = {0, 0.1, 0.15, 0.25, 0.3, 0.35};
   const Vec3 down(0, 0, -kSheet / 2), along(kWay, 0.3 * kWay, 0);
