@@ -9,7 +9,6 @@
 #include "sim/base/error.hpp"
 #include "sim/mesh/mesh_defects.hpp"
 #include "sim/mesh/mesh_readers.hpp"
-#include "sim/mesh/vtk_files.hpp"
 
 namespace articular::sim {
 namespace {
@@ -22,12 +21,6 @@ constexpr Reader kReaders[] = {{".vtu", read_vtk_xml_mesh}, {".vtp", read_vtk_xm
                                {".vtk", read_legacy_vtk},   {".stl", read_stl},
                                {".obj", read_obj},          {".ply", read_ply},
                                {".inp", read_abaqus}};
-
-std::string lower_ending(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
 
 /// Calls visit(index) for every node index of every cell.
 template <class Visit>
@@ -74,8 +67,11 @@ MeshData read_mesh(const std::filesystem::path& file, double unit) {
   if (!std::filesystem::exists(file, error)) throw InputError({name}, "no such mesh file");
   if (std::filesystem::is_directory(file, error))
     throw InputError({name}, "is a folder; expected a mesh file");
+  // A device may have no end, and a pipe nobody at the other end.
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError({name}, "is no regular file; expected a mesh file");
   if (!std::ifstream(file)) throw InputError({name}, "can't be opened for reading");
-  if (std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) == 0)
+  if (std::filesystem::file_size(file, error) == 0)
     throw InputError({name}, "the mesh file is empty");
 
   MeshData mesh = reader->read(file);
@@ -92,15 +88,10 @@ MeshData read_mesh(const std::filesystem::path& file, double unit) {
   return mesh;
 }
 
-void write_mesh(const std::filesystem::path& file, const MeshData& mesh, double unit) {
-  const std::string expected = mesh.tets.cols() > 0 ? ".vtu" : ".vtp";
-  if (lower_ending(file) != expected)
-    throw InputError({file.string()}, "this mesh is written as `" + expected + "`, not as `" +
-                                          lower_ending(file) + "`");
-  const auto set = mesh.tets.cols() > 0 ? make_grid(mesh.X, unit, mesh.tets, mesh.triangles)
-                                        : make_surface(mesh.X, unit, mesh.triangles);
-  for (const auto& [name, values] : mesh.cell_vectors) add_cell_vectors(*set, name, values);
-  write_vtk_file(file, *set);
+std::string lower_ending(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
 }
 
 std::optional<double> parse_number(std::string_view text) {

@@ -37,6 +37,9 @@ MeshData read_vtk_xml_mesh(const std::filesystem::path& file);
 /// node. Read here and not by VTK, which reads any bytes as triangles.
 MeshData read_stl(const std::filesystem::path& file);
 
+/// ".vtu" of "disc.VTU".
+std::string lower_ending(const std::filesystem::path& file);
+
 /// One finite number, nothing before or after it; empty if it is none.
 std::optional<double> parse_number(std::string_view text);
 std::optional<int> parse_integer(std::string_view text);

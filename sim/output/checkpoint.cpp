@@ -85,39 +85,6 @@ void each_of_extrema(Extrema& extrema, const Visit& visit) {
   visit(extrema.gravity_high);
 }
 
-}  // namespace
-
-std::string fingerprint(const Scenario& scenario, const Model& model) {
-  std::string bytes = scenario.content;
-  const auto put_numbers = [&bytes](const auto& matrix) {
-    bytes.append(reinterpret_cast<const char*>(matrix.data()),
-                 static_cast<std::size_t>(matrix.size()) * sizeof(*matrix.data()));
-  };
-  put_numbers(initial_state(model));
-  for (const BodyModel& body : model.bodies) {
-    put_numbers(body.X);
-    if (body.collider) put_numbers(body.collider->X);
-    if (body.collider) put_numbers(body.collider->tets);
-  }
-  for (const Tissue& tissue : model.tissues) put_numbers(tissue.elements.tets());
-  for (const RigidBody& rigid : model.rigid_bodies) put_numbers(rigid.rest.p);
-  for (const RigidBody& rigid : model.rigid_bodies) {
-    if (!rigid.motion) continue;
-    for (const double t : rigid.motion->time) put(t, bytes);
-    for (const Vec3& shift : rigid.motion->translation) put_numbers(shift);
-    for (const Vec3& turn : rigid.motion->rotation) put_numbers(turn);
-  }
-  for (const MuscleModel& muscle : model.muscles) {
-    put(muscle.given.max_force, bytes);
-    put(muscle.given.max_length_ratio, bytes);
-    put(muscle.given.tendon_ratio, bytes);
-  }
-  for (const Line& line : model.lines) put(line.start_length, bytes);
-  return fmt::format("{:016x}", hash_bytes(bytes));
-}
-
-namespace {
-
 /// All of it but the state's vector, each in its place, to be written or read.
 template <class AnyCheckpoint, class Visit>
 void each_of_checkpoint(AnyCheckpoint& checkpoint, const Visit& visit) {

@@ -6,14 +6,9 @@
 #include <string>
 
 #include "sim/base/append_file.hpp"
-#include "sim/model/model.hpp"
 #include "sim/model/state.hpp"
 
 namespace articular::sim {
-
-/// What a checkpoint belongs to: the scenario's content and what was read from other files (meshes,
-/// muscle tables). A run of another scenario must not resume from it.
-std::string fingerprint(const Scenario& scenario, const Model& model);
 
 /// A place to go on from: the state in full precision, and how far the files had grown.
 struct Checkpoint {

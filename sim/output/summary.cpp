@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/assembly/solver_setup.hpp"
-#include "sim/output/checkpoint.hpp"
+#include "sim/output/fingerprint.hpp"
 #include "sim/output/provenance.hpp"
 #include "sim/output/run_warnings.hpp"
 

@@ -12,6 +12,7 @@
 #include "sim/build/build_model.hpp"
 #include "sim/output/checkpoint.hpp"
 #include "sim/output/convergence.hpp"
+#include "sim/output/fingerprint.hpp"
 #include "sim/output/frames.hpp"
 #include "sim/output/history.hpp"
 #include "sim/output/output_size.hpp"

@@ -5,6 +5,7 @@
 
 #include "sim/build/build_model.hpp"
 #include "sim/output/checkpoint.hpp"
+#include "sim/output/fingerprint.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/step/run_extrema.hpp"
 #include "sim/step/stepper.hpp"

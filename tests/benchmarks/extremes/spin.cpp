@@ -8,6 +8,7 @@
 
 #include "sim/build/build_model.hpp"
 #include "sim/output/checkpoint.hpp"
+#include "sim/output/fingerprint.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "tests/benchmarks/extremes/scene_text.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "sim/build/build_model.hpp"
 #include "sim/model/constrained_rigid_body.hpp"
-#include "sim/output/checkpoint.hpp"
+#include "sim/output/fingerprint.hpp"
 #include "sim/run/run.hpp"
 #include "tests/sim/support/scene.hpp"
 

@@ -1,4 +1,5 @@
 #include "sim/output/checkpoint.hpp"
+#include "sim/output/fingerprint.hpp"
 
 #include <gtest/gtest.h>
 
