@@ -8,8 +8,9 @@
 namespace articular::sim {
 namespace {
 
-constexpr std::size_t kLongestQuote = 60;  // [bytes] of a text that a message repeats
-constexpr std::size_t kLongestList = 20;   // names that a message lists
+constexpr std::size_t kLongestQuote = 60;      // [bytes] of a text that a message repeats
+constexpr std::size_t kLongestList = 20;       // names that a message lists
+constexpr std::size_t kLongestMistyped = 200;  // [bytes]: distances take time by the square
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
@@ -71,6 +72,7 @@ std::string in_quotes(std::string_view text) {
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& names) {
+  if (name.size() > kLongestMistyped) return "";
   // A third of the letters may be wrong, one always: `hup` is not a mistyped `body`.
   const std::size_t farthest = 2 * std::max<std::size_t>(1, (name.size() + 1) / 3);
   std::string nearest;
@@ -87,11 +89,11 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& names) {
   const std::string nearest = nearest_name(name, names);
-  if (!nearest.empty()) return fmt::format("; did you mean `{}`?", nearest);
+  if (!nearest.empty()) return fmt::format("; did you mean `{}`?", one_line(nearest));
   if (names.empty()) return "";
   std::string list;
   for (std::size_t i = 0; i < std::min(names.size(), kLongestList); ++i)
-    list += fmt::format("{}`{}`", i == 0 ? "" : ", ", names[i]);
+    list += fmt::format("{}`{}`", i == 0 ? "" : ", ", one_line(names[i]));
   if (names.size() > kLongestList) list += ", ...";
   return (names.size() == 1 ? "; expected " : "; expected one of ") + list;
 }

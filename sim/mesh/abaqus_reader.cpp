@@ -60,9 +60,10 @@ class AbaqusDeck {
   MeshData mesh() const {
     if (node_index_.empty()) throw InputError({where_.file}, "holds no *NODE lines");
     if (elements_.empty())
-      throw InputError({where_.file},
-                       "holds no elements of type C3D4 (linear tetrahedra)" +
-                           (skipped_.empty() ? "" : "; there are elements of type " + skipped_));
+      throw InputError(
+          {where_.file},
+          "holds no elements of type C3D4 (linear tetrahedra)" +
+              (skipped_.empty() ? "" : "; there are elements of type " + one_line(skipped_)));
     MeshData mesh;
     mesh.X = Eigen::Map<const Positions>(coordinates_.data(), 3,
                                          static_cast<Eigen::Index>(coordinates_.size() / 3));
@@ -110,7 +111,7 @@ class AbaqusDeck {
 
   int node_number(std::string_view text) const {
     const std::optional<int> number = parse_integer(text);
-    if (!number) throw InputError(where_, "`" + std::string(text) + "` is not a node number");
+    if (!number) throw InputError(where_, "`" + one_line(text) + "` is not a node number");
     return *number;
   }
 
@@ -121,8 +122,7 @@ class AbaqusDeck {
       throw InputError(where_, "node " + std::to_string(number) + " is there twice");
     for (std::size_t i = 1; i < 4; ++i) {
       const std::optional<double> value = parse_number(parts[i]);
-      if (!value)
-        throw InputError(where_, "`" + std::string(parts[i]) + "` is not a finite number");
+      if (!value) throw InputError(where_, "`" + one_line(parts[i]) + "` is not a finite number");
       coordinates_.push_back(*value);
     }
   }
@@ -130,7 +130,7 @@ class AbaqusDeck {
   void add_tetrahedron(const std::vector<std::string_view>& parts) {
     expect_columns(parts, 5, "element number and 4 node numbers");
     if (!parse_integer(parts[0]))
-      throw InputError(where_, "`" + std::string(parts[0]) + "` is not an element number");
+      throw InputError(where_, "`" + one_line(parts[0]) + "` is not an element number");
     Element element{{}, where_.line};
     for (std::size_t a = 0; a < 4; ++a) element.nodes[a] = node_number(parts[a + 1]);
     elements_.push_back(element);

@@ -48,12 +48,18 @@ std::vector<std::string> split_fields(std::string_view line, const Location& whe
 
 CsvTable read_csv(const std::filesystem::path& file, std::string_view what,
                   const Location& reference, const std::function<void(const CsvRow&)>& check) {
+  const auto refuse = [&](std::string_view why) {
+    throw InputError(reference,
+                     fmt::format("cannot read {} {}: {}", what, one_line(file.string()), why));
+  };
   std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  if (std::filesystem::is_directory(status)) refuse("it is a folder");
+  // A device may have no end, and a pipe nobody at the other end.
+  if (std::filesystem::is_other(status)) refuse("it is no regular file");
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file, ignored))
-    throw InputError(reference, fmt::format("cannot read {} {}: {}", what, file.string(),
-                                            errno != 0 ? std::strerror(errno) : "it is a folder"));
+  if (!stream) refuse(std::strerror(errno));
   CsvTable table;
   Location where{file.string(), 0, 0};
   for (std::string line; std::getline(stream, line);) {
@@ -77,13 +83,13 @@ CsvTable read_csv(const std::filesystem::path& file, std::string_view what,
 }
 
 double csv_number(std::string_view field, std::string_view column, const Location& where) {
-  if (field.empty()) throw InputError(where, fmt::format("column `{}` is empty", column));
+  if (field.empty()) throw InputError(where, fmt::format("column `{}` is empty", one_line(column)));
   double value = 0;
   const char* end = field.data() + field.size();
   const auto [stop, error] = std::from_chars(field.data(), end, value);
   if (error != std::errc() || stop != end || !std::isfinite(value))
-    throw InputError(
-        where, fmt::format("column `{}`: expected a number, found {}", column, in_quotes(field)));
+    throw InputError(where, fmt::format("column `{}`: expected a number, found {}",
+                                        one_line(column), in_quotes(field)));
   return value;
 }
 

@@ -25,7 +25,8 @@ double read_unit(std::string_view unit, const QuantityKind& kind, const std::str
   try {
     return parse_unit(unit, kind);
   } catch (const std::invalid_argument& error) {
-    throw InputError(where, fmt::format("column {}: {}", in_quotes(header), error.what()));
+    throw InputError(where,
+                     fmt::format("column {}: {}", in_quotes(header), one_line(error.what())));
   }
 }
 

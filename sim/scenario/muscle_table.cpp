@@ -75,8 +75,9 @@ void check_columns(const CsvRow& headers) {
     if (count == 1) continue;
     if (count > 1) throw InputError(where, fmt::format("column `{}` appears twice", name));
     const std::string near = nearest_name(name, columns);
-    throw InputError(where, fmt::format("column `{}` is missing{}", name,
-                                        near.empty() ? "" : fmt::format("; is it `{}`?", near)));
+    throw InputError(where,
+                     fmt::format("column `{}` is missing{}", name,
+                                 near.empty() ? "" : fmt::format("; is it `{}`?", one_line(near))));
   }
 }
 

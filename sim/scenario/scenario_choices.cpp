@@ -31,8 +31,8 @@ std::vector<std::string> words_of(const Node& node) {
                    names.empty()
                        ? fmt::format("`when`: there is no choice `{}`; expected it in [choice], "
                                      "which the scenario does not have",
-                                     named.key)
-                       : fmt::format("`when`: there is no choice `{}`{}", named.key,
+                                     one_line(named.key))
+                       : fmt::format("`when`: there is no choice `{}`{}", one_line(named.key),
                                      suggestion(named.key, names)));
 }
 
@@ -76,13 +76,13 @@ void check_mentioned(const Node& choices, const Mentioned& mentioned) {
       std::vector<std::string> names;
       for (const auto& [name, words] : mentioned) names.push_back(name);
       throw InputError(choice.key_where,
-                       fmt::format("no `when` mentions the choice `{}`{}", choice.key,
+                       fmt::format("no `when` mentions the choice `{}`{}", one_line(choice.key),
                                    names.empty() ? "" : suggestion(choice.key, names)));
     }
     if (known->second.count(*choice.node.text()) != 0) continue;
     std::string list;
     for (const std::string& word : known->second)
-      list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", word);
+      list += fmt::format("{}{}", list.empty() ? "" : ", ", in_quotes(word));
     fail(choice.node,
          fmt::format("no `when` mentions this word; expected {}{}, found {}",
                      known->second.size() > 1 ? "one of " : "", list, found(choice.node)));

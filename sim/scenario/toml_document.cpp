@@ -13,7 +13,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr int kMostParts = 100;  // of a dotted key
+constexpr int kMostParts = 100;  // of a dotted key with those around it
 
 /// Copies the parser's tree. With `fixed` set, every node stands there instead of where it was
 /// parsed.
@@ -93,8 +93,10 @@ Node* Node::find(std::string_view key) {
 Node read_toml(const std::filesystem::path& file) {
   const std::string text = read_text(file);
   if (const KeyDepth key = deepest_key(text); key.parts > kMostParts)
-    throw InputError({file.string(), key.line},
-                     fmt::format("a key has {} parts; expected {} at most", key.parts, kMostParts));
+    throw InputError(
+        {file.string(), key.line},
+        fmt::format("a key has {} parts, those of the keys around it counted; expected {} at most",
+                    key.parts, kMostParts));
   try {
     const toml::table table = toml::parse(text);
     return Copier(file.string(), std::nullopt).copy(table, "the scenario");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace articular::sim {
 namespace {
@@ -26,7 +27,10 @@ std::size_t behind_text(std::string_view toml, std::size_t at) {
 
 KeyDepth deepest_key(std::string_view toml) {
   KeyDepth deepest;
-  int dots = 0, line = 1;
+  int line = 1, dots = 0;
+  int before_equals = 0;          // parts of the key whose value is read
+  int around = 0;                 // parts of the keys in whose values it stands
+  std::vector<int> of_container;  // of these, by open bracket
   for (std::size_t at = 0; at < toml.size(); ++at) {
     switch (toml[at]) {
       case '"':
@@ -41,18 +45,31 @@ KeyDepth deepest_key(std::string_view toml) {
         at = std::min(toml.find('\n', at), toml.size()) - 1;
         break;
       case '.':
-        if (++dots >= deepest.parts) deepest = {dots + 1, line};
+        if (around + ++dots >= deepest.parts) deepest = {around + dots + 1, line};
+        break;
+      case '=':
+        before_equals = dots + 1;
+        dots = 0;
+        break;
+      case '[':
+      case '{':
+        of_container.push_back(before_equals);
+        around += before_equals;
+        before_equals = dots = 0;
+        break;
+      case ']':
+      case '}':
+        if (!of_container.empty()) {
+          around -= of_container.back();
+          of_container.pop_back();
+        }
+        before_equals = dots = 0;
         break;
       case '\n':
         ++line;
         [[fallthrough]];
-      case '=':
       case ',':
-      case '[':
-      case ']':
-      case '{':
-      case '}':
-        dots = 0;
+        before_equals = dots = 0;
         break;
       default:
         break;

@@ -45,9 +45,10 @@ Node& list_entry(Node& list, const std::string& key, const Location& where) {
   const bool is_number = error == std::errc() && end == key.data() + key.size();
   if (is_number && number < count) return (*list.list())[number];
   if (is_number || names.empty())
-    throw InputError(where, fmt::format("no {} `{}`; there {} {}, numbered from 0", list.name, key,
-                                        count == 1 ? "is" : "are", count));
-  throw InputError(where, fmt::format("no {} `{}`{}", list.name, key, suggestion(key, names)));
+    throw InputError(where, fmt::format("no {} `{}`; there {} {}, numbered from 0", list.name,
+                                        one_line(key), count == 1 ? "is" : "are", count));
+  throw InputError(where,
+                   fmt::format("no {} `{}`{}", list.name, one_line(key), suggestion(key, names)));
 }
 
 Node& add_member(Node& table, const std::string& key, const Location& where) {
@@ -62,8 +63,8 @@ Node& add_member(Node& table, const std::string& key, const Location& where) {
 Node& child(Node& node, const std::string& key, bool is_root, bool is_last, const Location& where) {
   if (node.list() != nullptr) return list_entry(node, key, where);
   if (node.table() == nullptr)
-    throw InputError(where,
-                     fmt::format("`{}` is a single value, it has no part `{}`", node.name, key));
+    throw InputError(where, fmt::format("`{}` is a single value, it has no part `{}`",
+                                        one_line(node.name), one_line(key)));
   if (Node* member = node.find(key)) return *member;
   const bool is_entry_list =
       is_root && std::find(kEntryLists.begin(), kEntryLists.end(), key) != kEntryLists.end();

@@ -32,7 +32,7 @@ std::string found(const Node& node) {
 }
 
 void fail(const Node& node, const std::string& message) {
-  throw InputError(node.where, fmt::format("`{}`: {}", one_line(node.name), message));
+  throw InputError(node.where, fmt::format("`{}`: {}", one_line(node.name), one_line(message)));
 }
 
 void check_range(const Node& node, double value, const Range& range) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sim/base/error.hpp"
+#include "sim/base/message_text.hpp"
 #include "sim/base/version.hpp"
 #include "tools/anatomy/anatomy.hpp"
 #include "tools/collide/collide_command.hpp"
@@ -24,7 +25,7 @@ constexpr int kBug = 1, kBadInput = 2, kCannotGoOn = 3, kSystemFailed = 4;
 int report(const char* message, int exit_code) {
   std::istringstream lines(message);  // one for each mistake
   for (std::string line; std::getline(lines, line);)
-    std::fprintf(stderr, "articular: %s\n", line.c_str());
+    std::fprintf(stderr, "articular: %s\n", articular::sim::one_line(line).c_str());
   return exit_code;
 }
 

@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
+#include <set>
 
 #include "sim/base/error.hpp"
+#include "sim/base/message_text.hpp"
 
 namespace articular::tools {
 namespace {
 
 constexpr const char* kAsItIs = "as it is";
 constexpr std::size_t kLongestFolder = 100;
+constexpr std::size_t kMostCases = 10000;  // each is a run
 
 std::string name_of(const StudyKnob& knob, const StudyKnob::Choice& choice) {
   return knob.name + " = " + choice.name;
@@ -25,7 +29,17 @@ std::vector<StudyCase> one_at_a_time(const Study& study) {
   return cases;
 }
 
+void refuse_too_many(const Study& study, double count) {
+  if (count <= static_cast<double>(kMostCases)) return;
+  throw sim::InputError(
+      {study.file.string()},
+      fmt::format("the knobs make {:g} cases; expected {} at most", count, kMostCases));
+}
+
 std::vector<StudyCase> every_combination(const Study& study) {
+  double count = 1;
+  for (const StudyKnob& knob : study.knobs) count *= static_cast<double>(knob.choices.size());
+  refuse_too_many(study, count);
   std::vector<StudyCase> cases{{"", "", study.settings}};
   for (const StudyKnob& knob : study.knobs) {
     std::vector<StudyCase> more;
@@ -53,18 +67,18 @@ std::string folder_name(const std::string& name) {
 
 /// Gives each case a folder of its own. Letter case does not tell folders apart everywhere.
 void name_folders(std::vector<StudyCase>& cases) {
-  std::vector<std::string> taken;
+  std::set<std::string> taken;
+  std::map<std::string, int> last_number;
+  const auto lower = [](std::string text) {
+    for (char& letter : text)
+      letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    return text;
+  };
   for (StudyCase& c : cases) {
     const std::string wanted = folder_name(c.name);
-    const auto lower = [](std::string text) {
-      for (char& letter : text)
-        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-      return text;
-    };
-    c.folder = wanted;
-    for (int i = 2; std::find(taken.begin(), taken.end(), lower(c.folder)) != taken.end(); ++i)
-      c.folder = fmt::format("{}-{}", wanted, i);
-    taken.push_back(lower(c.folder));
+    int& last = last_number.try_emplace(lower(wanted), 1).first->second;
+    for (c.folder = wanted; !taken.insert(lower(c.folder)).second;)
+      c.folder = fmt::format("{}-{}", wanted, ++last);
   }
 }
 
@@ -81,14 +95,15 @@ std::vector<StudyCase> study_cases(const Study& study) {
                                                   : fmt::format("reference {}", reference.size),
                      "", study.settings + reference.settings, static_cast<int>(i)});
   }
-  for (auto c = cases.begin(); c != cases.end(); ++c)
-    if (std::any_of(cases.begin(), c,
-                    [&](const StudyCase& other) { return other.name == c->name; }))
+  refuse_too_many(study, static_cast<double>(cases.size()));
+  std::set<std::string> names;
+  for (const StudyCase& c : cases)
+    if (!names.insert(c.name).second)
       throw sim::InputError(
           {study.file.string()},
           fmt::format("two cases are called `{}`; expected different names of knobs, choices and "
                       "cases",
-                      c->name));
+                      sim::one_line(c.name)));
   name_folders(cases);
   return cases;
 }

@@ -78,11 +78,19 @@ CaseRecord read_record(const std::filesystem::path& file, const std::string& key
   CaseRecord record;
   std::ifstream stream(file);
   const Json json = Json::parse(stream, nullptr, false);
-  if (!json.is_object() || json.value("key", "") != key) return record;
-  for (const Json& run : json.at("runs"))
-    record.runs.push_back({static_cast<End>(run.at("end").get<int>()), run.at("code"),
-                           run.at("wall_s"), run.at("cpu_s"), run.at("memory_MB")});
-  record.message = json.at("message");
+  // Not get<int>(): what of 1e308?
+  const auto whole = [](const Json& number) {
+    return static_cast<int>(number.get_ref<const Json::number_integer_t&>());
+  };
+  try {
+    if (json.at("key") != key) return {};
+    for (const Json& run : json.at("runs"))
+      record.runs.push_back({static_cast<End>(whole(run.at("end"))), whole(run.at("code")),
+                             run.at("wall_s"), run.at("cpu_s"), run.at("memory_MB")});
+    record.message = json.at("message");
+  } catch (const Json::exception&) {
+    return {};
+  }
   return record;
 }
 

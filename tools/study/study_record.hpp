@@ -11,7 +11,7 @@ namespace articular::tools {
 void write_record(const std::filesystem::path& file, const std::string& key,
                   const CaseRecord& record);
 
-/// Empty if there is none, or none with this key.
+/// Empty if there is none, none with this key, or a damaged one.
 CaseRecord read_record(const std::filesystem::path& file, const std::string& key);
 
 }  // namespace articular::tools

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "sim/base/error.hpp"
+#include "tests/sim/support/damaged_file.hpp"
+#include "tests/sim/support/readable_line.hpp"
 #include "tests/sim/support/temporary_folder.hpp"
 
 namespace articular::sim::mesh_io_test {
@@ -243,6 +245,26 @@ TEST(MeshIo, ObjKeepsSharedVerticesWithSeveralNormalsAndFullPrecision) {
   EXPECT_EQ(mesh.X(0, 0), 0.1234567890123456);
   EXPECT_EQ(mesh.triangles.col(0), Eigen::Vector3i(0, 1, 2));
   EXPECT_EQ(mesh.triangles.col(1), Eigen::Vector3i(0, 2, 3));
+}
+
+TEST(MeshIo, AnAbaqusDeckIsRefusedInOneReadableLineWhateverItHolds) {
+  const TemporaryFolder folder;
+  for (const std::string deck :
+       {"*NODE\n1\x01, 0, 0, 0\n", "*NODE\n1, 0, \x1b[2J, 0\n",
+        "*ELEMENT, TYPE=C3D4\n\x7f, 1, 2, 3, 4\n", "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, \x01\n",
+        "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=\x1b[2J\n"}) {
+    const std::string message = refusal(folder.file("m.inp", deck));
+    EXPECT_TRUE(is_readable_line(message)) << message;
+  }
+}
+
+// A device may have no end, and a pipe nobody at the other end.
+TEST(MeshIo, AMeshIsNoDevice) {
+  const TemporaryFolder folder;
+  for (const char* const name : {"m.ply", "m.stl", "m.vtu"}) {
+    std::filesystem::create_symlink("/dev/zero", folder / name);
+    EXPECT_NE(refusal(folder / name).find("is no regular file"), std::string::npos);
+  }
 }
 
 // Keywords in any case and with spaces, elements before their nodes, numbers with gaps, several

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/scenario/driven_motion.hpp"
+#include "tests/sim/support/readable_line.hpp"
 #include "tests/sim/support/scenario_file.hpp"
 
 namespace articular::sim::motion_table_test {
@@ -92,6 +93,24 @@ TEST_F(RecordedMotion, ThatCannotBeReadIsRefusedWhereItIsNamed) {
   const std::string text = scenario("time [s],translation.x [mm]\n0,0\n1,1\n2,2\n");
   std::filesystem::remove(folder_ / "motion.csv");
   EXPECT_NE(refusal(text).find("jaw.toml:11"), std::string::npos) << refusal(text);
+}
+
+// A device may have no end.
+TEST_F(RecordedMotion, IsNoDevice) {
+  const std::string text = scenario("time [s],translation.x [mm]\n0,0\n1,1\n2,2\n");
+  std::filesystem::remove(folder_ / "motion.csv");
+  std::filesystem::create_symlink("/dev/zero", folder_ / "motion.csv");
+  EXPECT_NE(refusal(text).find("motion.csv: it is no regular file"), std::string::npos)
+      << refusal(text);
+}
+
+TEST_F(RecordedMotion, IsRefusedInOneReadableLineWhateverItHolds) {
+  for (const std::string table :
+       {"time\x01 [s],translation.x [mm]\n0,0\n", "time [s\x01],translation.x [mm]\n0,0\n",
+        "time\t [s],translation.x [mm]\nno,0\n"}) {
+    const std::string message = refusal(scenario(table));
+    EXPECT_TRUE(is_readable_line(message)) << message;
+  }
 }
 
 }  // namespace articular::sim::motion_table_test

@@ -84,6 +84,8 @@ TEST_F(MuscleTable, ErrorsNameTheLineOfTheTable) {
             "muscles.csv:6: the scenario has no body `skul` (`bodies = { skul = \"...\" }` of the "
             "[[muscle_table]] can rename it); did you mean `skull`?");
   EXPECT_EQ(with(header + rows + "\"a,b\n"), "muscles.csv:6: a quoted field has no closing `\"`");
+  EXPECT_EQ(with("i\x1f" + header.substr(1) + rows),
+            "muscles.csv:1: column `id` is missing; is it `i d`?");
 }
 
 TEST_F(MuscleTable, ErrorsOfTheScenarioNameItsLine) {

@@ -64,6 +64,15 @@ TEST_F(ScenarioChoices, AnEntryIsThereWhereEachChoiceHasOneOfItsWords) {
   EXPECT_EQ(read(kText, {"choice.side=right"}).loads.size(), 1U);
 }
 
+// How near two names are takes time by the product of their lengths: hours, for these.
+TEST_F(ScenarioChoices, NamesOfAMillionLettersAreRefusedAtOnce) {
+  const std::string name(1 << 20, 'x');
+  std::string text = kText;
+  text.insert(text.find("disc = "), name + "y = \"a\"\n");
+  const std::string message = refusal(text + "[[body]]\nwhen = { " + name + " = \"a\" }\n");
+  EXPECT_NE(message.find("there is no choice"), std::string::npos) << message.substr(0, 200);
+}
+
 // What is left out is as if it were not written: to overrides, to checkpoints, to the record.
 TEST_F(ScenarioChoices, NobodyElseSeesWhatIsLeftOut) {
   const Scenario rigid = read(kText, {"body.disc.density=1300 kg/m^3", " choice.disc = rigid"});

@@ -4,6 +4,7 @@
 
 #include "fem/material/point_law.hpp"
 
+#include "tests/sim/support/readable_line.hpp"
 #include "tests/sim/support/scenario_file.hpp"
 
 namespace articular::sim::toml_override_test {
@@ -42,6 +43,19 @@ TEST_F(Overrides, CreateWhatWasAbsent) {
   EXPECT_EQ(scenario.integrator.step, 0.5e-3);
   EXPECT_FALSE(scenario.contact);
   EXPECT_EQ(scenario.bodies[0].layer->thickness, 1e-3);
+}
+
+// TOML texts and keys may hold any character; a message is one line that a terminal shows.
+TEST_F(Overrides, AreRefusedInOneReadableLineWhateverTheyHold) {
+  for (const std::string text :
+       {R"(body."a\u0001\n".density=1)", R"(muscle.m.max_force={"a\n\u0001" = 1})",
+        R"(load.0.profile={ time = ["1 \n\u0001"], value = [1] })", "body.a\x01.density=1",
+        "body.0.name.a\x01=1", R"(choice."a\n"="b")", R"(choice={"a\n" = "b\u0001"})",
+        R"(body.0.when={"a\n\u0001" = "b"})", R"(body.0.material={law = "\n"})",
+        R"(muscle_table=[{file = "\u0001\n"}])"}) {
+    const std::string message = refusal(scenario_, {text});
+    EXPECT_TRUE(is_readable_line(message)) << message;
+  }
 }
 
 TEST_F(Overrides, TheLastOneCounts) {

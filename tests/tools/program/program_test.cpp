@@ -282,6 +282,16 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"MeshWithoutTetrahedra", with_mesh("surface.obj"), "no tetrahedra"}),
     [](const auto& info) { return std::string(info.param.name); });
 
+// A name with an escape sequence would be obeyed by the terminal.
+TEST(Program, SaysNothingThatATerminalObeys) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_shell(folder, R"("$articular" check "$(printf '\033[2Ja\001.toml')") ");
+      EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("[2Ja .toml: cannot read this file"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find('\033'), std::string::npos);
+}
+
 TEST(Program, MissingScenarioIsBadInput) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(folder, "run nothing.toml --out out");
