@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint64_t kMostNodes = 1ULL << 31;  // nodes have numbers of 32 bits
 constexpr std::uint64_t kMostComponents = 1000;
+constexpr std::size_t kMostFields = 1000;  // each is looked for among all
 
 /// A part of the grid with the arrays of its sections ("Points", "CellData", ...).
 struct Piece {
@@ -305,8 +306,11 @@ class VtkXmlReader {
       expect_size(values, tuples, array.components, "`" + one_line(array.name) + "`");
       auto field = std::find_if(fields.begin(), fields.end(),
                                 [&](const VtkXmlField& other) { return other.name == array.name; });
-      if (field == fields.end())
+      if (field == fields.end()) {
+        if (fields.size() == kMostFields)
+          fail("it has more than " + std::to_string(kMostFields) + " fields");
         field = fields.insert(fields.end(), {array.name, array.components, {}});
+      }
       for (std::size_t i = 0; i < values.size(); ++i) field->values.push_back(values[i]);
     }
   }

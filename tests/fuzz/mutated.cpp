@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -101,6 +102,7 @@ class Trials {
     fmt::print("{}:", name_);
     for (const auto& [words, count] : counts_) fmt::print(" {} {},", count, words);
     fmt::print(" at most {:.1f} s and {:.0f} MB\n", seconds_, megabytes_);
+    std::fflush(stdout);
     return findings_ == 0;
   }
 

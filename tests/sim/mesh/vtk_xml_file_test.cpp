@@ -183,6 +183,23 @@ std::string grid_with(const std::string& points, const std::string& more = "",
          more + "</VTKFile>";
 }
 
+// Each is looked for among those before it: 200 000 took minutes.
+TEST(VtkXml, MoreThanAThousandFieldsAreRefused) {
+  const TemporaryFolder folder;
+  const auto with_fields = [&](int count) {
+    std::string text = grid_with(
+        "<DataArray type='Float64' NumberOfComponents='3'>0 0 0 1 0 0 0 1 0 0 0 1</DataArray>");
+    std::string fields = "<CellData>";
+    for (int i = 0; i < count; ++i)
+      fields += "<DataArray type='Float32' Name='v" + std::to_string(i) +
+                "' NumberOfComponents='3'>1 0 0</DataArray>";
+    text.insert(text.find("</Piece>"), fields + "</CellData>");
+    return folder.file("m.vtu", text);
+  };
+  EXPECT_EQ(read_mesh(with_fields(1000), 1).cell_vectors.size(), 1000U);
+  EXPECT_NE(refusal(with_fields(1001)).find("it has more than 1000 fields"), std::string::npos);
+}
+
 // No test would end, or fit into memory, if a claim were believed.
 TEST(VtkXml, MoreThanTheFileHoldsIsRefusedBeforeMemoryIsTaken) {
   const TemporaryFolder folder;
