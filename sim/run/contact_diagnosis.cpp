@@ -16,7 +16,7 @@
 namespace articular::sim {
 namespace {
 
-using Contacts = ContactTrial::Contacts;
+using TriedContacts = ContactTrial::Contacts;
 using Outcome = ContactTrial::Outcome;
 
 /// Wall time that is left.
@@ -37,11 +37,12 @@ class Deadline {
   Clock::time_point end_;
 };
 
-Model with_contacts(const Model& model, Contacts which, int contact) {
+Model with_contacts(const Model& model, TriedContacts which, int contact) {
   Model changed = model;
   changed.contacts.clear();
   for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    if (which != Contacts::None && (static_cast<int>(c) == contact) == (which == Contacts::Alone))
+    if (which != TriedContacts::None &&
+        (static_cast<int>(c) == contact) == (which == TriedContacts::Alone))
       changed.contacts.push_back(model.contacts[c]);
   changed.probes.clear();  // they number contacts
   return changed;
@@ -77,8 +78,8 @@ class Diagnosis {
     if (!fails()) return result_;
     const std::vector<int> pairs = near_pairs(model_, failed_from_);
     const double seconds = options_.seconds / static_cast<double>(1 + 2 * pairs.size());
-    try_with(Contacts::None, -1, seconds);
-    for (const Contacts which : {Contacts::Alone, Contacts::AllBut})
+    try_with(TriedContacts::None, -1, seconds);
+    for (const TriedContacts which : {TriedContacts::Alone, TriedContacts::AllBut})
       for (const int pair : pairs) try_with(which, pair, seconds);
     result_.culprits = culprits();
     return result_;
@@ -127,15 +128,16 @@ class Diagnosis {
     return false;
   }
 
-  std::string words(Contacts which, int contact) const {
-    if (which == Contacts::None) return "without contact";
+  std::string words(TriedContacts which, int contact) const {
+    if (which == TriedContacts::None) return "without contact";
     const ContactModel& pair = model_.contacts[static_cast<std::size_t>(contact)];
-    return fmt::format("{} `{}` and `{}`", which == Contacts::Alone ? "with contact of" : "without",
+    return fmt::format("{} `{}` and `{}`",
+                       which == TriedContacts::Alone ? "with contact of" : "without",
                        model_.bodies[static_cast<std::size_t>(pair.a)].name,
                        model_.bodies[static_cast<std::size_t>(pair.b)].name);
   }
 
-  void try_with(Contacts which, int contact, double seconds) {
+  void try_with(TriedContacts which, int contact, double seconds) {
     tell(words(which, contact));
     ContactTrial trial{which, contact, Outcome::Taken, ""};
     const Deadline deadline(seconds);
@@ -158,15 +160,15 @@ class Diagnosis {
   }
 
   std::vector<int> culprits() const {
-    const auto those = [&](Contacts which, Outcome outcome) {
+    const auto those = [&](TriedContacts which, Outcome outcome) {
       std::vector<int> found;
       for (const ContactTrial& trial : result_.trials)
         if (trial.contacts == which && trial.outcome == outcome) found.push_back(trial.contact);
       return found;
     };
-    const std::vector<int> needed = those(Contacts::AllBut, Outcome::Taken);
+    const std::vector<int> needed = those(TriedContacts::AllBut, Outcome::Taken);
     if (!needed.empty() || result_.trials.front().outcome != Outcome::Taken) return needed;
-    return those(Contacts::Alone, Outcome::Failed);
+    return those(TriedContacts::Alone, Outcome::Failed);
   }
 
   const Scenario& scenario_;
