@@ -50,14 +50,6 @@ TEST(CoincidentBodies, TheSameShapeInOtherElementsIsRefusedToo) {
   EXPECT_EQ(error_of(balls), "");
 }
 
-MeshData skin_of(const BoxGeometry& box) {
-  const MeshData solid = box_mesh(box);
-  MeshData skin;
-  skin.X = solid.X;
-  skin.triangles = collision::build_surface(solid.tets, static_cast<int>(solid.X.cols())).faces;
-  return skin;
-}
-
 // Two rigid sheets face to face, with nothing between: a joint in which they touch everywhere.
 TEST(CoincidentBodies, SheetsThatFaceEachOtherAreTwo) {
   const TemporaryFolder folder;
@@ -104,6 +96,24 @@ TEST(CoincidentBodies, ABodyWhollyInsideAnotherIsRefusedWithBothNames) {
             std::get<BoxGeometry>(body.geometry).center.x() = 0.146;  // looks out
         EXPECT_EQ(error_of(s), "");
       }
+}
+
+// Wherever in a box of few large faces: near a face the sum of solid angles is mostly that face's.
+TEST(CoincidentBodies, ASmallBodyNearAFaceOfALargeOneIsInsideOrNot) {
+  Random random(5);
+  Scenario s = two_boxes(Vec3::Zero(), Body::Kind::Tissue);
+  s.bodies = {box_body("large", Body::Kind::Fixed, Vec3::Constant(0.1), Vec3::Zero(), {1, 1, 1}),
+              box_body("small", Body::Kind::Tissue, Vec3::Constant(2e-3), Vec3::Zero())};
+  for (int k = 0; k < 40; ++k) {
+    Vec3 center = 0.048 * random.vec3();
+    center[k % 3] = k % 2 == 0 ? 0.0488 : -0.0488;  // 0.2 mm below the face
+    std::get<BoxGeometry>(s.bodies[1].geometry).center = center;
+    EXPECT_NE(error_of(s).find("body `small` lies wholly inside `large`"), std::string::npos)
+        << center.transpose();
+    center[k % 3] *= 0.0512 / 0.0488;  // as far above it
+    std::get<BoxGeometry>(s.bodies[1].geometry).center = center;
+    EXPECT_EQ(error_of(s), "") << center.transpose();
+  }
 }
 
 // A plug in a hole lies within the other's box, and on its faces, but not inside.

@@ -186,16 +186,29 @@ TEST(Crossing, AClosedLoopThatTurnsInAnotherHasNotCrossed) {
 TEST(Crossing, ASurfaceWithoutElementsIsCrossedBelowItsReach) {
   const TemporaryFolder folder;
   Scenario s = sheet_and_plate();
-  const MeshData solid = box_mesh({{0.04, 0.04, 0.04}, {8, 8, 8}, {0, 0, 0.021}});
-  MeshData skin;
-  skin.X = solid.X;
-  skin.triangles = collision::build_surface(solid.tets, static_cast<int>(solid.X.cols())).faces;
-  s.bodies[1] = mesh_body("plate", Body::Kind::Fixed, skin, folder);
+  s.bodies[1] = mesh_body("plate", Body::Kind::Fixed,
+                          skin_of({{0.04, 0.04, 0.04}, {8, 8, 8}, {0, 0, 0.021}}), folder);
   Scene scene(s);
   const double reach = scene.model.bodies[1].collider->reach;
   ASSERT_LT(reach, 0.012);
   EXPECT_FALSE(scene.find("plate", shifted({0, 0, -1e-3 - 0.3 * reach})));
   EXPECT_TRUE(scene.find("plate", shifted({0, 0, -1e-3 - kThick - 1.2 * reach})));
+}
+
+// A thin post that comes in between the points of that bone: nothing of the bone meets the post.
+TEST(Crossing, APostIsLostBelowTheShellOfASurfaceWithoutElements) {
+  const TemporaryFolder folder;
+  Scenario s = sheet_and_plate();
+  s.bodies[0] = tissue_box("sheet", {8e-4, 8e-4, 0.02}, {1.1e-3, 1.1e-3, -0.01}, {1, 1, 10});
+  s.bodies[1] = mesh_body("plate", Body::Kind::Fixed,
+                          skin_of({{0.04, 0.04, 0.04}, {8, 8, 8}, {0, 0, 0.021}}), folder);
+  Scene scene(s);
+  const double reach = scene.model.bodies[1].collider->reach;
+  EXPECT_FALSE(scene.find("plate", shifted({0, 0, -1e-3 - 0.9 * reach})));
+  const auto crossing = scene.find("plate", shifted({0, 0, -1e-3 - 1.1 * reach}));
+  ASSERT_TRUE(crossing);
+  EXPECT_EQ(crossing->body, 0);
+  EXPECT_EQ(crossing->through, 1);
 }
 
 // Tissue that is tied to a bone lies in it, and moves with it.

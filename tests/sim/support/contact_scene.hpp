@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "collision/mesh/surface.hpp"
 #include "sim/mesh/shapes.hpp"
 #include "tests/sim/support/scene.hpp"
 #include "tests/sim/support/temporary_folder.hpp"
@@ -61,6 +62,15 @@ MeshData bent(const BoxGeometry& box, Map&& map) {
   MeshData mesh = box_mesh(box);
   for (Eigen::Index i = 0; i < mesh.X.cols(); ++i) mesh.X.col(i) = map(Vec3(mesh.X.col(i)));
   return mesh;
+}
+
+/// The surface of a box, without the elements.
+inline MeshData skin_of(const BoxGeometry& box) {
+  const MeshData solid = box_mesh(box);
+  MeshData skin;
+  skin.X = solid.X;
+  skin.triangles = collision::build_surface(solid.tets, static_cast<int>(solid.X.cols())).faces;
+  return skin;
 }
 
 /// Positions of a tissue's nodes now [m].
