@@ -1,11 +1,14 @@
 #include "fem/simd/element_kernels.hpp"
 
 #include <Eigen/Core>
+#include <atomic>
 
 #include "fem/base/rotation_svd.hpp"
 
 namespace articular::fem {
 namespace {
+
+std::atomic<bool> keeps_to_baseline = false;
 
 const ElementKernels& kernels_of(InstructionSet set) {
   switch (set) {
@@ -21,7 +24,10 @@ const ElementKernels& kernels_of(InstructionSet set) {
 
 }  // namespace
 
+void keep_to_baseline() { keeps_to_baseline = true; }
+
 InstructionSet best_instruction_set() {
+  if (keeps_to_baseline) return InstructionSet::Baseline;
   if (__builtin_cpu_supports("avx512f")) return InstructionSet::Avx512;
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return InstructionSet::Avx2;
   return InstructionSet::Baseline;

@@ -7,8 +7,10 @@ namespace articular::fem {
 
 enum class InstructionSet { Baseline, Avx2, Avx512 };
 
-/// The best one that this machine has.
+/// The best one that this machine has, or after keep_to_baseline() the one that all have. Fused
+/// products and sums round otherwise than two instructions.
 InstructionSet best_instruction_set();
+void keep_to_baseline();
 
 /// The kernels of one law. Sums run in the order of the elements.
 struct LawKernels {

@@ -32,8 +32,7 @@ void Dynamics::set_candidates(std::span<const CandidateList> candidates) {
 
 void Dynamics::forget() {
   matrix_.forget();
-  contact_.drop_multipliers();
-  contact_.drop_friction_duals();
+  contact_.forget();
 }
 
 void Dynamics::find_pressure(std::size_t t, const PredictedPressures& pressures) {
@@ -285,9 +284,9 @@ std::vector<ContactSummary> Dynamics::contacts() const {
   return contact_summaries(model_, contact_, moment_.configuration);
 }
 
-ContactSummary Dynamics::contact_summary(int contact) const {
+ContactSummary Dynamics::contact_summary(ContactId contact) const {
   return summary_through(model_, contact_, moment_.configuration, contact,
-                         model_.contacts[static_cast<std::size_t>(contact)].a, {});
+                         model_.contacts[contact].a, {});
 }
 
 }  // namespace articular::sim

@@ -59,7 +59,7 @@ class Dynamics {
   /// See contact_summaries().
   std::vector<ContactSummary> contacts() const;
   /// Of one contact of the model.
-  ContactSummary contact_summary(int contact) const;
+  ContactSummary contact_summary(ContactId contact) const;
 
   /// ẏ from the forces of now().
   void rate(const double* y, double* y_dot) const;

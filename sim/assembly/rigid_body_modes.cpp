@@ -4,6 +4,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "fem/sparse/pressure_term.hpp"
 #include "sim/model/newton_weights.hpp"
@@ -18,11 +25,17 @@ constexpr double kFree = 1e-10;
 /// A motion counts as driven when forces do more work on it than this part of the largest force.
 constexpr double kDriven = 1e-6;
 
+/// More bodies that hang together, or touch each other, are not looked at: it would take the cube
+/// of their number.
+constexpr std::size_t kMostTogether = 100;
+
 /// Six rigid motions of one body, of its unknown blocks.
 struct BodyMotions {
   int body = 0;
-  Vec3 center = Vec3::Zero();  // [m]
-  double radius = 0;           // [m] farthest point from there
+  Vec3 center = Vec3::Zero();              // [m]
+  double radius = 0;                       // [m] farthest point from there
+  std::vector<int> blocks;                 // that move,
+  std::array<std::vector<Vec3>, 6> moves;  // and how: three translations, three turns by 1/radius
 };
 
 /// Free blocks of a body and where they are; a rigid body's own two blocks are added by the caller.
@@ -72,7 +85,10 @@ std::vector<char> held_by_attachments(const Model& model) {
       if (tissue_is_held[t] || !ties(tissue, [&](int r) { return is_held[of(r)] != 0; })) continue;
       tissue_is_held[t] = 1;
       goes_on = true;
-      for (int r = 0; r < static_cast<int>(is_held.size()); ++r)
+      std::set<int> carriers;
+      for (const NodeRef& node : tissue.nodes)
+        if (node.rigid >= 0) carriers.insert(node.rigid);
+      for (const int r : carriers)
         if (!is_held[of(r)]) is_held[of(r)] = ties(tissue, [&](int other) { return other == r; });
     }
   }
@@ -83,41 +99,108 @@ std::vector<char> held_by_attachments(const Model& model) {
   return result;
 }
 
-/// Appends the columns of a body: three translations, three turns by 1/radius about its centre.
+/// None of a body without unknowns.
 void append_motions(const Model& model, const Configuration& now, int b,
-                    std::vector<BodyMotions>& bodies, std::vector<Eigen::VectorXd>& columns) {
+                    std::vector<BodyMotions>& bodies) {
   const BodyModel& body = model.bodies[static_cast<std::size_t>(b)];
   const bool is_rigid =
       body.rigid >= 0 && model.rigid_bodies[static_cast<std::size_t>(body.rigid)].unknown;
   const auto nodes = free_nodes(model, now, body);
   if (!is_rigid && nodes.empty()) return;
-  BodyMotions motions{.body = b};
+  BodyMotions motions;
+  motions.body = b;
   if (is_rigid) {
     const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
     motions.center = now.poses[static_cast<std::size_t>(body.rigid)].p;
     motions.radius = turning_radius(rigid);
+    motions.blocks = {rigid.block, rigid.block + 1};
   } else {
     for (const auto& [block, x] : nodes) motions.center += x / static_cast<double>(nodes.size());
-    for (const auto& [block, x] : nodes)
+    for (const auto& [block, x] : nodes) {
       motions.radius = std::max(motions.radius, (x - motions.center).norm());
+      motions.blocks.push_back(block);
+    }
   }
   for (int k = 0; k < 6; ++k) {
-    Eigen::VectorXd column = Eigen::VectorXd::Zero(3 * model.layout.num_unknown_blocks());
     Vec3 axis = Vec3::Unit(k % 3);
+    std::vector<Vec3>& move = motions.moves[static_cast<std::size_t>(k)];
     if (is_rigid) {
       const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
-      const int row = 3 * rigid.block;
       if (rigid.hold) axis = rigid.hold->axes.col(k % 3);
       if (rigid.hold && rigid.hold->held[static_cast<std::size_t>(k)]) axis.setZero();
-      if (k < 3) column.segment<3>(row) = axis;
-      if (k >= 3) column.segment<3>(row + 3) = axis / motions.radius;
+      const Vec3 none = Vec3::Zero();
+      move = k < 3 ? std::vector{axis, none} : std::vector<Vec3>{none, axis / motions.radius};
+      continue;
     }
     for (const auto& [block, x] : nodes)
-      column.segment<3>(3 * block) =
-          k < 3 ? axis : Vec3(axis.cross(x - motions.center) / motions.radius);
-    columns.push_back(std::move(column));
+      move.push_back(k < 3 ? axis : Vec3(axis.cross(x - motions.center) / motions.radius));
   }
-  bodies.push_back(motions);
+  bodies.push_back(std::move(motions));
+}
+
+double dot(const BodyMotions& body, int k, const Eigen::VectorXd& v) {
+  double sum = 0;
+  const std::vector<Vec3>& move = body.moves[static_cast<std::size_t>(k)];
+  for (std::size_t i = 0; i < move.size(); ++i)
+    sum += move[i].dot(v.segment<3>(3 * body.blocks[i]));
+  return sum;
+}
+
+/// Sets of bodies, each with its number in a list, that grow together.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int root(int i) {
+    while (parent_[static_cast<std::size_t>(i)] != i) {
+      int& up = parent_[static_cast<std::size_t>(i)];
+      up = parent_[static_cast<std::size_t>(up)];
+      i = up;
+    }
+    return i;
+  }
+  void unite(int i, int j) {
+    const auto [low, high] = std::minmax(root(i), root(j));
+    parent_[static_cast<std::size_t>(high)] = low;
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// Bodies, by their numbers in the list, that the stiffness couples with each other, however
+/// indirectly; pressures couple all that a tissue's nodes move with.
+std::vector<std::vector<int>> coupled_groups(const Model& model, const fem::BlockMatrix& K,
+                                             const std::vector<BodyMotions>& bodies) {
+  std::vector<int> owner(static_cast<std::size_t>(K.num_blocks()), -1);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (const int block : bodies[b].blocks)
+      owner[static_cast<std::size_t>(block)] = static_cast<int>(b);
+  Sets sets(bodies.size());
+  for (int i = 0; i < K.num_blocks(); ++i)
+    for (int s = K.row_begin()[static_cast<std::size_t>(i)];
+         s < K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
+      const int p = owner[static_cast<std::size_t>(i)],
+                q = owner[static_cast<std::size_t>(K.column()[static_cast<std::size_t>(s)])];
+      if (p >= 0 && q >= 0 && p != q && !K.block(s).isZero(0)) sets.unite(p, q);
+    }
+  for (const Tissue& tissue : model.tissues) {
+    int first = -1;
+    for (const NodeRef& node : tissue.nodes) {
+      const bool is_unknown = node.rigid < model.layout.num_rigid;
+      const int p = is_unknown ? owner[static_cast<std::size_t>(node.block)] : -1;
+      if (p < 0) continue;
+      if (first < 0) first = p;
+      sets.unite(first, p);
+    }
+  }
+  std::map<int, std::vector<int>> by_root;
+  for (int b = 0; b < static_cast<int>(bodies.size()); ++b) by_root[sets.root(b)].push_back(b);
+  std::vector<std::vector<int>> groups;
+  for (auto& [root, group] : by_root)
+    if (group.size() <= kMostTogether) groups.push_back(std::move(group));
+  return groups;
 }
 
 /// To two decimals, without a negative zero.
@@ -147,53 +230,120 @@ std::string rigid_motion_in_words(const Vec3& shift, const Vec3& turn, const Vec
                      axis.x(), axis.y(), axis.z(), mm.x(), mm.y(), mm.z());
 }
 
+namespace {
+
+/// Zᵀ K Z of the motions Z of some bodies, and Zᵀ f.
+struct Projected {
+  Eigen::MatrixXd stiffness;
+  Eigen::VectorXd drive;
+};
+
+/// Of each group. As they are not coupled, the same column of all takes one product.
+std::vector<Projected> projected(const std::vector<std::vector<int>>& groups,
+                                 const std::vector<BodyMotions>& bodies,
+                                 const NewtonEquations& equations, double stiffest,
+                                 const Eigen::VectorXd& forces) {
+  const auto motions = [&](const std::vector<int>& group, Eigen::Index column) -> const auto& {
+    return bodies[static_cast<std::size_t>(group[static_cast<std::size_t>(column / 6)])];
+  };
+  fem::PressureOperator by_pressure;
+  by_pressure.set(equations.pressure.terms);
+  std::vector<Projected> result;
+  Eigen::Index most = 0;
+  for (const std::vector<int>& group : groups) {
+    const auto n = 6 * static_cast<Eigen::Index>(group.size());
+    result.push_back({Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)});
+    most = std::max(most, n);
+  }
+  Eigen::VectorXd columns, product;
+  for (Eigen::Index j = 0; j < most; ++j) {
+    columns = Eigen::VectorXd::Zero(3 * equations.A.num_blocks());
+    const auto k = static_cast<int>(j % 6);
+    const auto for_each = [&](const auto& visit) {
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        if (j < result[g].drive.size()) visit(groups[g], motions(groups[g], j), result[g]);
+    };
+    for_each([&](const auto&, const BodyMotions& body, const auto&) {
+      for (std::size_t i = 0; i < body.blocks.size(); ++i)
+        columns.segment<3>(3 * body.blocks[i]) = body.moves[static_cast<std::size_t>(k)][i];
+    });
+    equations.A.multiply(columns, product);
+    by_pressure.add_product(columns, product);
+    for_each([&](const std::vector<int>& group, const BodyMotions& body, Projected& of_group) {
+      for (Eigen::Index i = 0; i < of_group.drive.size(); ++i)
+        of_group.stiffness(i, j) = dot(motions(group, i), static_cast<int>(i % 6), product);
+      of_group.drive[j] = dot(body, k, forces);
+      if (dot(body, k, columns) == 0) of_group.stiffness(j, j) = stiffest;  // held
+    });
+  }
+  return result;
+}
+
+/// The null space of a stiffness, and what of a drive lies in it.
+struct FreeMotions {
+  Eigen::MatrixXd all;
+  Eigen::VectorXd driven;
+};
+
+FreeMotions free_motions(const Projected& of_group, double limit) {
+  const Eigen::MatrixXd& K = of_group.stiffness;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (K + K.transpose()));
+  Eigen::Index count = 0;
+  while (count < K.cols() && eigen.eigenvalues()[count] <= limit) ++count;
+  FreeMotions found{eigen.eigenvectors().leftCols(count), {}};
+  found.driven = found.all * (found.all.transpose() * of_group.drive);
+  return found;
+}
+
+}  // namespace
+
 std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& dynamics) {
   std::vector<BodyMotions> bodies;
-  std::vector<Eigen::VectorXd> columns;
   const std::vector<char> is_held = held_by_attachments(model);
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
     if (!is_held[static_cast<std::size_t>(b)])
-      append_motions(model, dynamics.now().configuration, b, bodies, columns);
-  if (columns.empty()) return std::nullopt;
+      append_motions(model, dynamics.now().configuration, b, bodies);
+  if (bodies.empty()) return std::nullopt;
 
-  const NewtonEquations stiffness = dynamics.assemble({0, 0, 1}, fem::Tangent::Consistent);
-  const fem::BlockMatrix& K = stiffness.A;
-  fem::PressureOperator by_pressure;
-  by_pressure.set(stiffness.pressure.terms);
-  const auto n = static_cast<Eigen::Index>(columns.size());
-  Eigen::MatrixXd projected(n, n);
-  Eigen::VectorXd product, drive(n);
-  const double stiffest = stiffest_node(model, K);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const Eigen::VectorXd& column = columns[static_cast<std::size_t>(j)];
-    K.multiply(column, product);
-    by_pressure.add_product(column, product);
-    for (Eigen::Index i = 0; i < n; ++i)
-      projected(i, j) = columns[static_cast<std::size_t>(i)].dot(product);
-    drive[j] = column.dot(dynamics.now().forces.head(column.size()));
-    if (column.isZero(0)) projected(j, j) = stiffest;  // held
+  const NewtonEquations equations = dynamics.assemble({0, 0, 1}, fem::Tangent::Consistent);
+  const double stiffest = stiffest_node(model, equations.A);
+  const auto groups = coupled_groups(model, equations.A, bodies);
+  std::vector<Eigen::VectorXd> motions;  // of each group
+  std::optional<std::size_t> first_free;
+  Eigen::VectorXd any;
+  double squares = 0;
+  for (const Projected& of_group :
+       projected(groups, bodies, equations, stiffest, dynamics.now().forces)) {
+    const FreeMotions found = free_motions(of_group, kFree * stiffest);
+    if (found.all.cols() > 0 && !first_free) {
+      first_free = motions.size();
+      any = found.all.col(0);
+    }
+    motions.push_back(found.driven);
+    squares += found.driven.squaredNorm();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 *
-                                                             (projected + projected.transpose()));
-  Eigen::Index num_free = 0;
-  const double limit = kFree * stiffest;
-  while (num_free < n && eigen.eigenvalues()[num_free] <= limit) ++num_free;
-  if (num_free == 0) return std::nullopt;
-
-  const auto null_space = eigen.eigenvectors().leftCols(num_free);
-  Eigen::VectorXd motion = null_space * (null_space.transpose() * drive);
-  if (!(motion.norm() > kDriven * dynamics.now().largest_force)) motion = null_space.col(0);
-  const auto part = [&](std::size_t b) -> Eigen::Matrix<double, 6, 1> {
-    return motion.segment<6>(6 * static_cast<Eigen::Index>(b));
-  };
-  std::size_t most = 0;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (part(b).norm() > part(most).norm()) most = b;
-  const BodyMotions& body = bodies[most];
+  if (!first_free) return std::nullopt;
+  if (!(std::sqrt(squares) > kDriven * dynamics.now().largest_force)) {
+    for (Eigen::VectorXd& motion : motions) motion.setZero();
+    motions[*first_free] = any;
+  }
+  Eigen::Matrix<double, 6, 1> part = Eigen::Matrix<double, 6, 1>::Zero();
+  const BodyMotions* most = nullptr;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t i = 0; i < groups[g].size(); ++i) {
+      const Eigen::Matrix<double, 6, 1> own =
+          motions[g].segment<6>(6 * static_cast<Eigen::Index>(i));
+      const BodyMotions& body = bodies[static_cast<std::size_t>(groups[g][i])];
+      const bool is_most = most == nullptr || own.norm() > part.norm() ||
+                           (own.norm() == part.norm() && body.body < most->body);
+      if (!is_most) continue;
+      part = own;
+      most = &body;
+    }
   return RigidBodyMode{
-      body.body,
-      fmt::format("body `{}` can {}", model.bodies[static_cast<std::size_t>(body.body)].name,
-                  rigid_motion_in_words(part(most).head<3>(), part(most).tail<3>(), body.center))};
+      most->body,
+      fmt::format("body `{}` can {}", model.bodies[static_cast<std::size_t>(most->body)].name,
+                  rigid_motion_in_words(part.head<3>(), part.tail<3>(), most->center))};
 }
 
 }  // namespace articular::sim

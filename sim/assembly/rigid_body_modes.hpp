@@ -22,7 +22,8 @@ std::string rigid_motion_in_words(const Vec3& shift, const Vec3& turn, const Vec
 /// Looks for one at the last Dynamics::evaluate(), among the rigid motions Z of all bodies (tissue
 /// that is tied to a rigid body moves with it; what attachments hold, directly or through other
 /// tissue, has none): in the null space of Zᵀ K Z, the motion that the forces drive, or any if
-/// they drive none.
+/// they drive none. Of bodies that the stiffness couples, more than a hundred with each other, none
+/// is looked at.
 std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& dynamics);
 
 }  // namespace articular::sim

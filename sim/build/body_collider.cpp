@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <unordered_set>
+#include <vector>
 
 #include "sim/build/collider.hpp"
 #include "sim/model/tissue.hpp"
+#include "sim/scenario/name_pattern.hpp"
 
 namespace articular::sim {
 namespace {
@@ -24,16 +28,26 @@ constexpr double kBoneReach = 0.9;
 /// Cortical bone, where a bone meets a bone without a layer between: E [Pa], nu.
 constexpr double kBoneModulus = 15e9, kBonePoisson = 0.3;
 
-bool can_touch(const Scenario& scenario, std::size_t b) {
-  if (!scenario.contact || !scenario.bodies[b].collides) return false;
-  if (!scenario.contacts.empty()) {
-    return std::any_of(
-        scenario.contacts.begin(), scenario.contacts.end(), [&](const ContactPair& pair) {
-          return pair.a == scenario.bodies[b].name || pair.b == scenario.bodies[b].name;
-        });
+/// The names of bodies that [[contact]] has, and the patterns.
+struct NamedInContacts {
+  std::unordered_set<std::string> names;
+  std::vector<std::string> patterns;
+
+  explicit NamedInContacts(const Scenario& scenario) {
+    for (const ContactPair& pair : scenario.contacts)
+      for (const std::string& name : {pair.a, pair.b})
+        if (is_pattern(name))
+          patterns.push_back(name);
+        else
+          names.insert(name);
+    if (scenario.contacts.empty() && scenario.bodies.size() > 1) patterns.emplace_back("*");
   }
-  return scenario.bodies.size() > 1;
-}
+  bool has(const std::string& name) const {
+    return names.contains(name) ||
+           std::any_of(patterns.begin(), patterns.end(),
+                       [&](const std::string& pattern) { return fits(pattern, name); });
+  }
+};
 
 Collider tissue_collider(const Model& model, std::size_t b) {
   const Tissue& tissue = model.tissues[static_cast<std::size_t>(model.bodies[b].tissue)];
@@ -126,9 +140,11 @@ Collider rigid_collider(const Body& body, const BodyGeometry& geometry, std::siz
 
 void make_colliders(const Scenario& scenario, const std::vector<BodyGeometry>& geometry,
                     Model& model) {
+  if (!scenario.contact) return;
+  const NamedInContacts named(scenario);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!can_touch(scenario, b)) continue;
     const Body& body = scenario.bodies[b];
+    if (!body.collides || !named.has(body.name)) continue;
     try {
       if (model.bodies[b].tissue >= 0)
         model.bodies[b].collider = tissue_collider(model, b);

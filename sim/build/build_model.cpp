@@ -262,22 +262,26 @@ class Builder {
 
   /// Tissue nodes attached to a body add their mass to it; a rigid one's centre of mass moves.
   void carry_tissue_mass() {
+    for (const Tissue& tissue : model_.tissues)
+      for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+        if (tissue.nodes[i].rigid < 0) continue;
+        RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(tissue.nodes[i].rigid)];
+        const auto column = static_cast<Eigen::Index>(i);
+        rigid.mass =
+            join(rigid.mass, {tissue.lumped_mass[column], tissue.X.col(column), Mat3::Zero()});
+      }
+    std::vector<Vec3> shift(model_.rigid_bodies.size(), Vec3::Zero());
     for (std::size_t r = 0; r < model_.rigid_bodies.size(); ++r) {
       RigidBody& rigid = model_.rigid_bodies[r];
-      const Vec3 old_center = rigid.rest.p;
-      for (const Tissue& tissue : model_.tissues)
-        for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
-          if (tissue.nodes[i].rigid == static_cast<int>(r))
-            rigid.mass =
-                join(rigid.mass, {tissue.lumped_mass[static_cast<Eigen::Index>(i)],
-                                  tissue.X.col(static_cast<Eigen::Index>(i)), Mat3::Zero()});
       if (!rigid.unknown) continue;
+      const Vec3 old_center = rigid.rest.p;
       rigid.rest.p = reference_point(rigid);
       rigid.start.linear += rigid.start.angular.cross(rigid.rest.p - old_center);
-      for (Tissue& tissue : model_.tissues)
-        for (NodeRef& node : tissue.nodes)
-          if (node.rigid == static_cast<int>(r)) node.local += old_center - rigid.rest.p;
+      shift[r] = old_center - rigid.rest.p;
     }
+    for (Tissue& tissue : model_.tissues)
+      for (NodeRef& node : tissue.nodes)
+        if (node.rigid >= 0) node.local += shift[static_cast<std::size_t>(node.rigid)];
     for (const RigidBody& rigid : model_.rigid_bodies) {
       const auto b = static_cast<std::size_t>(rigid.body);
       model_.bodies[b].X = geometry_[b].mesh.X.colwise() - rigid.rest.p;
@@ -427,7 +431,6 @@ Model with_pointwise_contact(Model model, Scenario scenario) {
   scenario.analysis = Scenario::Analysis::Dynamic;
   scenario.contact_response = Scenario::Response::Pointwise;
   model.is_static = false;
-  model.contacts.clear();
   make_contacts(scenario, model);
   model.linear_solver = choose_linear_solver(scenario, model);
   return model;

@@ -10,6 +10,7 @@
 
 #include "sim/base/error.hpp"
 #include "sim/mesh/triangle_tree.hpp"
+#include "sim/model/near_contacts.hpp"
 
 namespace articular::sim {
 namespace {
@@ -116,7 +117,8 @@ bool are_tied(const Model& model, const ContactModel& contact) {
 }
 
 void refuse_coincident_bodies(const Scenario& scenario, const Model& model) {
-  for (const ContactModel& contact : model.contacts) {
+  for (const ContactId id : contacts_near_at_start(model, kSame)) {
+    const ContactModel contact = model.contacts[id];
     if (contact.a == contact.b || are_tied(model, contact)) continue;
     const BodyModel &a = model.bodies[static_cast<std::size_t>(contact.a)],
                     &b = model.bodies[static_cast<std::size_t>(contact.b)];
@@ -129,7 +131,8 @@ void refuse_coincident_bodies(const Scenario& scenario, const Model& model) {
 }
 
 void refuse_bodies_within_others(const Scenario& scenario, const Model& model) {
-  for (const ContactModel& contact : model.contacts) {
+  for (const ContactId id : contacts_near_at_start(model, kSame)) {
+    const ContactModel contact = model.contacts[id];
     if (contact.a == contact.b || are_tied(model, contact)) continue;
     for (const auto& [inner, outer] :
          {std::pair(contact.a, contact.b), std::pair(contact.b, contact.a)}) {

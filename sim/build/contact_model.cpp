@@ -4,10 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <numeric>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "sim/model/tissue.hpp"
+#include "sim/scenario/name_pattern.hpp"
 
 namespace articular::sim {
 namespace {
@@ -27,14 +34,17 @@ constexpr double kSoftFactor = 10, kFirmFactor = 100, kStiffFactor = 1000;
 /// gets more: a thin layer that is bonded to bone can give way no more than a column.
 constexpr double kMostPunches = 1, kMostPunchesAtRest = 10;
 
-/// What the compliance of a body's side is to be multiplied by for that: 1 of rigid bodies.
-double softening(const Model& model, int body) {
-  const int t = model.bodies[static_cast<std::size_t>(body)].tissue;
-  if (t < 0) return 1;
-  const Tissue& tissue = model.tissues[static_cast<std::size_t>(t)];
-  const double most = model.is_static ? kMostPunchesAtRest : kMostPunches;
-  return std::max(1.0, constrained_modulus(tissue) / (most * punch_modulus(tissue)));
-}
+/// What of a body's side decides how it touches others.
+struct Side {
+  bool is_there = false;  // it can touch something
+  bool is_tissue = false, is_fixed = false;
+  double softening = 1;   // what the compliance is to be multiplied by for that: 1 of rigid bodies
+  double compliance = 0;  // mean one of the surface, softened [m/Pa]
+  double layer = 0;       // compliance of the layer on it [m/Pa]
+  double size = 0;        // mean height of the elements at the surface [m]
+  double mean_face_area = 0;  // [m²]
+  double modulus = 0;         // of a punch, of tissue [Pa]
+};
 
 /// Of the elements at the surface: what friction at 0.7 of its limit creeps in a second, or in a
 /// thousand steps where these take longer. A finer step creeps no faster, and a scene of hours with
@@ -49,67 +59,139 @@ double mean_face_area(const Collider& collider) {
          static_cast<double>(std::max<std::size_t>(1, collider.face_area.size()));
 }
 
+Side side_of(const Model& model, const BodyModel& body) {
+  Side side;
+  if (!body.collider) return side;
+  side.is_there = true;
+  side.is_fixed = body.kind == Body::Kind::Fixed;
+  side.is_tissue = body.tissue >= 0;
+  if (side.is_tissue) {
+    const Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
+    const double most = model.is_static ? kMostPunchesAtRest : kMostPunches;
+    side.modulus = punch_modulus(tissue);
+    side.softening = std::max(1.0, constrained_modulus(tissue) / (most * side.modulus));
+  }
+  side.compliance = side.softening * body.collider->mean_compliance;
+  side.layer = body.collider->layer_compliance;
+  side.size = body.collider->size;
+  side.mean_face_area = mean_face_area(*body.collider);
+  return side;
+}
+
 /// Whose triangles look for the other's faces, and at whose nodes depths are averaged: of tissue
 /// where it meets rigid body, of the softer or, much alike, the finer of two tissues, of the finer
 /// of two rigid bodies. Both sides at once would hold the bodies apart at more nodes than the
 /// coarser one has to give way with, and cost twice as much.
-bool is_nonmortar(const Model& model, int a, int b, const Collider& A, const Collider& B) {
+bool is_nonmortar(const Side& a, const Side& b) {
   constexpr double kMuchSofter = 3;
-  const auto modulus = [&](int body) {
-    const int tissue = model.bodies[static_cast<std::size_t>(body)].tissue;
-    return punch_modulus(model.tissues[static_cast<std::size_t>(tissue)]);
-  };
-  const bool soft_a = model.bodies[static_cast<std::size_t>(a)].tissue >= 0;
-  const bool soft_b = model.bodies[static_cast<std::size_t>(b)].tissue >= 0;
-  if (soft_a != soft_b) return soft_a;
-  if (soft_a && modulus(a) > kMuchSofter * modulus(b)) return false;
-  if (soft_a && modulus(b) > kMuchSofter * modulus(a)) return true;
-  return mean_face_area(A) <= mean_face_area(B);
+  if (a.is_tissue != b.is_tissue) return a.is_tissue;
+  if (a.is_tissue && a.modulus > kMuchSofter * b.modulus) return false;
+  if (a.is_tissue && b.modulus > kMuchSofter * a.modulus) return true;
+  return a.mean_face_area <= b.mean_face_area;
 }
 
-void add_contact(const Scenario& scenario, int a, int b, const ContactPair& pair, Model& model) {
-  const auto& A = model.bodies[static_cast<std::size_t>(a)].collider;
-  const auto& B = model.bodies[static_cast<std::size_t>(b)].collider;
-  if (!A || !B) return;
-  ContactModel contact;
-  contact.a = a;
-  contact.b = b;
-  const bool is_static = model.is_static;
-  const Scenario::Response response = scenario.contact_response;
-  // In time two rigid bodies count depths point by point: there is no tissue whose facets averages
-  // let give way, and where edges slip off each other stiff contact would make energy.
-  const bool has_tissue = model.bodies[static_cast<std::size_t>(a)].tissue >= 0 ||
-                          model.bodies[static_cast<std::size_t>(b)].tissue >= 0;
-  contact.averaged = is_static || (has_tissue && response == Scenario::Response::Averaged);
-  contact.share = a == b ? 0.5 : 1;
-  const double factor = contact_stiffness_factor(scenario, contact.averaged);
-  const double layers = A->layer_compliance + B->layer_compliance;
-  const double mean_a = softening(model, a) * A->mean_compliance;
-  const double mean_b = softening(model, b) * B->mean_compliance;
-  contact.mean_stiffness = 1 / ((mean_a + mean_b) / factor + layers);
-  contact.max_penetration = kMaxPenetration * std::min(A->size, B->size);
-  // The depth of a layer is its own compression.
-  contact.is_bounded = layers == 0 && is_static;
-  contact.reversed = a != b && !is_nonmortar(model, a, b, *A, *B);
-  const Collider& nonmortar = contact.reversed ? *B : *A;
-  const double softened = softening(model, contact.reversed ? b : a);
-  const double mean_other = contact.reversed ? mean_a : mean_b;
-  const auto of_groups = [&](double c) {
-    if (!contact.averaged)
-      return Eigen::VectorXd::Constant(std::ssize(nonmortar.group_node),
-                                       contact.share * contact.mean_stiffness)
-          .eval();
-    const Eigen::ArrayXd compliance = softened * nonmortar.compliance(nonmortar.group_node).array();
-    return (contact.share / ((compliance + mean_other) / c + layers)).matrix().eval();
-  };
-  contact.stiffness = of_groups(factor);
-  contact.soft = of_groups(kSoftFactor);
-  contact.law.friction = pair.friction;
-  contact.law.damping = contact.share * pair.damping;
-  contact.law.slip_velocity =
-      pair.slip_velocity.value_or(kCreep * std::min(A->size, B->size) /
-                                  std::max(kCreepTime, kCreepSteps * scenario.integrator.step));
-  model.contacts.push_back(std::move(contact));
+/// Makes pairs of a scene's bodies: all that it needs of scene and bodies.
+struct PairMaker {
+  std::vector<Side> sides;  // one a body
+  bool is_static = false;
+  Scenario::Response response = Scenario::Response::Averaged;
+  double factor_of_averages = 1, factor_of_points = 1;
+  double step = 0;  // [s]
+
+  PairMaker(const Scenario& scenario, const Model& model)
+      : is_static(model.is_static),
+        response(scenario.contact_response),
+        factor_of_averages(contact_stiffness_factor(scenario, true)),
+        factor_of_points(contact_stiffness_factor(scenario, false)),
+        step(scenario.integrator.step) {
+    for (const BodyModel& body : model.bodies) sides.push_back(side_of(model, body));
+  }
+
+  ContactModel make(int a, int b, const ContactPair& pair) const {
+    const Side &A = sides[static_cast<std::size_t>(a)], &B = sides[static_cast<std::size_t>(b)];
+    ContactModel contact;
+    contact.a = a;
+    contact.b = b;
+    // In time two rigid bodies count depths point by point: there is no tissue whose facets
+    // averages let give way, and where edges slip off each other stiff contact would make energy.
+    contact.averaged =
+        is_static || ((A.is_tissue || B.is_tissue) && response == Scenario::Response::Averaged);
+    contact.share = a == b ? 0.5 : 1;
+    contact.factor = contact.averaged ? factor_of_averages : factor_of_points;
+    contact.soft_factor = kSoftFactor;
+    contact.layers = A.layer + B.layer;
+    contact.mean_stiffness = 1 / ((A.compliance + B.compliance) / contact.factor + contact.layers);
+    contact.max_penetration = kMaxPenetration * std::min(A.size, B.size);
+    // The depth of a layer is its own compression.
+    contact.is_bounded = contact.layers == 0 && is_static;
+    contact.reversed = a != b && !is_nonmortar(A, B);
+    contact.softening = contact.reversed ? B.softening : A.softening;
+    contact.opposite = contact.reversed ? A.compliance : B.compliance;
+    contact.law.friction = pair.friction;
+    contact.law.damping = contact.share * pair.damping;
+    contact.law.slip_velocity = pair.slip_velocity.value_or(
+        kCreep * std::min(A.size, B.size) / std::max(kCreepTime, kCreepSteps * step));
+    return contact;
+  }
+};
+
+/// What the scenario says of contact, sorted.
+struct Entries {
+  std::vector<ContactPair> named, patterns;  // of patterns first those that hold before others
+
+  explicit Entries(const Scenario& scenario) {
+    for (const ContactPair& pair : scenario.contacts)
+      (num_patterns(pair) == 0 ? named : patterns).push_back(pair);
+    std::reverse(patterns.begin(), patterns.end());
+    std::stable_sort(patterns.begin(), patterns.end(),
+                     [](const ContactPair& p, const ContactPair& q) {
+                       return num_patterns(p) < num_patterns(q);
+                     });
+    if (scenario.contacts.empty()) patterns.push_back({"*", "*", {}});
+  }
+
+ private:
+  static int num_patterns(const ContactPair& pair) {
+    return (is_pattern(pair.a) ? 1 : 0) + (is_pattern(pair.b) ? 1 : 0);
+  }
+};
+
+std::vector<ContactPairs::Named> named_pairs(const Scenario& scenario, const Entries& entries,
+                                             const std::vector<Side>& sides) {
+  std::unordered_map<std::string_view, int> index;
+  for (const Body& body : scenario.bodies)
+    index.try_emplace(body.name, static_cast<int>(index.size()));
+  std::vector<ContactPairs::Named> named;
+  for (std::size_t entry = 0; entry < entries.named.size(); ++entry) {
+    const ContactPair& pair = entries.named[entry];
+    const int a = index.at(pair.a), b = index.at(pair.b);
+    for (const int body : {a, b})
+      if (!sides[static_cast<std::size_t>(body)].is_there)
+        throw InputError(pair.where,
+                         fmt::format("body `{}` has nothing to touch with: it needs a mesh and "
+                                     "must not have collides = false",
+                                     scenario.bodies[static_cast<std::size_t>(body)].name));
+    named.push_back({a, b, entry});
+  }
+  return named;
+}
+
+std::vector<ContactPairs::Member> members(const Scenario& scenario, const Entries& entries,
+                                          const std::vector<Side>& sides) {
+  std::vector<ContactPairs::Member> result(sides.size());
+  for (std::size_t b = 0; b < sides.size(); ++b) {
+    if (!sides[b].is_there) continue;
+    ContactPairs::Member& member = result[b];
+    for (std::size_t p = 0; p < entries.patterns.size(); ++p) {
+      const std::uint64_t bit = std::uint64_t{1} << p;
+      if (fits(entries.patterns[p].a, scenario.bodies[b].name)) member.first |= bit;
+      if (fits(entries.patterns[p].b, scenario.bodies[b].name)) member.second |= bit;
+    }
+    member.is_fixed = sides[b].is_fixed;
+    member.is_tissue = sides[b].is_tissue;
+    member.size = sides[b].size;
+  }
+  return result;
 }
 
 }  // namespace
@@ -123,26 +205,17 @@ double contact_stiffness_factor(const Scenario& scenario, bool averaged) {
 }
 
 void make_contacts(const Scenario& scenario, Model& model) {
+  model.contacts = {};
   if (!scenario.contact) return;
-  for (const ContactPair& pair : scenario.contacts) {
-    const int a = body_index(scenario, pair.a), b = body_index(scenario, pair.b);
-    for (const int body : {a, b})
-      if (!model.bodies[static_cast<std::size_t>(body)].collider)
-        throw InputError(pair.where,
-                         fmt::format("body `{}` has nothing to touch with: it needs a mesh and "
-                                     "must not have collides = false",
-                                     model.bodies[static_cast<std::size_t>(body)].name));
-    add_contact(scenario, a, b, pair, model);
-  }
-  if (!scenario.contacts.empty()) return;
-  const auto n = static_cast<int>(model.bodies.size());
-  for (int a = 0; a < n; ++a)
-    for (int b = a + 1; b < n; ++b) {
-      const auto fixed = [&](int body) {
-        return model.bodies[static_cast<std::size_t>(body)].kind == Body::Kind::Fixed;
-      };
-      if (!(fixed(a) && fixed(b))) add_contact(scenario, a, b, ContactPair{}, model);
-    }
+  const auto entries = std::make_shared<const Entries>(scenario);
+  const auto maker = std::make_shared<const PairMaker>(scenario, model);
+  model.contacts = {
+      named_pairs(scenario, *entries, maker->sides),
+      members(scenario, *entries, maker->sides),
+      {[=](const ContactPairs::Named& named) {
+         return maker->make(named.a, named.b, entries->named[named.entry]);
+       },
+       [=](int a, int b, std::size_t bit) { return maker->make(a, b, entries->patterns[bit]); }}};
 }
 
 double detection_margin(const Model& model) {

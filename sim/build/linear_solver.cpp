@@ -51,8 +51,7 @@ fem::SolverProblem problem_of(const Scenario& scenario, const Model& model) {
   problem.num_nodes = model.layout.num_free_nodes;
   problem.has_contact = !model.contacts.empty();
   problem.has_friction =
-      std::any_of(model.contacts.begin(), model.contacts.end(),
-                  [](const ContactModel& contact) { return contact.law.friction > 0; });
+      model.contacts.any([](const ContactModel& contact) { return contact.law.friction > 0; });
   problem.in_time = !model.is_static;
   problem.reach = 0;
   for (const Tissue& tissue : model.tissues) {

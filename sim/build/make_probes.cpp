@@ -38,18 +38,14 @@ struct Resolver {
               second = body_index(scenario, contact.second);
     ObservedContact observed;
     observed.body = first;
-    const auto pair = std::find_if(
-        model.contacts.begin(), model.contacts.end(), [&](const ContactModel& candidate) {
-          return std::minmax(candidate.a, candidate.b) == std::minmax(first, second);
-        });
-    if (pair == model.contacts.end() && first == second)
+    const std::optional<ContactId> pair = model.contacts.between(first, second);
+    if (!pair && first == second)
       throw InputError(probe.where,
                        fmt::format("probe `{}` observes contact of `{}` with itself, but it does "
                                    "not touch itself in this scene; expected two bodies, or a "
                                    "[[contact]] with self = \"{}\"",
                                    probe.name, contact.first, contact.first));
-    if (pair != model.contacts.end())
-      observed.contact = static_cast<int>(pair - model.contacts.begin());
+    if (pair) observed.contact = *pair;
     if (contact.region) observed.faces = faces_in(*contact.region, contact.first);
     return observed;
   }

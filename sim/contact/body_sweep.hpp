@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "collision/mesh/aabb.hpp"
 #include "fem/base/types.hpp"
 
 namespace articular::sim {
@@ -16,6 +17,10 @@ struct BodySweep {
     displacement.extend(Vec3(to - from));
   }
 };
+
+inline collision::Aabb box_of_way(const BodySweep& sweep) {
+  return {sweep.way.min(), sweep.way.max()};
+}
 
 /// No two points of the bodies move farther past each other [m].
 inline double most_relative_motion(const BodySweep& a, const BodySweep& b) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/mesh/triangle_tree.hpp"
+#include "sim/model/near_contacts.hpp"
 
 namespace articular::sim {
 namespace {
@@ -73,10 +74,10 @@ void count_tied(const Collider& tissue, int rigid, const std::vector<char>& tied
   }
 }
 
-ContactOverview overview_of(const Model& model, std::size_t index) {
-  const ContactModel& contact = model.contacts[index];
+ContactOverview overview_of(const Model& model, ContactId id) {
+  const ContactModel contact = model.contacts[id];
   ContactOverview overview;
-  overview.contact = static_cast<int>(index);
+  overview.contact = id;
   const BodyModel &a = body_of(model, contact.a), &b = body_of(model, contact.b);
   const Collider &A = *a.collider, &B = *b.collider;
   overview.can_move = !(stands_still(model, A) && stands_still(model, B));
@@ -99,8 +100,10 @@ ContactOverview overview_of(const Model& model, std::size_t index) {
 
 std::vector<ContactOverview> contact_overviews(const Model& model) {
   std::vector<ContactOverview> overviews;
-  for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    overviews.push_back(overview_of(model, c));
+  for (const ContactId contact : model.contacts.size() <= kMostOverviews
+                                     ? model.contacts.all()
+                                     : contacts_near_at_start(model, 0.5))
+    overviews.push_back(overview_of(model, contact));
   return overviews;
 }
 

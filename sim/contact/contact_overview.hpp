@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -10,7 +11,7 @@ namespace articular::sim {
 
 /// One pair of bodies at the start.
 struct ContactOverview {
-  int contact = 0;  // index into Model::contacts
+  ContactId contact = 0;
   /// [m] of a node of either from the other's surface, the least; what is tied to the other does
   /// not count. Infinite of a body with itself, and where all is tied.
   double distance = std::numeric_limits<double>::infinity();
@@ -22,6 +23,9 @@ struct ContactOverview {
   /// within half an element of it.
   int num_free_faces = 0, num_close_faces = 0;
 };
+/// Of more contacts than kMostOverviews only those of bodies whose boxes are nearer than an element
+/// of either.
+inline constexpr std::int64_t kMostOverviews = 1000;
 std::vector<ContactOverview> contact_overviews(const Model& model);
 
 /// The elements of a body's surface.

@@ -2,8 +2,8 @@
 
 namespace articular::sim {
 
-ContactSides sides_of(const Model& model, int contact) {
-  const ContactModel& pair = model.contacts[static_cast<std::size_t>(contact)];
+ContactSides sides_of(const Model& model, ContactId contact) {
+  const ContactModel pair = model.contacts[contact];
   const Collider& a = *model.bodies[static_cast<std::size_t>(pair.a)].collider;
   const Collider& b = *model.bodies[static_cast<std::size_t>(pair.b)].collider;
   return pair.reversed ? ContactSides{b, a, pair.b, pair.a} : ContactSides{a, b, pair.a, pair.b};

@@ -20,19 +20,22 @@ struct ContactPairState {
     int triangle = 0, face = 0;
     Vec3 measure_slope = Vec3::Zero();  // ∂A_a/∂W_a of the triangle's nodes; pointwise: 0
   };
-  int contact = 0;            // index into Model::contacts
+  ContactId contact = 0;
   std::vector<Patch> stored;  // never shrinks: the patches are the first ones
   std::size_t num_patches = 0;
   std::span<const Patch> patches() const { return {stored.data(), num_patches}; }
   // By smoothing group of the side whose triangles these are; zero where it meets nothing:
-  Eigen::VectorXd area;                              // W [m²]
-  Eigen::VectorXd measure;                           // A [m²]
-  Eigen::VectorXd depth;                             // g [m]
-  Eigen::VectorXd pressure;                          // p [Pa], with that of damping
-  Eigen::VectorXd multiplier;                        // λ [Pa]; empty: none
-  std::vector<int> groups;                           // that have an area
-  const Eigen::VectorXd* model_stiffness = nullptr;  // of the groups [Pa/m]
-  double stiffness(int group) const { return (*model_stiffness)[group]; }  // k [Pa/m]
+  Eigen::VectorXd area;                            // W [m²]
+  Eigen::VectorXd measure;                         // A [m²]
+  Eigen::VectorXd depth;                           // g [m]
+  Eigen::VectorXd pressure;                        // p [Pa], with that of damping
+  Eigen::VectorXd multiplier;                      // λ [Pa]; empty: none
+  std::vector<int> groups;                         // that have an area
+  Eigen::VectorXd firm_stiffness, soft_stiffness;  // of the groups [Pa/m]
+  bool is_soft = false;                            // which of them counts now
+  double stiffness(int group) const {              // k [Pa/m]
+    return (is_soft ? soft_stiffness : firm_stiffness)[group];
+  }
   /// <λ + k g> [Pa]: the pressure without that of damping.
   double penalty(int group) const {
     const double lambda = multiplier.size() > 0 ? multiplier[group] : 0;
@@ -51,7 +54,7 @@ struct ContactSides {
   int triangle_body, face_body;
   bool is_self() const { return triangle_body == face_body; }
 };
-ContactSides sides_of(const Model& model, int contact);
+ContactSides sides_of(const Model& model, ContactId contact);
 ContactSides sides_of(const Model& model, const ContactPairState& pair_state);
 
 /// Whether there is pressure at a corner of the triangle.

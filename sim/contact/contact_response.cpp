@@ -5,15 +5,25 @@
 
 namespace articular::sim {
 
-ContactResponse::ContactResponse(const Model& model)
-    : model_(model), of_contact_(model.contacts.size(), nullptr) {}
+double ContactDepths::of(ContactId contact) const {
+  const auto found =
+      std::lower_bound(depths_.begin(), depths_.end(), contact,
+                       [](const auto& entry, ContactId id) { return entry.first < id; });
+  return found != depths_.end() && found->first == contact ? found->second : 0;
+}
+
+ContactResponse::ContactResponse(const Model& model) : model_(model) {}
 
 ContactPairState& ContactResponse::pair_state_of(const CandidateList& list) {
-  ContactPairState*& known = of_contact_[static_cast<std::size_t>(list.contact)];
+  ContactPairState*& known = of_contact_[list.contact];
   if (known != nullptr) return *known;
   ContactPairState& pair_state = pair_states_.emplace_back();
   pair_state.contact = list.contact;
-  const Eigen::Index num_groups = std::ssize(sides_of(model_, pair_state).triangles.group_node);
+  const ContactModel contact = model_.contacts[list.contact];
+  const Collider& nonmortar = sides_of(model_, pair_state).triangles;
+  const Eigen::Index num_groups = std::ssize(nonmortar.group_node);
+  pair_state.firm_stiffness = stiffness_at_groups(contact, nonmortar, false);
+  pair_state.soft_stiffness = stiffness_at_groups(contact, nonmortar, true);
   for (Eigen::VectorXd* values :
        {&pair_state.area, &pair_state.measure, &pair_state.depth, &pair_state.pressure})
     values->setZero(num_groups);
@@ -38,9 +48,8 @@ void ContactResponse::evaluate(const Configuration& configuration,
     ContactPairState& pair_state = pair_state_of(list);
     near_.push_back(&pair_state);
     clear(pair_state);
-    const double allowance = conditions.allowances.empty()
-                                 ? 0
-                                 : conditions.allowances[static_cast<std::size_t>(list.contact)];
+    const double allowance =
+        conditions.allowances == nullptr ? 0 : conditions.allowances->of(list.contact);
     find_patches(list, configuration, allowance, pair_state);
     find_pressures(configuration, conditions.soft, pair_state);
   }
@@ -49,8 +58,8 @@ void ContactResponse::evaluate(const Configuration& configuration,
 void ContactResponse::find_pressures(const Configuration& configuration, bool soft,
                                      ContactPairState& pair_state) {
   ++evaluations_[Term::ContactForce];
-  const ContactModel& contact = model_.contacts[static_cast<std::size_t>(pair_state.contact)];
-  pair_state.model_stiffness = soft ? &contact.soft : &contact.stiffness;
+  const ContactModel contact = model_.contacts[pair_state.contact];
+  pair_state.is_soft = soft;
   pair_state.point_stiffness = contact.averaged ? 0 : pair_state.stiffness(0);
   for (const int group : pair_state.groups) {
     pair_state.depth[group] /= pair_state.measure[group];
@@ -67,7 +76,7 @@ bool ContactResponse::augment() {
   bool any = false;
   for (ContactPairState* const near : near_) {
     ContactPairState& pair_state = *near;
-    const ContactModel& contact = model_.contacts[static_cast<std::size_t>(pair_state.contact)];
+    const ContactModel contact = model_.contacts[pair_state.contact];
     if (!contact.is_bounded) continue;
     const bool exceeds =
         std::any_of(pair_state.groups.begin(), pair_state.groups.end(), [&](int group) {
@@ -125,8 +134,7 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
     faces_.resize(side.faces.face_area.size());
     met_.resize(side.faces.face_area.size(), 0);
   }
-  const auto contact = static_cast<std::size_t>(pair_state.contact);
-  const bool averaged = model_.contacts[contact].averaged;
+  const bool averaged = model_.contacts[pair_state.contact].averaged;
   DepthRange range = depth_range(side.triangles, side.faces, averaged);
   range.allowance = allowance;
   const std::vector<ContactCandidate>& pairs = list.pairs;
@@ -196,12 +204,13 @@ bool ContactResponse::has_patches() const {
   });
 }
 
-std::vector<double> ContactResponse::point_depths() const {
-  std::vector<double> deepest(model_.contacts.size(), 0);
+ContactDepths ContactResponse::point_depths() const {
+  ContactDepths deepest;
   for (const ContactPairState* pair_state : near_) {
-    double& depth = deepest[static_cast<std::size_t>(pair_state->contact)];
+    double depth = 0;
     for (const ContactPairState::Patch& entry : pair_state->patches())
       depth = std::max(depth, entry.patch.depth_max);
+    deepest.add(pair_state->contact, depth);
   }
   return deepest;
 }
@@ -227,7 +236,7 @@ void ContactResponse::add_damping_product(const Configuration& configuration,
 void ContactResponse::update_friction_duals(const Configuration& configuration,
                                             const Eigen::VectorXd& change) {
   for (ContactPairState* const near : near_) {
-    const ContactModel& contact = model_.contacts[static_cast<std::size_t>(near->contact)];
+    const ContactModel contact = model_.contacts[near->contact];
     if (!(contact.law.friction > 0)) continue;
     const ContactSides side = sides_of(model_, *near);
     sim::update_friction_duals(contact.law, side.triangles, side.faces, configuration, change,
@@ -237,6 +246,12 @@ void ContactResponse::update_friction_duals(const Configuration& configuration,
 
 void ContactResponse::drop_friction_duals() {
   for (ContactPairState& pair_state : pair_states_) pair_state.friction_dual.resize(3, 0);
+}
+
+void ContactResponse::forget() {
+  near_.clear();
+  of_contact_.clear();
+  pair_states_.clear();
 }
 
 double ContactResponse::damping_power() const {

@@ -2,6 +2,8 @@
 
 #include <deque>
 #include <span>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "sim/contact/contact_pair_state.hpp"
@@ -31,9 +33,21 @@
 /// solid mechanics. Comput Methods Appl Mech Eng 193:601.
 namespace articular::sim {
 
+/// Of contacts in ascending order; 0 of all others.
+class ContactDepths {
+ public:
+  /// @param contact  greater than those before
+  void add(ContactId contact, double depth) { depths_.emplace_back(contact, depth); }
+  double of(ContactId contact) const;
+  const std::vector<std::pair<ContactId, double>>& all() const { return depths_; }
+
+ private:
+  std::vector<std::pair<ContactId, double>> depths_;  // [m]
+};
+
 struct ContactConditions {
-  bool soft = false;                        // with the soft stiffness of the ContactModel
-  std::span<const double> allowances = {};  // depth that each contact may have [m]; empty: none
+  bool soft = false;                          // with the soft stiffness of the ContactModel
+  const ContactDepths* allowances = nullptr;  // that contacts may have; none: 0
 };
 
 class ContactResponse {
@@ -51,6 +65,9 @@ class ContactResponse {
   void update_friction_duals(const Configuration& configuration, const Eigen::VectorXd& change);
   /// From the next evaluate() on, there are none.
   void drop_friction_duals();
+  /// From the next evaluate() on there are neither multipliers nor friction duals. What pairs that
+  /// were near once took of memory is given back.
+  void forget();
 
   /// Depths and pressures of the candidates in a configuration; what follows is about it.
   void evaluate(const Configuration& configuration, std::span<const CandidateList> candidates,
@@ -72,9 +89,9 @@ class ContactResponse {
 
   /// Something lies opposite a face within the depths that count.
   bool has_patches() const;
-  /// By contact: how far any point of one body is behind a face of the other [m], whether or not
-  /// the mean around a node is; 0 where none is.
-  std::vector<double> point_depths() const;
+  /// How far any point of one body is behind a face of the other [m], whether or not the mean
+  /// around a node is.
+  ContactDepths point_depths() const;
   /// On one node [N]: what a residual is small against.
   double largest_force() const;
   /// By body [N]: the sizes of the forces from others, one a pair and side, of the last
@@ -91,9 +108,9 @@ class ContactResponse {
   const FlatTriangle& face_now(const Configuration& configuration, const Collider& faces, int face);
 
   const Model& model_;
-  std::deque<ContactPairState> pair_states_;   // all that have had candidates so far
-  std::vector<ContactPairState*> of_contact_;  // by contact; none yet: null
-  std::vector<ContactPairState*> near_;        // those that have some now
+  std::deque<ContactPairState> pair_states_;  // all that have had candidates so far
+  std::unordered_map<ContactId, ContactPairState*> of_contact_;
+  std::vector<ContactPairState*> near_;  // those that have some now
 
   std::vector<double> force_on_bodies_;
   EvaluationCounts evaluations_;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "sim/contact/body_sweep.hpp"
 
@@ -54,6 +55,28 @@ void merge(const std::vector<ContactCandidate>& more, std::vector<ContactCandida
   pairs.erase(std::unique(pairs.begin(), pairs.end(), same), pairs.end());
 }
 
+/// Of all sides that are averaged over [m]. The first bodies that are looked at have others that
+/// make them such a side, or it takes as many questions as there are pairs.
+double largest_open_depth(const Model& model) {
+  if (!model.contacts.any([](const ContactModel& contact) { return contact.averaged; })) return 0;
+  std::vector<int> bodies;
+  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
+    if (model.contacts.touches(body)) bodies.push_back(body);
+  const auto depth = [&](int body) {
+    return model.bodies[static_cast<std::size_t>(body)].collider->open_depth;
+  };
+  std::stable_sort(bodies.begin(), bodies.end(), [&](int a, int b) { return depth(a) > depth(b); });
+  for (const int body : bodies)
+    for (const int other : bodies) {
+      const std::optional<ContactId> id = model.contacts.between(body, other);
+      if (!id) continue;
+      const ContactModel contact = model.contacts[*id];
+      if (contact.averaged && (contact.reversed ? contact.b : contact.a) == body)
+        return depth(body);
+    }
+  return 0;
+}
+
 }  // namespace
 
 bool are_tied(const Collider& a, int triangle, const Collider& b, int face) {
@@ -70,28 +93,21 @@ DepthRange depth_range(const Collider& triangles, const Collider& faces, bool av
   return {averaged ? triangles.open_depth : 0, std::min(2 * triangles.reach, faces.reach)};
 }
 
-ContactSearch::ContactSearch(const Model& model, const StepSettings& settings) : model_(model) {
+ContactSearch::ContactSearch(const Model& model, const StepSettings& settings)
+    : model_(model), moving_of_body_(model.bodies.size(), -1), boxes_(model.bodies.size()) {
   std::vector<const Collider*> colliders;
-  std::vector<int> moving_of_body(model.bodies.size(), -1);
-  const auto moving_of = [&](int body) {
-    int& index = moving_of_body[static_cast<std::size_t>(body)];
-    if (index >= 0) return index;
-    index = static_cast<int>(moving_.size());
+  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body) {
+    if (!model.contacts.touches(body)) continue;
     const Collider& collider = *model.bodies[static_cast<std::size_t>(body)].collider;
+    moving_of_body_[static_cast<std::size_t>(body)] = static_cast<int>(moving_.size());
     Moving moving;
     moving.body = body;
     moving.index = moving_.size();
     moving_.push_back(std::move(moving));
     colliders.push_back(&collider);
-    seen_.resize(std::max(seen_.size(), collider.face_area.size()));
-    return index;
-  };
-  for (const ContactModel& contact : model.contacts) {
-    pairs_.push_back({moving_of(contact.a), moving_of(contact.b)});
-    if (!contact.averaged) continue;
-    const auto nonmortar = static_cast<std::size_t>(contact.reversed ? contact.b : contact.a);
-    open_depth_ = std::max(open_depth_, model.bodies[nonmortar].collider->open_depth);
+    seen_.resize(std::max(seen_.size(), collider.face_area.size()), 0);
   }
+  open_depth_ = largest_open_depth(model);
   penetrations_ = make_penetration_search(colliders, settings.tree, model.pool);
 }
 
@@ -137,14 +153,16 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
   const auto query_start = Clock::now();
   PenetrationCost cost;
   num_lists_ = 0;
-  for (std::size_t c = 0; c < pairs_.size(); ++c) {
-    Moving &a = moving_[static_cast<std::size_t>(pairs_[c].a)],
-           &b = moving_[static_cast<std::size_t>(pairs_[c].b)];
-    if (&a == &b)
-      search_itself(static_cast<int>(c), a, margin, cost);
+  for (const Moving& moving : moving_)
+    boxes_[static_cast<std::size_t>(moving.body)] = penetrations_->bounds(moving.index);
+  for (const ContactId contact : near_.find(model_.contacts, boxes_)) {
+    const ContactModel pair = model_.contacts[contact];
+    if (pair.a == pair.b)
+      search_itself(contact, moving_of(pair.a), margin, cost);
     else
-      search(static_cast<int>(c), a, b, margin, cost);
+      search(contact, moving_of(pair.a), moving_of(pair.b), margin, cost);
   }
+  counts_.evaluations[Term::BoxTest] += near_.num_tests();
   counts_.narrow_tests += cost.narrow_tests;
   counts_.reported_pairs += cost.pairs;
   counts_.narrow_seconds += cost.narrow_seconds;
@@ -152,35 +170,33 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
 }
 
 /// Stays out of the candidates until num_lists_ counts it.
-CandidateList& ContactSearch::next_list(int contact) {
+CandidateList& ContactSearch::next_list(ContactId contact) {
   if (num_lists_ == lists_.size()) lists_.emplace_back();
   CandidateList& list = lists_[num_lists_];
   list.contact = contact;
   return list;
 }
 
-void ContactSearch::search_itself(int contact, Moving& a, double margin, PenetrationCost& cost) {
+void ContactSearch::search_itself(ContactId contact, Moving& a, double margin,
+                                  PenetrationCost& cost) {
   fit(a);
   ++counts_.evaluations[Term::SelfQuery];
   penetrations_->within(a.index, found_of_a_, cost);
-  collect(found_of_a_, found_of_a_, a, a,
-          model_.contacts[static_cast<std::size_t>(contact)].averaged, margin, of_a_);
+  collect(found_of_a_, found_of_a_, a, a, model_.contacts[contact].averaged, margin, of_a_);
   CandidateList& list = next_list(contact);
   list.pairs = of_a_.near;
   merge(of_a_.deep, list.pairs);
   num_lists_ += list.pairs.empty() ? 0 : 1;
 }
 
-void ContactSearch::search(int contact, Moving& a, Moving& b, double margin,
+void ContactSearch::search(ContactId contact, Moving& a, Moving& b, double margin,
                            PenetrationCost& cost) {
-  ++counts_.evaluations[Term::BoxTest];
-  if (!penetrations_->may_meet(a.index, b.index)) return;
   fit(a);
   fit(b);
   ++counts_.evaluations[Term::PairQuery];
   penetrations_->between(a.index, b.index, found_of_a_, found_of_b_, cost);
   // In both directions, though one side alone looks for the other: what lies deep shows in either.
-  const ContactModel& pair = model_.contacts[static_cast<std::size_t>(contact)];
+  const ContactModel pair = model_.contacts[contact];
   collect(found_of_a_, found_of_b_, a, b, pair.averaged, margin, of_a_);
   collect(found_of_b_, found_of_a_, b, a, pair.averaged, margin, of_b_);
   const SideCandidates &own = pair.reversed ? of_b_ : of_a_, &other = pair.reversed ? of_a_ : of_b_;
@@ -200,18 +216,17 @@ void ContactSearch::collect(const Penetrations& found, const Penetrations& rever
   pairs.clear();
   side.deep.clear();
   deep_.clear();
-  std::fill(seen_.begin(), seen_.end(), -1);
   for (std::size_t first = 0, end = 0; first < found.size(); first = end) {
     const int triangle = found[first].face;
     const FaceBounds& s = a.faces[static_cast<std::size_t>(triangle)];
     bool deep = false;
+    ++now_;
     for (end = first; end < found.size() && found[end].face == triangle; ++end) {
       const auto tetrahedron = static_cast<std::size_t>(found[end].tetrahedron);
       deep = deep || B.is_inner[tetrahedron] != 0;
       for (int k = B.nearby_begin[tetrahedron]; k < B.nearby_begin[tetrahedron + 1]; ++k) {
         const int f = B.nearby[static_cast<std::size_t>(k)];
-        if (seen_[static_cast<std::size_t>(f)] == triangle) continue;
-        seen_[static_cast<std::size_t>(f)] = triangle;
+        if (std::exchange(seen_[static_cast<std::size_t>(f)], now_) == now_) continue;
         const FaceBounds& face = b.faces[static_cast<std::size_t>(f)];
         if (!may_face(s, face)) continue;
         const FaceProximity what = face_proximity(s, face, range, margin);
@@ -257,21 +272,21 @@ void ContactSearch::add_deep_pairs(const Penetrations& found, const Moving& a, c
 }
 
 bool ContactSearch::passes_unseen(const Configuration& from, const Configuration& to) const {
-  std::vector<BodySweep> sweeps;
+  std::vector<BodySweep> sweeps(model_.bodies.size());
+  std::vector<collision::Aabb> ways(model_.bodies.size());
   for (const Moving& moving : moving_) {
-    BodySweep& sweep = sweeps.emplace_back();
-    for (const NodeRef& node : model_.bodies[static_cast<std::size_t>(moving.body)].collider->nodes)
-      sweep.add(from.position(node), to.position(node));
+    const auto body = static_cast<std::size_t>(moving.body);
+    for (const NodeRef& node : model_.bodies[body].collider->nodes)
+      sweeps[body].add(from.position(node), to.position(node));
+    ways[body] = box_of_way(sweeps[body]);
   }
-  for (std::size_t c = 0; c < pairs_.size(); ++c) {
-    if (pairs_[c].a == pairs_[c].b) continue;
-    const BodySweep &a = sweeps[static_cast<std::size_t>(pairs_[c].a)],
-                    &b = sweeps[static_cast<std::size_t>(pairs_[c].b)];
-    if (!a.way.intersects(b.way)) continue;
-    const ContactModel& pair = model_.contacts[c];
-    const Collider& A = *model_.bodies[static_cast<std::size_t>(pair.a)].collider;
-    const Collider& B = *model_.bodies[static_cast<std::size_t>(pair.b)].collider;
-    if (most_relative_motion(a, b) >
+  NearContacts near;
+  for (const ContactId contact : near.find(model_.contacts, ways)) {
+    const ContactModel pair = model_.contacts[contact];
+    if (pair.a == pair.b) continue;
+    const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+    const Collider &A = *model_.bodies[a].collider, &B = *model_.bodies[b].collider;
+    if (most_relative_motion(sweeps[a], sweeps[b]) >
         std::max(depth_range(A, B, pair.averaged).reach, depth_range(B, A, pair.averaged).reach))
       return true;
   }

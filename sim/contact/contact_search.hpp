@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +11,7 @@
 #include "sim/contact/penetration_search.hpp"
 #include "sim/gap/face_bounds.hpp"
 #include "sim/model/configuration.hpp"
+#include "sim/model/near_contacts.hpp"
 #include "sim/model/step_settings.hpp"
 
 /// Who may touch whom during the next step: from penetrations with a margin to
@@ -23,7 +25,7 @@ struct ContactCandidate {
 };
 
 struct CandidateList {
-  int contact = 0;  // index into Model::contacts
+  ContactId contact = 0;
   std::vector<ContactCandidate> pairs;
 };
 
@@ -86,9 +88,9 @@ class ContactSearch {
   struct SideCandidates {
     std::vector<ContactCandidate> near, deep;
   };
-  void search(int contact, Moving& a, Moving& b, double margin, PenetrationCost& cost);
-  void search_itself(int contact, Moving& a, double margin, PenetrationCost& cost);
-  CandidateList& next_list(int contact);
+  void search(ContactId contact, Moving& a, Moving& b, double margin, PenetrationCost& cost);
+  void search_itself(ContactId contact, Moving& a, double margin, PenetrationCost& cost);
+  CandidateList& next_list(ContactId contact);
   /// @param found    triangles of a in tetrahedra of b
   /// @param reverse  of b in a
   void collect(const Penetrations& found, const Penetrations& reverse, const Moving& a,
@@ -99,18 +101,22 @@ class ContactSearch {
   const Model& model_;
   std::vector<Moving> moving_;                       // one a collider
   std::unique_ptr<PenetrationSearch> penetrations_;  // of them
-  /// Of each contact, indices into moving_: all that most contacts of a large scene are asked for.
-  struct MovingPair {
-    int a = 0, b = 0;
-  };
-  std::vector<MovingPair> pairs_;
-  std::vector<CandidateList> lists_;  // never shrinks: the first ones are candidates
+  std::vector<int> moving_of_body_;                  // index into moving_, or -1
+  Moving& moving_of(int body) {
+    return moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(body)])];
+  }
+  NearContacts near_;
+  std::vector<collision::Aabb> boxes_;  // by body
+  std::vector<CandidateList> lists_;    // never shrinks: the first ones are candidates
   std::size_t num_lists_ = 0;
   double margin_ = 0;      // [m]
   double open_depth_ = 0;  // [m] largest of all sides that are averaged over
   Penetrations found_of_a_, found_of_b_;
   SideCandidates of_a_, of_b_;
-  std::vector<int> seen_;  // per face: last triangle that it was paired with
+  /// Per face: when it was paired last; of each triangle of each pair of bodies there is another
+  /// time.
+  std::vector<std::int64_t> seen_;
+  std::int64_t now_ = 0;
   /// Triangles that may lie deeper in the other body than the range reaches, with what was found of
   /// each: found[begin .. end).
   struct DeepTriangle {

@@ -66,7 +66,7 @@ void append_missing_averages(const Model& model, const CandidateList& list,
 void append_missing_stencils(const Model& model, std::span<const CandidateList> candidates,
                              const fem::BlockMatrix& A, Stencils& stencils) {
   for (const CandidateList& list : candidates) {
-    const ContactModel& contact = model.contacts[static_cast<std::size_t>(list.contact)];
+    const ContactModel contact = model.contacts[list.contact];
     const ContactSides side = sides_of(model, list.contact);
     const auto append =
         contact.averaged || contact.law.acts() ? append_missing_averages : append_missing_pairs;

@@ -24,13 +24,13 @@ struct SummarySums {
   CountedLoad on_a, on_b;      // of a body with itself all is on a
 };
 
-SummarySums no_summary(const Model& model, const Configuration& configuration, int contact) {
+SummarySums no_summary(const Model& model, const Configuration& configuration, ContactId contact) {
   const auto nothing_on = [&](int body) -> CountedLoad {
     const Collider& collider = *model.bodies[static_cast<std::size_t>(body)].collider;
     return {no_load(configuration, collider), Eigen::VectorXd::Zero(collider.surface.faces.cols()),
             std::vector<char>(collider.group_node.size(), 0)};
   };
-  const ContactModel& pair = model.contacts[static_cast<std::size_t>(contact)];
+  const ContactModel pair = model.contacts[contact];
   SummarySums sums;
   sums.summary.contact = contact;
   sums.on_a = nothing_on(pair.a);
@@ -45,7 +45,7 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
                     const Configuration& configuration, Counts&& counts, SummarySums& sums) {
   ContactSummary& sum = sums.summary;
   const ContactSides side = sides_of(model, pair_state);
-  const ContactModel& contact = model.contacts[static_cast<std::size_t>(pair_state.contact)];
+  const ContactModel contact = model.contacts[pair_state.contact];
   const double share = contact.share;
   const bool is_self = side.is_self();
   CountedLoad& on_triangles = contact.reversed ? sums.on_b : sums.on_a;
@@ -117,7 +117,7 @@ ContactSummary finished(const Model& model, SummarySums sums) {
   ContactSummary& sum = sums.summary;
   if (sum.normal_force > 0) sum.center /= sum.normal_force;
   sum.moment = sums.moment - sum.center.cross(sum.force);
-  const ContactModel& pair = model.contacts[static_cast<std::size_t>(sum.contact)];
+  const ContactModel pair = model.contacts[sum.contact];
   const auto collider = [&](int body) -> const Collider& {
     return *model.bodies[static_cast<std::size_t>(body)].collider;
   };
@@ -135,7 +135,7 @@ std::vector<ContactSummary> contact_summaries(const Model& model, const ContactR
   const auto pair_states = response.pair_states();  // those of a contact lie side by side
   std::vector<ContactSummary> result;
   for (std::size_t d = 0; d < pair_states.size();) {
-    const int contact = pair_states[d]->contact;
+    const ContactId contact = pair_states[d]->contact;
     SummarySums sums = no_summary(model, configuration, contact);
     for (; d < pair_states.size() && pair_states[d]->contact == contact; ++d)
       add_to_summary(model, *pair_states[d], configuration, all, sums);
@@ -145,7 +145,7 @@ std::vector<ContactSummary> contact_summaries(const Model& model, const ContactR
 }
 
 ContactSummary summary_through(const Model& model, const ContactResponse& response,
-                               const Configuration& configuration, int contact, int body,
+                               const Configuration& configuration, ContactId contact, int body,
                                const std::vector<char>& selected) {
   SummarySums sums = no_summary(model, configuration, contact);
   for (const ContactPairState* pair_state : response.pair_states()) {

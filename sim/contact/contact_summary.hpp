@@ -9,7 +9,7 @@ namespace articular::sim {
 
 /// What one contact pair carries; force and moment on body a, of a body with itself none.
 struct ContactSummary {
-  int contact = 0;               // index into Model::contacts
+  ContactId contact = 0;
   Vec3 force = Vec3::Zero();     // [N]
   Vec3 center = Vec3::Zero();    // ∫ p x dA / ∫ p dA [m]; where nothing carries, the origin
   Vec3 moment = Vec3::Zero();    // about that centre [N m]
@@ -39,7 +39,7 @@ std::vector<ContactSummary> contact_summaries(const Model& model, const ContactR
 /// @param selected  by face of the body's collider; the body is one of the contact's two; empty:
 /// all
 ContactSummary summary_through(const Model& model, const ContactResponse& response,
-                               const Configuration& configuration, int contact, int body,
+                               const Configuration& configuration, ContactId contact, int body,
                                const std::vector<char>& selected);
 
 /// Contact force at each node of each collider [N] (by body).

@@ -278,24 +278,27 @@ class CrossingSearch::Search {
  public:
   explicit Search(const Model& model) : model_(model) {
     of_body_.assign(model.bodies.size(), -1);
-    for (const ContactModel& contact : model.contacts)
-      for (const int body : {contact.a, contact.b}) watch(body);
+    ways_.resize(model.bodies.size());
+    for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
+      if (model.contacts.touches(body)) watch(body);
   }
 
   std::optional<Crossing> find(const Configuration& from, const Configuration& to,
-                               std::span<const double> depths) {
-    for (Moved& moved : moved_) move(moved, from, to);
+                               const ContactDepths& depths) {
+    for (Moved& moved : moved_) {
+      move(moved, from, to);
+      ways_[static_cast<std::size_t>(moved.body)] = box_of_way(moved.sweep);
+    }
     std::optional<Crossing> deepest;
-    for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
-      const ContactModel& contact = model_.contacts[c];
+    for (const ContactId id : near_.find(model_.contacts, ways_)) {
+      const ContactModel contact = model_.contacts[id];
       Moved &a = moved_of(contact.a), &b = moved_of(contact.b);
-      if (!a.sweep.way.intersects(b.sweep.way)) continue;
-      const double of_a = reach(a, b, contact), of_b = reach(b, a, contact);
-      if (most_relative_motion(a.sweep, b.sweep) + depths[c] < kLeastOfReach * std::min(of_a, of_b))
+      const double of_a = reach(a, b, contact), of_b = reach(b, a, contact), depth = depths.of(id);
+      if (most_relative_motion(a.sweep, b.sweep) + depth < kLeastOfReach * std::min(of_a, of_b))
         continue;
       ++pairs;
-      look(a, b, of_a, depths[c], deepest);
-      if (&a != &b) look(b, a, of_b, depths[c], deepest);
+      look(a, b, of_a, depth, deepest);
+      if (&a != &b) look(b, a, of_b, depth, deepest);
     }
     return deepest;
   }
@@ -337,13 +340,15 @@ class CrossingSearch::Search {
   const Model& model_;
   std::vector<int> of_body_;  // index into moved_, or -1
   std::vector<Moved> moved_;
+  NearContacts near_;
+  std::vector<collision::Aabb> ways_;  // by body
 };
 
 CrossingSearch::CrossingSearch(const Model& model) : search_(std::make_unique<Search>(model)) {}
 CrossingSearch::~CrossingSearch() = default;
 
 std::optional<Crossing> CrossingSearch::find(const Configuration& from, const Configuration& to,
-                                             std::span<const double> depths) {
+                                             const ContactDepths& depths) {
   return search_->find(from, to, depths);
 }
 

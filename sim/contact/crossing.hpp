@@ -2,9 +2,9 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 
+#include "sim/contact/contact_response.hpp"
 #include "sim/model/configuration.hpp"
 
 /// Do surfaces go through each other from one accepted state to the next?
@@ -42,10 +42,10 @@ class CrossingSearch {
   ~CrossingSearch();
 
   /// The deepest between two states.
-  /// @param depths  by contact: of any point at the start [m], ContactResponse::point_depths().
-  ///                Pairs that move by too little to cross at this depth are passed over
+  /// @param depths  of any point at the start, ContactResponse::point_depths(). Pairs that move by
+  ///                too little to cross at this depth are passed over
   std::optional<Crossing> find(const Configuration& from, const Configuration& to,
-                               std::span<const double> depths);
+                               const ContactDepths& depths);
 
   /// Pairs of bodies whose points were looked at one by one, since it was made.
   std::int64_t pairs_looked_at() const;

@@ -4,6 +4,7 @@
 
 #include "collision/blocks/block_collide.hpp"
 #include "sim/mesh/triangle_tree.hpp"
+#include "sim/model/near_contacts.hpp"
 
 namespace articular::sim {
 namespace {
@@ -48,7 +49,8 @@ std::vector<InitialOverlap> initial_overlaps(const Model& model) {
   collision::BlockQueryScratch scratch;
   collision::BlockQueryCounts counts;
   std::vector<collision::Penetration> pairs;
-  for (const ContactModel& contact : model.contacts) {
+  for (const ContactId id : contacts_near_at_start(model, kLeastDepth)) {
+    const ContactModel contact = model.contacts[id];
     if (contact.a == contact.b) continue;
     const BodyModel& a = model.bodies[static_cast<std::size_t>(contact.a)];
     const BodyModel& b = model.bodies[static_cast<std::size_t>(contact.b)];
@@ -57,6 +59,7 @@ std::vector<InitialOverlap> initial_overlaps(const Model& model) {
     tree_a.update(a.collider->X);
     tree_b.update(b.collider->X);
     InitialOverlap overlap;
+    overlap.contact = id;
     overlap.a = contact.a;
     overlap.b = contact.b;
     collision::faces_in_body(tree_a, tree_b, pairs, counts, scratch);

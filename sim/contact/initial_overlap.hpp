@@ -8,6 +8,7 @@ namespace articular::sim {
 
 /// Two bodies that may touch, and overlap before anything has moved.
 struct InitialOverlap {
+  ContactId contact = 0;
   int a = 0, b = 0;           // bodies
   double depth = 0;           // [m] of the deepest node of one below the surface of the other
   Vec3 place = Vec3::Zero();  // that node [m]

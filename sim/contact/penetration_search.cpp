@@ -27,9 +27,7 @@ class BlockSearch final : public PenetrationSearch {
     trees_[body].fit();
     return true;
   }
-  bool may_meet(std::size_t a, std::size_t b) const override {
-    return overlap(trees_[a].bounds(), trees_[b].bounds());
-  }
+  const collision::Aabb& bounds(std::size_t body) const override { return trees_[body].bounds(); }
   void between(std::size_t a, std::size_t b, Penetrations& a_in_b, Penetrations& b_in_a,
                PenetrationCost& cost) override {
     find(trees_[a], trees_[b], a_in_b, cost);
@@ -77,9 +75,7 @@ class BucketSearch final : public PenetrationSearch {
     is_fit_[body] = 0;
   }
   bool fit(std::size_t body) override { return std::exchange(is_fit_[body], 1) == 0; }
-  bool may_meet(std::size_t a, std::size_t b) const override {
-    return overlap(trees_[a].bounds(), trees_[b].bounds());
-  }
+  const collision::Aabb& bounds(std::size_t body) const override { return trees_[body].bounds(); }
   void between(std::size_t a, std::size_t b, Penetrations& a_in_b, Penetrations& b_in_a,
                PenetrationCost& cost) override {
     collision::QueryCounts counts;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "collision/mesh/aabb.hpp"
 #include "collision/mesh/penetrations.hpp"
 #include "sim/model/model.hpp"
 
@@ -21,8 +22,8 @@ struct PenetrationCost {
 /// Positions of bodies in, sorted pairs out: which surface triangles enter which tetrahedra, by one
 /// of the trees of the collision module. The pairs are the same with either.
 ///
-/// move() and fit() are the halves of an update of blocks: a body that turns out to be near no
-/// other needs the first alone. Buckets are filled by move().
+/// move() and fit() are the halves of an update of blocks: a body whose box overlaps no other needs
+/// the first alone. Buckets are filled by move().
 class PenetrationSearch {
  public:
   virtual ~PenetrationSearch() = default;
@@ -31,8 +32,8 @@ class PenetrationSearch {
   virtual void move(std::size_t body, const Positions& x, double margin) = 0;
   /// Makes a body ready for queries. @return false: it was, where it is now
   virtual bool fit(std::size_t body) = 0;
-  /// Whether the boxes of two bodies overlap, where they are now.
-  virtual bool may_meet(std::size_t a, std::size_t b) const = 0;
+  /// A body's box where it is now, with its part of the margin.
+  virtual const collision::Aabb& bounds(std::size_t body) const = 0;
   /// Of two bodies that are fit, sorted by triangle, then tetrahedron.
   virtual void between(std::size_t a, std::size_t b, Penetrations& a_in_b, Penetrations& b_in_a,
                        PenetrationCost& cost) = 0;

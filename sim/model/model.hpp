@@ -16,9 +16,9 @@
 #include "parallel/thread_pool.hpp"
 #include "sim/base/pose.hpp"
 #include "sim/gap/contact_patch.hpp"
+#include "sim/model/contact_pairs.hpp"
 #include "sim/model/joint_coordinates.hpp"
 #include "sim/model/mass_properties.hpp"
-#include "sim/model/surface_law.hpp"
 #include "sim/model/tissue_elements.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -170,19 +170,6 @@ struct GravityModel {
   Curve profile;                     // factor over time; empty: always 1
 };
 
-struct ContactModel {
-  int a = 0, b = 0;            // bodies; a == b: with itself
-  bool averaged = true;        // depths are averaged at the nodes of one side; else pointwise
-  bool reversed = false;       // b's triangles look for a's faces
-  Eigen::VectorXd stiffness;   // at the nodes of the non-mortar side, times `share` [Pa/m]
-  Eigen::VectorXd soft;        // what an iteration that comes from afar starts with
-  double mean_stiffness = 0;   // of the two sides in series [Pa/m]
-  double max_penetration = 0;  // [m] mean depth at a node that the penalty may take
-  bool is_bounded = false;     // where it takes more, it is helped: see ContactResponse
-  double share = 1;            // ½ where both folds of one body look for the other
-  SurfaceLaw law;              // its damping times `share`
-};
-
 struct ObservedPoint {
   WeightedPoint point;
 };
@@ -193,7 +180,7 @@ struct ObservedAngle {
 };
 
 struct ObservedContact {
-  int contact = -1;         // index into Model::contacts; -1: the two cannot meet
+  ContactId contact = -1;   // -1: the two cannot meet
   int body = 0;             // index into Model::bodies: the one that it acts on
   std::vector<char> faces;  // of that body's collider: those that count; empty: all
 };
@@ -274,7 +261,7 @@ struct Model {
   std::vector<GravityModel> gravity;
   std::vector<HeldBlock> held_blocks;
   std::vector<SupportModel> supports;
-  std::vector<ContactModel> contacts;
+  ContactPairs contacts;
   std::vector<ProbeModel> probes;
   Layout layout;
   double position_tolerance = 0;  // [m], of the Newton iteration

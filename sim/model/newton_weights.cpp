@@ -16,8 +16,9 @@ constexpr double kStrainTolerance = 1e-4;
 /// Sticking and sliding differ by velocities of this size [m/s]; infinity: no friction.
 double least_slip_velocity(const Model& model) {
   double least = std::numeric_limits<double>::infinity();
-  for (const ContactModel& contact : model.contacts)
-    if (contact.law.friction > 0) least = std::min(least, contact.law.slip_velocity);
+  for (const ContactId kind : model.contacts.kinds())
+    if (const SurfaceLaw law = model.contacts[kind].law; law.friction > 0)
+      least = std::min(least, law.slip_velocity);
   return least;
 }
 

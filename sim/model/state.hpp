@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/base/evaluation_counters.hpp"
+#include "sim/model/contact_pairs.hpp"
 
 namespace articular::sim {
 
@@ -48,7 +49,7 @@ struct Counts : SolverCounts {
 /// How far two bodies overlapped before and after they were set apart [m], the deepest point of
 /// either.
 struct ResolvedOverlap {
-  int contact = 0;  // index into Model::contacts
+  ContactId contact = 0;
   double before = 0, after = 0;
 };
 
@@ -66,7 +67,7 @@ struct RunExtrema {
   std::int64_t element = -1;
   double squeezed_at = 0;  // [s]
   double overlap = 0;      // of two bodies, by the depth that their contact can follow
-  int contact = -1;        // of these
+  ContactId contact = -1;  // of these
   double overlap_at = 0;   // [s]
   double kinetic = 0;      // [J], largest
   double work = 0;         // [J], largest sum of what muscles, loads and driven motions had done

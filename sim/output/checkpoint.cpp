@@ -13,7 +13,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 8\n";
+constexpr char kMagic[] = "articular checkpoint 9\n";
 
 constexpr const char *kNewest = "state.bin", *kBefore = "previous.bin";
 

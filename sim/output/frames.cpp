@@ -1,7 +1,5 @@
 #include "sim/output/frames.hpp"
 
-#include <algorithm>
-
 #include "fem/material/von_mises.hpp"
 
 namespace articular::sim {
@@ -63,15 +61,10 @@ std::vector<Field> tissue_cell_fields(const Tissue& tissue, const Positions& x,
   return fields;
 }
 
-bool can_touch(const Model& model, int body) {
-  return std::any_of(
-      model.contacts.begin(), model.contacts.end(),
-      [&](const ContactModel& contact) { return contact.a == body || contact.b == body; });
-}
-
 /// The drawn mesh of a rigid body is also what touches: its nodes are the collider's first ones.
 bool draws_contact_surface(const Model& model, int body) {
-  return can_touch(model, body) && model.bodies[static_cast<std::size_t>(body)].touches_as_drawn;
+  return model.contacts.touches(body) &&
+         model.bodies[static_cast<std::size_t>(body)].touches_as_drawn;
 }
 
 void write_rigid_body(const Model& model, const Configuration& now, int body_index,
@@ -167,7 +160,7 @@ void write_frame(const Model& model, const Stepper& stepper, bool contact_surfac
     } else if (body.X.cols() > 0) {
       write_rigid_body(model, now, body_index, contacts, index, time, writer);
     }
-    if (contact_surfaces && can_touch(model, body_index))
+    if (contact_surfaces && model.contacts.touches(body_index))
       write_contact_surface(model, now, body_index, contacts, index, time, writer);
   }
   if (!model.lines.empty()) write_lines(model, stepper, index, time, writer);

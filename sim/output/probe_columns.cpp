@@ -135,7 +135,7 @@ ContactSummary measure(const ObservedContact& observed, const Now& now) {
   if (observed.contact < 0) return {};
   ContactSummary sum = summary_through(now.model, now.moment().contact, now.configuration(),
                                        observed.contact, observed.body, observed.faces);
-  if (now.model.contacts[static_cast<std::size_t>(observed.contact)].a != observed.body) {
+  if (now.model.contacts[observed.contact].a != observed.body) {
     sum.force *= -1;
     sum.moment *= -1;
   }

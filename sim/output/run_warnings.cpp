@@ -90,14 +90,11 @@ struct Carrying {
   double deepest_point = 0;    // [m]
 };
 
-Carrying carrying(const ContactResponse& response, int contact) {
+Carrying carrying(const ContactPairState& pair_state) {
   Carrying result;
-  for (const ContactPairState* pair_state : response.pair_states()) {
-    if (pair_state->contact != contact) continue;
-    result.num_nodes += (pair_state->pressure.array() > 0).count();
-    for (const ContactPairState::Patch& entry : pair_state->patches())
-      result.deepest_point = std::max(result.deepest_point, entry.patch.depth_max);
-  }
+  result.num_nodes = (pair_state.pressure.array() > 0).count();
+  for (const ContactPairState::Patch& entry : pair_state.patches())
+    result.deepest_point = std::max(result.deepest_point, entry.patch.depth_max);
   return result;
 }
 
@@ -107,10 +104,10 @@ void warn_of_unresolved_contacts(const Model& model, const Stepper& stepper,
   const auto body = [&](int b) -> const BodyModel& {
     return model.bodies[static_cast<std::size_t>(b)];
   };
-  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    const ContactModel& pair = model.contacts[c];
+  for (const ContactPairState* const pair_state : stepper.now().contact.pair_states()) {
+    const ContactModel pair = model.contacts[pair_state->contact];
     if (body(pair.a).tissue < 0 && body(pair.b).tissue < 0) continue;
-    const Carrying found = carrying(stepper.now().contact, static_cast<int>(c));
+    const Carrying found = carrying(*pair_state);
     const double missed =
         kMissedDepth * std::max(body(pair.a).collider->size, body(pair.b).collider->size);
     if (found.num_nodes >= kResolvedNodes) continue;
@@ -138,7 +135,7 @@ std::vector<std::string> run_warnings(const Model& model, const State& state,
         name_of(model, model.tissues[static_cast<std::size_t>(extrema.tissue)].body),
         extrema.squeezed_at, extrema.volume_ratio));
   if (extrema.overlap > kDeep) {
-    const ContactModel& contact = model.contacts[static_cast<std::size_t>(extrema.contact)];
+    const ContactModel contact = model.contacts[extrema.contact];
     warnings.push_back(fmt::format(
         "`{}` and `{}` lay in each other at t = {:.4g} s, to {:.1f} times the depth to which "
         "contact is followed: one may go through the other",

@@ -8,7 +8,6 @@
 
 #include "sim/assembly/solver_setup.hpp"
 #include "sim/output/fingerprint.hpp"
-#include "sim/output/provenance.hpp"
 #include "sim/output/run_warnings.hpp"
 
 namespace articular::sim {
@@ -67,7 +66,7 @@ Json overlap_resolution(const Model& model, const OverlapResolution& resolution)
   if (resolution.overlaps.empty()) return nullptr;
   Json overlaps = Json::array();
   for (const ResolvedOverlap& overlap : resolution.overlaps) {
-    const ContactModel& contact = model.contacts[static_cast<std::size_t>(overlap.contact)];
+    const ContactModel contact = model.contacts[overlap.contact];
     overlaps.push_back({{"bodies",
                          {model.bodies[static_cast<std::size_t>(contact.a)].name,
                           model.bodies[static_cast<std::size_t>(contact.b)].name}},
@@ -77,6 +76,13 @@ Json overlap_resolution(const Model& model, const OverlapResolution& resolution)
   return {{"overlaps", overlaps},
           {"solutions", resolution.solutions},
           {"largest_motion_m", resolution.largest_motion}};
+}
+
+Json input_files(const std::vector<InputFile>& inputs) {
+  Json files = Json::array();
+  for (const InputFile& file : inputs)
+    files.push_back({{"file", file.name}, {"bytes", file.bytes}, {"fnv1a_64", file.hash}});
+  return files;
 }
 
 Json energy(const State& state, const StoredEnergy& now) {
@@ -104,7 +110,7 @@ Json energy(const State& state, const StoredEnergy& now) {
 
 std::string summary_json(const Scenario& scenario, const Model& model, const State& state,
                          const Stepper& stepper, const PhaseTimes& phases, const WallTimes& wall,
-                         const std::string& outcome) {
+                         const std::vector<InputFile>& inputs, const std::string& outcome) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const Provenance by = provenance();
@@ -138,10 +144,17 @@ std::string summary_json(const Scenario& scenario, const Model& model, const Sta
       {"peak_memory_MB", static_cast<double>(usage.ru_maxrss) / 1024},
       {"warnings", warnings},
       {"inputs", fingerprint(scenario, model)},
-      {"processor", {{"instruction_set", by.instruction_set}, {"blas_kernels", by.blas_kernels}}},
+      {"input_files", input_files(inputs)},
+      {"processor",
+       {{"instruction_set", by.instruction_set},
+        {"blas_kernels", by.blas_kernels},
+        {"reproducible", scenario.reproducible}}},
       {"build", {{"compiler", by.compiler}, {"flags", by.flags}}},
       {"versions",
        {{"articular", by.version},
+        {"OpenBLAS", by.blas_version},
+        {"CHOLMOD", by.cholmod_version},
+        {"glibc", by.libc_version},
         {"SUNDIALS", SUNDIALS_VERSION},
         {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
                       "." + std::to_string(EIGEN_MINOR_VERSION)}}}};

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sim/output/history.hpp"
+#include "sim/output/provenance.hpp"
 #include "sim/step/stepper.hpp"
 
 namespace articular::sim {
@@ -12,9 +14,10 @@ struct WallTimes {
 };
 
 /// summary.json: settings, sizes, counts, wall time by phase, energy balance, memory, versions.
+/// @param inputs   of the scenario
 /// @param outcome  "finished", "interrupted" or the reason why it could not go on
 std::string summary_json(const Scenario& scenario, const Model& model, const State& state,
                          const Stepper& stepper, const PhaseTimes& phases, const WallTimes& wall,
-                         const std::string& outcome);
+                         const std::vector<InputFile>& inputs, const std::string& outcome);
 
 }  // namespace articular::sim

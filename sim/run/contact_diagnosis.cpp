@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "sim/base/error.hpp"
 #include "sim/build/build_model.hpp"
+#include "sim/model/near_contacts.hpp"
 #include "sim/run/run.hpp"
 #include "sim/step/overlap_resolution.hpp"
 #include "sim/step/stepper.hpp"
@@ -37,32 +37,25 @@ class Deadline {
   Clock::time_point end_;
 };
 
-Model with_contacts(const Model& model, TriedContacts which, int contact) {
+Model with_contacts(const Model& model, TriedContacts which, ContactId contact) {
   Model changed = model;
-  changed.contacts.clear();
-  for (std::size_t c = 0; c < model.contacts.size(); ++c)
-    if (which != TriedContacts::None &&
-        (static_cast<int>(c) == contact) == (which == TriedContacts::Alone))
-      changed.contacts.push_back(model.contacts[c]);
+  changed.contacts = which == TriedContacts::None    ? ContactPairs{}
+                     : which == TriedContacts::Alone ? model.contacts.only(contact)
+                                                     : model.contacts.without(contact);
   changed.probes.clear();  // they number contacts
   return changed;
 }
 
 /// Pairs that may meet in a step.
-std::vector<int> near_pairs(const Model& model, const Configuration& now) {
-  std::vector<Eigen::AlignedBox3d> boxes(model.bodies.size());
+std::vector<ContactId> near_pairs(const Model& model, const Configuration& now) {
+  std::vector<collision::Aabb> boxes(model.bodies.size());
   for (std::size_t b = 0; b < boxes.size(); ++b) {
     if (!model.bodies[b].collider) continue;
-    for (const NodeRef& node : model.bodies[b].collider->nodes) boxes[b].extend(now.position(node));
+    for (const NodeRef& node : model.bodies[b].collider->nodes)
+      boxes[b].include(now.position(node));
+    boxes[b].inflate(0.5 * model.trusted_motion);
   }
-  std::vector<int> pairs;
-  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    const auto &a = boxes[static_cast<std::size_t>(model.contacts[c].a)],
-               &b = boxes[static_cast<std::size_t>(model.contacts[c].b)];
-    if (std::sqrt(a.squaredExteriorDistance(b)) <= model.trusted_motion)
-      pairs.push_back(static_cast<int>(c));
-  }
-  return pairs;
+  return NearContacts().find(model.contacts, boxes);
 }
 
 class Diagnosis {
@@ -76,11 +69,11 @@ class Diagnosis {
 
   ContactDiagnosis make() {
     if (!fails()) return result_;
-    const std::vector<int> pairs = near_pairs(model_, failed_from_);
+    const std::vector<ContactId> pairs = near_pairs(model_, failed_from_);
     const double seconds = options_.seconds / static_cast<double>(1 + 2 * pairs.size());
     try_with(TriedContacts::None, -1, seconds);
     for (const TriedContacts which : {TriedContacts::Alone, TriedContacts::AllBut})
-      for (const int pair : pairs) try_with(which, pair, seconds);
+      for (const ContactId pair : pairs) try_with(which, pair, seconds);
     result_.culprits = culprits();
     return result_;
   }
@@ -128,16 +121,16 @@ class Diagnosis {
     return false;
   }
 
-  std::string words(TriedContacts which, int contact) const {
+  std::string words(TriedContacts which, ContactId contact) const {
     if (which == TriedContacts::None) return "without contact";
-    const ContactModel& pair = model_.contacts[static_cast<std::size_t>(contact)];
+    const ContactModel pair = model_.contacts[contact];
     return fmt::format("{} `{}` and `{}`",
                        which == TriedContacts::Alone ? "with contact of" : "without",
                        model_.bodies[static_cast<std::size_t>(pair.a)].name,
                        model_.bodies[static_cast<std::size_t>(pair.b)].name);
   }
 
-  void try_with(TriedContacts which, int contact, double seconds) {
+  void try_with(TriedContacts which, ContactId contact, double seconds) {
     tell(words(which, contact));
     ContactTrial trial{which, contact, Outcome::Taken, ""};
     const Deadline deadline(seconds);
@@ -159,14 +152,14 @@ class Diagnosis {
     result_.trials.push_back(trial);
   }
 
-  std::vector<int> culprits() const {
+  std::vector<ContactId> culprits() const {
     const auto those = [&](TriedContacts which, Outcome outcome) {
-      std::vector<int> found;
+      std::vector<ContactId> found;
       for (const ContactTrial& trial : result_.trials)
         if (trial.contacts == which && trial.outcome == outcome) found.push_back(trial.contact);
       return found;
     };
-    const std::vector<int> needed = those(TriedContacts::AllBut, Outcome::Taken);
+    const std::vector<ContactId> needed = those(TriedContacts::AllBut, Outcome::Taken);
     if (!needed.empty() || result_.trials.front().outcome != Outcome::Taken) return needed;
     return those(TriedContacts::Alone, Outcome::Failed);
   }

@@ -14,7 +14,7 @@ struct ContactTrial {
   enum class Contacts { None, Alone, AllBut };
   enum class Outcome { Taken, Failed, OutOfTime };
   Contacts contacts = Contacts::None;
-  int contact = -1;  // index into Model::contacts: the one that is alone, or left out
+  ContactId contact = -1;  // the one that is alone, or left out
   Outcome outcome = Outcome::Taken;
   std::string why;  // it failed
 };
@@ -26,7 +26,7 @@ struct ContactDiagnosis {
   std::vector<ContactTrial> trials;
   /// Without each of these alone the step is taken; where there is none, each of these alone makes
   /// it fail that is taken without contact.
-  std::vector<int> culprits;
+  std::vector<ContactId> culprits;
 };
 
 struct DiagnosisOptions {

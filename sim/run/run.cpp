@@ -76,7 +76,7 @@ class Run {
           options_.warn(warning);
       write_text_file(
           options_.directory / "summary.json",
-          summary_json(scenario_, model_, state_, stepper_, stepper_.times(), wall, how));
+          summary_json(scenario_, model_, state_, stepper_, stepper_.times(), wall, inputs_, how));
     };
     stepper_.set_watch(options_.after_iteration);
     stepper_.set_stop(options_.is_to_stop);
@@ -118,7 +118,10 @@ class Run {
 
   void begin() {
     state_ = stepper_.initial();
+    inputs_ = input_files(scenario_);
     fingerprint_ = fingerprint(scenario_, model_);
+    // A run that goes on with another arithmetic would have the bits of neither.
+    if (scenario_.reproducible) fingerprint_ = "reproducible " + fingerprint_;
     std::optional<Checkpoint> from;
     if (options_.resume) from = read_checkpoint(checkpoints(), fingerprint_, options_.warn);
     if (from) {
@@ -247,6 +250,7 @@ class Run {
   Schedule frames_, checkpoints_;
   State state_;
   std::string fingerprint_;
+  std::vector<InputFile> inputs_;
   std::optional<AppendFile> history_file_, convergence_file_;
   double output_seconds_ = 0;
 };

@@ -1,7 +1,10 @@
 #include "sim/scenario/scenario.hpp"
 
 #include <algorithm>
+#include <string>
+#include <unordered_map>
 
+#include "sim/scenario/data_path.hpp"
 #include "sim/scenario/scenario_choices.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 #include "sim/scenario/toml_override.hpp"
@@ -11,13 +14,15 @@ namespace {
 
 /// frames/BODY_contact_000000.vtp must not be a body's own file.
 void check_names_of_contact_surfaces(const std::vector<Body>& bodies) {
+  std::unordered_map<std::string, const Body*> by_name;
+  for (const Body& body : bodies) by_name[body.name] = &body;
   for (const Body& body : bodies)
-    for (const Body& other : bodies)
-      if (other.name == body.name + "_contact")
-        throw InputError(other.where, fmt::format("body `{}` has the name of the contact surface "
-                                                  "of `{}` in the results; expected another name, "
-                                                  "or no output.contact_surfaces",
-                                                  other.name, body.name));
+    if (const auto other = by_name.find(body.name + "_contact"); other != by_name.end())
+      throw InputError(other->second->where,
+                       fmt::format("body `{}` has the name of the contact surface "
+                                   "of `{}` in the results; expected another name, "
+                                   "or no output.contact_surfaces",
+                                   other->first, body.name));
 }
 
 /// Inertia would have to give it an impulse at each of its times.
@@ -60,6 +65,30 @@ void refuse_settings_below_tables(const Node& root) {
     if (const Node::List* list = member.node.list())
       for (const Node& entry : *list) check(entry, "[[" + member.key + "]]");
   }
+}
+
+/// Whatever names a file has the key `file`.
+void append_files(const Node& node, const std::filesystem::path& folder,
+                  std::vector<std::filesystem::path>& files) {
+  if (node.table() != nullptr)
+    for (const Member& member : node.table()->members) {
+      if (member.key == "file" && member.node.text() != nullptr)
+        files.push_back(read_path(member.node, folder));
+      else
+        append_files(member.node, folder, files);
+    }
+  if (node.list() != nullptr)
+    for (const Node& entry : *node.list()) append_files(entry, folder, files);
+}
+
+std::vector<std::filesystem::path> files_of(const Node& root, const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> files;
+  for (const Member& member : root.table()->members)
+    if (member.key != "choice") append_files(member.node, file.parent_path(), files);
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  files.insert(files.begin(), file);
+  return files;
 }
 
 }  // namespace
@@ -105,6 +134,7 @@ Scenario read_scenario(const std::filesystem::path& file,
   on_bodies.tell();
   if (scenario.analysis == Scenario::Analysis::Dynamic) check_motions_of_masses(scenario);
   scenario.probes = read_probes(document, context, scenario);
+  scenario.files = files_of(root, file);
   scenario.settings_json = settings_as_json(scenario);
   scenario.content = plain_text(root);
   return scenario;

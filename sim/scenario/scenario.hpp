@@ -285,7 +285,10 @@ using Load = std::variant<GravityLoad, ForceLoad, SurfaceLoad, MotionLoad>;
 
 /// Without any of these every pair of bodies can meet, and none meets itself.
 struct ContactPair {
-  std::string a, b;  // a == b: the body with itself
+  /// Two bodies, a == b: the body with itself. Where one of the names or both are patterns
+  /// (name_pattern.hpp): every pair of a body that fits a and another that fits b, but for two
+  /// fixed ones. Of entries that fit a pair the one with fewer patterns holds, then the later one.
+  std::string a, b;
   Location where;
   double friction = 0;                       // coefficient; dynamic analysis only
   std::optional<double> slip_velocity = {};  // [m/s] that friction takes for rest; default: chosen
@@ -396,7 +399,10 @@ struct Scenario {
   enum class Accuracy { Fast, Balanced, Accurate } accuracy = Accuracy::Balanced;
   Integrator integrator;
   Detection detection;
-  int threads = 1;  // of the run, not of the file: results have the same bits with any number
+  // Of the run, not of the file: results have the same bits with any number of threads, and with
+  // arithmetic that all processors share on all of them (fem/solver/processor.hpp).
+  int threads = 1;
+  bool reproducible = false;
   std::vector<Body> bodies;
   std::vector<Attachment> attachments;
   std::vector<Support> supports;
@@ -417,6 +423,8 @@ struct Scenario {
   std::vector<std::pair<std::string, std::string>> choices;
   /// The settings after presets and overrides, as JSON text, for summary.json.
   std::string settings_json;
+  /// All files that it names, and it itself.
+  std::vector<std::filesystem::path> files;
   /// What the file says after overrides, without comments and layout: checkpoints belong to it.
   std::string content;
 };

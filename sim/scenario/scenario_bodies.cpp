@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <unordered_map>
 
 #include "sim/base/pose.hpp"
 #include "sim/scenario/data_path.hpp"
@@ -310,10 +312,12 @@ std::array<bool, 6> read_freedoms(const Node& node) {
 
 std::vector<Body> read_bodies(const TableReader& document, const std::filesystem::path& folder) {
   std::vector<Body> bodies;
+  std::unordered_map<std::string, std::size_t> index;
   read_each(entries(document, "body"), [&](const Node& node) {
     Body body = read_body(node, folder);
     const Node& name = *node.find("name");
-    check_new_name(name, "body", body.name, bodies);
+    const auto [known, is_new] = index.try_emplace(body.name, bodies.size());
+    if (!is_new) check_new_name(name, "body", body.name, std::vector{bodies[known->second]});
     // Frames are written as frames/BODY_000000.vtu, and lines_000000.vtp holds muscles and
     // ligaments.
     if (body.name == "lines") fail(name, "a body cannot be called `lines`; results use that name");

@@ -68,11 +68,10 @@ std::string side_suffix(const TableReader& table, Side side) {
 
 const Body& read_body_reference(const Node& node, const Context& context) {
   const std::string written = read_text(node), name = context.name(written);
-  std::vector<std::string> names;
-  for (const Body& body : context.bodies) {
+  for (const Body& body : context.bodies)
     if (body.name == name) return body;
-    names.push_back(body.name);
-  }
+  std::vector<std::string> names;
+  for (const Body& body : context.bodies) names.push_back(body.name);
   const std::string image = name == written ? "" : fmt::format(" (mirror image of `{}`)", written);
   fail(node,
        fmt::format("no body is called `{}`{}{}", one_line(name), image, suggestion(name, names)));

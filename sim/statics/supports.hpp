@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,16 +12,16 @@ namespace articular::sim {
 struct SupportChange {
   enum class Kind { Contact, Ligament };
   Kind kind = Kind::Contact;
-  int index = 0;       // into Model::contacts or Model::ligaments
-  int began = 0;       // nodes that press now and did not before; of a ligament 1: it is taut
-  int ceased = 0;      // nodes that pressed and do not now; of a ligament 1: it is slack
-  bool held = false;   // it carried anything before,
-  bool holds = false;  // and now
+  ContactId index = 0;  // the contact, or index into Model::ligaments
+  int began = 0;        // nodes that press now and did not before; of a ligament 1: it is taut
+  int ceased = 0;       // nodes that pressed and do not now; of a ligament 1: it is slack
+  bool held = false;    // it carried anything before,
+  bool holds = false;   // and now
   bool flips() const { return held != holds; }
 };
 
 /// "contact of `a` and `b`", "ligament `acl`".
-std::string name_of(const Model& model, SupportChange::Kind kind, int index);
+std::string name_of(const Model& model, SupportChange::Kind kind, ContactId index);
 
 /// What holds bodies in their places at one moment and may cease to: contacts that press, and
 /// ligaments that pull. Where Newton's iteration does not settle, these go to and fro.
@@ -31,8 +32,8 @@ class Supports {
   std::vector<SupportChange> changes_since(const Supports& before) const;
 
  private:
-  std::vector<std::vector<char>> pressing_;  // by contact, by smoothing group; empty: nothing near
-  std::vector<char> pulling_;                // by ligament
+  std::map<ContactId, std::vector<char>> pressing_;  // of those near, by smoothing group
+  std::vector<char> pulling_;                        // by ligament
 };
 
 }  // namespace articular::sim

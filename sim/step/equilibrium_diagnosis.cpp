@@ -28,14 +28,14 @@ const std::string& body_name(const Model& model, int body) {
 /// How often a contact or ligament changed.
 struct Tally {
   SupportChange::Kind kind = SupportChange::Kind::Contact;
-  int index = 0;
+  ContactId index = 0;
   int flips = 0;       // it opened or closed as a whole, went slack or taut
   int iterations = 0;  // in which at least a node of it did
 };
 
 /// By flips, then by iterations.
 std::vector<Tally> tallies_of(std::span<const ConvergenceRow> rows) {
-  std::map<std::pair<SupportChange::Kind, int>, Tally> sums;
+  std::map<std::pair<SupportChange::Kind, ContactId>, Tally> sums;
   for (const ConvergenceRow& row : rows)
     for (const SupportChange& change : row.newton.changes) {
       Tally& tally = sums[{change.kind, change.index}];

@@ -74,7 +74,7 @@ std::string deepest_contact(const Model& model, const std::vector<ContactSummary
       contacts.begin(), contacts.end(),
       [](const ContactSummary& a, const ContactSummary& b) { return a.energy < b.energy; });
   if (most == contacts.end() || !(most->energy > 0)) return {};
-  const ContactModel& pair = model.contacts[static_cast<std::size_t>(most->contact)];
+  const ContactModel pair = model.contacts[most->contact];
   return fmt::format("; contact of `{}` and `{}` holds {:.2g} J, {:.3g} mm deep",
                      name_of(model, pair.a), name_of(model, pair.b), most->energy,
                      1e3 * most->max_depth);

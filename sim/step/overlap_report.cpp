@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "sim/contact/initial_overlap.hpp"
 #include "sim/step/overlap_resolution.hpp"
@@ -38,15 +39,15 @@ std::vector<OverlapReport> overlap_reports(const Scenario& scenario, const Model
                                            const Eigen::VectorXd& y) {
   const std::vector<OverlapAtStart> found = overlaps_at_start(scenario, model, y);
   const std::vector<InitialOverlap> drawn = initial_overlaps(model);
+  std::set<ContactId> contacts;
+  for (const OverlapAtStart& overlap : found) contacts.insert(overlap.contact);
+  for (const InitialOverlap& overlap : drawn) contacts.insert(overlap.contact);
   std::vector<OverlapReport> reports;
-  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    const ContactModel& contact = model.contacts[c];
-    const auto by_contact = std::find_if(found.begin(), found.end(), [&](const auto& overlap) {
-      return overlap.contact == static_cast<int>(c);
-    });
-    const auto by_faces = std::find_if(drawn.begin(), drawn.end(), [&](const auto& overlap) {
-      return overlap.a == contact.a && overlap.b == contact.b;
-    });
+  for (const ContactId id : contacts) {
+    const ContactModel contact = model.contacts[id];
+    const auto is_it = [&](const auto& overlap) { return overlap.contact == id; };
+    const auto by_contact = std::find_if(found.begin(), found.end(), is_it);
+    const auto by_faces = std::find_if(drawn.begin(), drawn.end(), is_it);
     const OverlapAtStart* const of_contact = by_contact == found.end() ? nullptr : &*by_contact;
     if (of_contact == nullptr &&
         (by_faces == drawn.end() || by_faces->depth <= contact.max_penetration))
@@ -55,7 +56,7 @@ std::vector<OverlapReport> overlap_reports(const Scenario& scenario, const Model
         by_faces != drawn.end()
             ? as_drawn(*by_faces)
             : fmt::format(" overlap at the start by {:.3g} mm", 1e3 * by_contact->depth);
-    reports.push_back({static_cast<int>(c), of_contact != nullptr && of_contact->is_set_apart,
+    reports.push_back({id, of_contact != nullptr && of_contact->is_set_apart,
                        pair_of(model, contact) + size + ": " + what_run_does(contact, of_contact)});
   }
   return reports;

@@ -9,7 +9,7 @@ namespace articular::sim {
 
 /// Two bodies that overlap before anything has moved.
 struct OverlapReport {
-  int contact = 0;            // index into Model::contacts
+  ContactId contact = 0;
   bool is_set_apart = false;  // before the run
   std::string words;          // "`a` and `b` overlap at the start by 0.2 mm, ..."
 };

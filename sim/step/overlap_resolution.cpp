@@ -38,17 +38,16 @@ std::string names(const Model& model, const ContactModel& contact) {
 }
 
 /// What lies so deep in another body that contact can't tell the way out is no start.
-/// @param seen  by contact: depths that contact finds a face for [m]
-void refuse_lost_bodies(const Model& model, const std::vector<double>& seen) {
+/// @param seen  depths that contact finds a face for
+void refuse_lost_bodies(const Model& model, const ContactDepths& seen) {
   for (const InitialOverlap& overlap : initial_overlaps(model)) {
-    const auto same = [&](const ContactModel& c) { return c.a == overlap.a && c.b == overlap.b; };
-    const auto contact = std::find_if(model.contacts.begin(), model.contacts.end(), same);
-    if (overlap.depth <= contact->max_penetration || are_tied(model, *contact)) continue;
-    if (seen[static_cast<std::size_t>(contact - model.contacts.begin())] > 0) continue;
+    const ContactModel contact = model.contacts[overlap.contact];
+    if (overlap.depth <= contact.max_penetration || are_tied(model, contact)) continue;
+    if (seen.of(overlap.contact) > 0) continue;
     throw SimulationError(
         fmt::format("{} overlap at the start by {:.3g} mm, at ({:.3f} {:.3f} {:.3f}) mm, and "
                     "contact can't tell the way out: move one of them",
-                    names(model, *contact), 1e3 * overlap.depth, 1e3 * overlap.place.x(),
+                    names(model, contact), 1e3 * overlap.depth, 1e3 * overlap.place.x(),
                     1e3 * overlap.place.y(), 1e3 * overlap.place.z()));
   }
 }
@@ -66,14 +65,13 @@ class OverlapResolver {
   }
 
   std::vector<OverlapAtStart> at_start(const Eigen::VectorXd& y) {
-    const std::vector<double> depth = depths(at_rest(model_, y));
+    const ContactDepths depth = depths(at_rest(model_, y));
     // Where depths are averaged, facets of a round surface may cut into another and carry nothing.
     refuse_lost_bodies(model_, dynamics_.now().contact.point_depths());
     std::vector<OverlapAtStart> overlaps;
-    for (std::size_t c = 0; c < depth.size(); ++c)
-      if (depth[c] > kFlush * least_size(model_.contacts[c]))
-        overlaps.push_back(
-            {static_cast<int>(c), depth[c], depth[c] > model_.contacts[c].max_penetration});
+    for (const auto& [id, deepest] : depth.all())
+      if (const ContactModel contact = model_.contacts[id]; deepest > kFlush * least_size(contact))
+        overlaps.push_back({id, deepest, deepest > contact.max_penetration});
     return overlaps;
   }
 
@@ -108,15 +106,15 @@ class OverlapResolver {
 
  private:
   Conditions conditions() const {
-    return {.unloaded = true, .contact = {.allowances = allowances_}};
+    return {.unloaded = true, .contact = {.allowances = &allowances_}};
   }
 
-  std::vector<double> depths(const Eigen::VectorXd& y) {
-    allowances_.clear();
+  ContactDepths depths(const Eigen::VectorXd& y) {
+    allowances_ = {};
     look(y, 0);
-    std::vector<double> depths(model_.contacts.size(), 0);
+    ContactDepths depths;
     for (const ContactSummary& contact : dynamics_.contacts())
-      depths[static_cast<std::size_t>(contact.contact)] = contact.max_point_depth;
+      depths.add(contact.contact, contact.max_point_depth);
     return depths;
   }
 
@@ -131,7 +129,7 @@ class OverlapResolver {
   double num_steps() const {
     double count = 1;
     for (const ResolvedOverlap& overlap : resolution_.overlaps) {
-      const ContactModel& contact = model_.contacts[static_cast<std::size_t>(overlap.contact)];
+      const ContactModel contact = model_.contacts[overlap.contact];
       const double step = kStepOfElement * least_size(contact);
       count = std::max(count, std::ceil(overlap.before / step));
     }
@@ -141,9 +139,9 @@ class OverlapResolver {
   /// Moves bodies on from rest in pseudo-time, each solution by no more than an element, until what
   /// is deeper than this part of the overlaps is gone, or held by bodies that can't give way.
   bool relax(double allowed, Eigen::VectorXd& y) {
-    allowances_.assign(model_.contacts.size(), 0);
+    allowances_ = {};
     for (const ResolvedOverlap& overlap : resolution_.overlaps)
-      allowances_[static_cast<std::size_t>(overlap.contact)] = allowed * overlap.before;
+      allowances_.add(overlap.contact, allowed * overlap.before);
     return approach_in_pseudo_time(model_.trusted_motion, kMostEquilibria,
                                    [&](double motion) { return move_on(motion, y); });
   }
@@ -165,8 +163,7 @@ class OverlapResolver {
     const std::vector<ContactSummary> contacts = dynamics_.contacts();
     const bool apart =
         std::all_of(contacts.begin(), contacts.end(), [this](const ContactSummary& contact) {
-          const auto c = static_cast<std::size_t>(contact.contact);
-          return contact.max_point_depth <= model_.contacts[c].max_penetration;
+          return contact.max_point_depth <= model_.contacts[contact.contact].max_penetration;
         });
     return apart || equilibrium_.is_balanced(kMostUnbalanced);
   }
@@ -179,9 +176,8 @@ class OverlapResolver {
   }
 
   void finish(const Eigen::VectorXd& start, const Eigen::VectorXd& y) {
-    const std::vector<double> depth = depths(y);
-    for (ResolvedOverlap& overlap : resolution_.overlaps)
-      overlap.after = depth[static_cast<std::size_t>(overlap.contact)];
+    const ContactDepths depth = depths(y);
+    for (ResolvedOverlap& overlap : resolution_.overlaps) overlap.after = depth.of(overlap.contact);
     Configuration before;
     read_state(model_, start.data(), 0, before);
     refuse_turned_elements(before);
@@ -215,10 +211,9 @@ class OverlapResolver {
   }
 
   [[noreturn]] void fail(const std::string& how) const {
-    throw SimulationError(
-        fmt::format("{} overlap at the start by {:.3g} mm, and {}: move one of them",
-                    names(model_, model_.contacts[static_cast<std::size_t>(deepest().contact)]),
-                    1e3 * deepest().before, how));
+    throw SimulationError(fmt::format(
+        "{} overlap at the start by {:.3g} mm, and {}: move one of them",
+        names(model_, model_.contacts[deepest().contact]), 1e3 * deepest().before, how));
   }
 
   const Model& model_;
@@ -228,7 +223,7 @@ class OverlapResolver {
   ContactHooks hooks_;
   double margin_;
   std::int64_t rejected_ = 0;
-  std::vector<double> allowances_;  // by contact [m]; empty: none
+  ContactDepths allowances_;
   OverlapResolution resolution_;
 };
 
@@ -246,8 +241,7 @@ OverlapResolution resolve_overlaps(const Scenario& scenario, const Model& model,
   const StepSettings settings = step_settings(scenario);
   OverlapResolver resolver(model, settings, watch);
   if (resolver.overlaps(y).empty()) return {};
-  if (std::none_of(model.contacts.begin(), model.contacts.end(),
-                   [](const ContactModel& contact) { return contact.averaged; }))
+  if (!model.contacts.any([](const ContactModel& contact) { return contact.averaged; }))
     return resolver.resolve(y);
   // Soft pointwise contact gets bodies out of each other more easily, and edges and corners too.
   const Model pointwise = with_pointwise_contact(model, scenario);

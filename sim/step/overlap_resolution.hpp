@@ -6,7 +6,7 @@ namespace articular::sim {
 
 /// What contact finds before anything has moved.
 struct OverlapAtStart {
-  int contact = 0;            // index into Model::contacts
+  ContactId contact = 0;
   double depth = 0;           // [m] of the deepest point
   bool is_set_apart = false;  // by resolve_overlaps(): deeper than the contact's max_penetration
 };

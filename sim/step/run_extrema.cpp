@@ -46,7 +46,7 @@ void note_extrema(const Moment& now, State& state) {
   for (const ContactSummary& contact : contact_summaries(model, now.contact, now.configuration)) {
     if (!(contact.max_depth > 0)) continue;
     state.max_penetration = std::max(state.max_penetration, contact.max_depth);
-    const ContactModel& pair = model.contacts[static_cast<std::size_t>(contact.contact)];
+    const ContactModel pair = model.contacts[contact.contact];
     const double overlap = contact.max_depth / followed_depth(model, pair);
     if (!(overlap > extrema.overlap)) continue;
     extrema.overlap = overlap;

@@ -117,7 +117,7 @@ class Stepper {
   std::vector<Vec3> loads_before_;
   std::vector<Vec6> reactions_before_;  // of held rigid bodies that are driven, by rigid body
   Eigen::VectorXd forces_before_;
-  std::vector<double> depths_before_;  // of any point, by contact [m]
+  ContactDepths depths_before_;  // of any point
   double t_before_ = 0;
   double damping_before_ = 0;                // [W]
   double contact_power_before_ = 0;          // [W]

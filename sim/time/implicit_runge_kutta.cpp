@@ -174,9 +174,8 @@ ImplicitRungeKutta::ImplicitRungeKutta(const Model& model, Dynamics& dynamics,
       dynamics_(dynamics),
       scheme_(settings.scheme),
       newton_(model, dynamics),
-      has_stiff_contact_(std::any_of(
-          model.contacts.begin(), model.contacts.end(),
-          [](const ContactModel& contact) { return contact.soft != contact.stiffness; })),
+      has_stiff_contact_(
+          model.contacts.any([](const ContactModel& contact) { return contact.starts_soft(); })),
       acceleration_(Eigen::VectorXd::Zero(3 * model.layout.num_unknown_blocks())),
       context_(sundials::make_context()),
       y_(sundials::make_vector(model.layout.size(), context_)),

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sim/build/contact_model.hpp"
+#include "sim/scenario/name_pattern.hpp"
 #include "sim/statics/equilibrium.hpp"
 
 namespace articular::tools {
@@ -46,22 +47,21 @@ int order_of(Scheme scheme) {
 
 /// Whether two bodies that are no tissue, and not both fixed, can touch.
 bool has_rigid_pair(const sim::Scenario& scenario) {
-  const auto is_pair = [&](const sim::Body& a, const sim::Body& b) {
-    const bool both_fixed = a.kind == sim::Body::Kind::Fixed && b.kind == sim::Body::Kind::Fixed;
-    const bool tissue = a.kind == sim::Body::Kind::Tissue || b.kind == sim::Body::Kind::Tissue;
-    return !both_fixed && !tissue && can_touch(scenario, a) && can_touch(scenario, b);
+  std::vector<const sim::Body*> bodies;  // rigid ones first
+  for (const sim::Body::Kind kind : {sim::Body::Kind::Rigid, sim::Body::Kind::Fixed})
+    for (const sim::Body& body : scenario.bodies)
+      if (body.kind == kind && can_touch(scenario, body)) bodies.push_back(&body);
+  const auto is_pair = [](const sim::Body& a, const std::string& of_a, const sim::Body& b,
+                          const std::string& of_b) {
+    return (sim::fits(of_a, a.name) && sim::fits(of_b, b.name)) ||
+           (sim::fits(of_b, a.name) && sim::fits(of_a, b.name));
   };
-  const auto body = [&](const std::string& name) -> const sim::Body& {
-    return scenario.bodies[static_cast<std::size_t>(sim::body_index(scenario, name))];
-  };
-  if (!scenario.contacts.empty())
-    return std::any_of(
-        scenario.contacts.begin(), scenario.contacts.end(),
-        [&](const sim::ContactPair& pair) { return is_pair(body(pair.a), body(pair.b)); });
-  for (auto a = scenario.bodies.begin(); a != scenario.bodies.end(); ++a)
-    if (std::any_of(a + 1, scenario.bodies.end(),
-                    [&](const sim::Body& b) { return is_pair(*a, b); }))
-      return true;
+  std::vector<sim::ContactPair> pairs = scenario.contacts;
+  if (pairs.empty()) pairs.push_back({"*", "*", {}});
+  for (const sim::ContactPair& pair : pairs)
+    for (std::size_t i = 0; i < bodies.size() && bodies[i]->kind == sim::Body::Kind::Rigid; ++i)
+      for (const sim::Body* const other : bodies)
+        if (other != bodies[i] && is_pair(*bodies[i], pair.a, *other, pair.b)) return true;
   return false;
 }
 
@@ -109,7 +109,7 @@ bool can_touch(const sim::Scenario& scenario, const sim::Body& body) {
   return scenario.contacts.empty() ||
          std::any_of(scenario.contacts.begin(), scenario.contacts.end(),
                      [&](const sim::ContactPair& pair) {
-                       return pair.a == body.name || pair.b == body.name;
+                       return sim::fits(pair.a, body.name) || sim::fits(pair.b, body.name);
                      });
 }
 

@@ -83,11 +83,13 @@ std::vector<CoarserRun*> runs_to_do(std::vector<Direction>& directions) {
 
 /// The runs as cases of a study.
 std::vector<StudyCase> cases_of(const std::vector<CoarserRun*>& runs,
-                                const std::vector<std::string>& overrides, int threads) {
+                                const std::vector<std::string>& overrides, int threads,
+                                bool reproducible) {
   std::vector<StudyCase> cases;
   for (const CoarserRun* run : runs) {
     StudyCase c{run->name, run->name, {overrides, threads, {}}};
     std::replace(c.folder.begin(), c.folder.end(), ' ', '_');
+    c.settings.reproducible = reproducible;
     c.settings = c.settings + StudySettings{run->overrides, {}, {}};
     cases.push_back(std::move(c));
   }
@@ -136,8 +138,8 @@ std::string measure_error_bars(const sim::Scenario& scenario, const ErrorBarSett
   Study study;
   study.file = study.scenario = scenario.file;
   const int jobs = side_by_side(settings.threads, main.peak_megabytes, runs.size());
-  const std::vector<StudyCase> cases =
-      cases_of(runs, settings.overrides, std::max(1, settings.threads / jobs));
+  const std::vector<StudyCase> cases = cases_of(
+      runs, settings.overrides, std::max(1, settings.threads / jobs), scenario.reproducible);
   if (!settings.quiet) fmt::print(stderr, "articular: error bars: {} coarser runs\n", runs.size());
   const std::vector<CaseRecord> records =
       run_cases(study, cases, {folder, jobs, fresh, settings.quiet});

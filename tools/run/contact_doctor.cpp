@@ -10,8 +10,8 @@
 namespace articular::tools {
 namespace {
 
-std::string pair_of(const sim::Model& model, int contact) {
-  const sim::ContactModel& pair = model.contacts[static_cast<std::size_t>(contact)];
+std::string pair_of(const sim::Model& model, sim::ContactId contact) {
+  const sim::ContactModel pair = model.contacts[contact];
   return fmt::format("`{}` and `{}`", model.bodies[static_cast<std::size_t>(pair.a)].name,
                      model.bodies[static_cast<std::size_t>(pair.b)].name);
 }
@@ -33,7 +33,7 @@ std::string outcome(const sim::ContactTrial& trial) {
 void print_culprits(const sim::Model& model, const sim::ContactDiagnosis& found) {
   using sim::ContactTrial;
   const bool without = found.trials.front().outcome == ContactTrial::Outcome::Taken;
-  for (const int contact : found.culprits)
+  for (const sim::ContactId contact : found.culprits)
     fmt::print("contact of {} makes it fail\n", pair_of(model, contact));
   if (!found.culprits.empty()) return;
   fmt::print("{}\n", without ? "no pair makes it fail alone, and none is needed for it"

@@ -19,7 +19,7 @@ const std::string& name(const sim::Model& model, int body) {
 
 /// In steps of elements at the surface.
 std::string how_near(const sim::Model& model, const sim::ContactOverview& overview) {
-  const sim::ContactModel& contact = model.contacts[static_cast<std::size_t>(overview.contact)];
+  const sim::ContactModel contact = model.contacts[overview.contact];
   if (!overview.can_move) return "never: neither moves";
   if (contact.a == contact.b) return "itself";
   if (!std::isfinite(overview.distance)) return "never: all is tied";
@@ -34,7 +34,7 @@ std::string how_near(const sim::Model& model, const sim::ContactOverview& overvi
 }
 
 std::string pair_row(const sim::Model& model, const sim::ContactOverview& overview) {
-  const sim::ContactModel& contact = model.contacts[static_cast<std::size_t>(overview.contact)];
+  const sim::ContactModel contact = model.contacts[overview.contact];
   return fmt::format("  {:<20} {:<20} {:<20} {:>11.4g} {:<9} {}\n", name(model, contact.a),
                      name(model, contact.b), name(model, contact.reversed ? contact.b : contact.a),
                      1e-9 * contact.mean_stiffness, contact.averaged ? "averaged" : "pointwise",
@@ -42,7 +42,7 @@ std::string pair_row(const sim::Model& model, const sim::ContactOverview& overvi
 }
 
 std::string tied_row(const sim::Model& model, const sim::ContactOverview& overview) {
-  const sim::ContactModel& contact = model.contacts[static_cast<std::size_t>(overview.contact)];
+  const sim::ContactModel contact = model.contacts[overview.contact];
   const bool a_is_tissue = model.bodies[static_cast<std::size_t>(contact.a)].tissue >= 0;
   return fmt::format(
       "  {:<20} to {:<20} {} nodes in {} faces, which don't touch it; {} faces may, {} of them lie "
@@ -65,14 +65,14 @@ std::string surface_row(const sim::Model& model, const sim::SurfaceOverview& sur
 
 std::string coarse_rows(const sim::Model& model, const std::vector<sim::ContactOverview>& pairs,
                         const std::vector<sim::SurfaceOverview>& surfaces) {
-  const auto edge = [&](int body) {
-    return std::find_if(surfaces.begin(), surfaces.end(),
-                        [&](const sim::SurfaceOverview& s) { return s.body == body; })
+  const auto edge = [&](int body) {  // they come in the order of the bodies
+    return std::lower_bound(surfaces.begin(), surfaces.end(), body,
+                            [](const sim::SurfaceOverview& s, int b) { return s.body < b; })
         ->edge;
   };
   std::string text;
   for (const sim::ContactOverview& pair : pairs) {
-    const sim::ContactModel& contact = model.contacts[static_cast<std::size_t>(pair.contact)];
+    const sim::ContactModel contact = model.contacts[pair.contact];
     const double ratio = edge(contact.a) / edge(contact.b);
     if (std::max(ratio, 1 / ratio) < kMuchCoarser) continue;
     const bool a_is_coarse = ratio > 1;
@@ -93,6 +93,8 @@ std::string contact_table(const sim::Model& model) {
   std::string text = fmt::format("  {:<20} {:<20} {:<20} {:>11} {:<9} {}\n", "may touch", "",
                                  "non-mortar side", "N/mm^3", "depths", "at the start");
   for (const sim::ContactOverview& pair : pairs) text += pair_row(model, pair);
+  if (const auto more = model.contacts.size() - std::ssize(pairs); more > 0)
+    text += fmt::format("  and {} pairs that are farther from each other than an element\n", more);
   std::string tied;
   for (const sim::ContactOverview& pair : pairs)
     if (pair.num_tied_nodes > 0) tied += tied_row(model, pair);

@@ -19,6 +19,9 @@
 namespace articular::tools {
 namespace {
 
+/// Of more pairs of bodies one of each kind is listed.
+constexpr std::int64_t kMostPairs = 1000;
+
 using Json = nlohmann::ordered_json;
 
 /// ", 1 of them driven", if any of a bone's held freedoms is.
@@ -100,11 +103,11 @@ Json left_out(const sim::Model& model) {
     for (const sim::BodyModel& body : model.bodies)
       if (!body.collider)
         items.push_back(fmt::format("contact of `{}`: it is in no contact pair", body.name));
-    if (!any(model.contacts, [](const sim::ContactModel& c) { return c.a == c.b; }))
+    if (!model.contacts.any([](const sim::ContactModel& c) { return c.a == c.b; }))
       items.push_back("self-contact: no tissue is tested against itself");
-    if (!any(model.contacts, [](const sim::ContactModel& c) { return c.law.friction > 0; }))
+    if (!model.contacts.any([](const sim::ContactModel& c) { return c.law.friction > 0; }))
       items.push_back("friction: the scene names none");
-    if (!any(model.contacts, [](const sim::ContactModel& c) { return c.law.damping > 0; }))
+    if (!model.contacts.any([](const sim::ContactModel& c) { return c.law.damping > 0; }))
       items.push_back("damping in contact: the scene names none");
   }
   if (!any(model.tissues,
@@ -161,12 +164,16 @@ Json promise(const sim::Scenario& scenario) {
 Json explain(const sim::Scenario& scenario, const sim::Model& model) {
   Json bodies = Json::array(), pairs = Json::array();
   for (const sim::BodyModel& body : model.bodies) bodies.push_back(explain_body(model, body));
-  for (const sim::ContactModel& contact : model.contacts)
+  const bool lists_pairs = model.contacts.size() <= kMostPairs;
+  for (const sim::ContactId id : lists_pairs ? model.contacts.all() : model.contacts.kinds()) {
+    const sim::ContactModel contact = model.contacts[id];
     pairs.push_back({{"a", model.bodies[static_cast<std::size_t>(contact.a)].name},
                      {"b", model.bodies[static_cast<std::size_t>(contact.b)].name},
                      {"stiffness_Pa_per_m", contact.mean_stiffness}});
+  }
   return {{"title", scenario.title},
           {"bodies", bodies},
+          {"num_contact_pairs", model.contacts.size()},
           {"contact_pairs", pairs},
           {"muscles", model.muscles.size()},
           {"ligaments", model.ligaments.size()},
@@ -223,8 +230,11 @@ void print(const Json& json) {
   fmt::print("  {} muscles, {} ligaments, {} forces, {}\n", json["muscles"].get<int>(),
              json["ligaments"].get<int>(), json["loads"].get<int>(),
              json["gravity"].get<bool>() ? "gravity" : "no gravity");
-  if (!json["contact_pairs"].empty())
-    fmt::print("\nContact pairs (stiffness chosen from the tissue):\n");
+  const auto listed = std::ssize(json["contact_pairs"]),
+             pairs = json["num_contact_pairs"].get<std::ptrdiff_t>();
+  if (pairs > 0)
+    fmt::print("\nContact pairs (stiffness chosen from the tissue{}):\n",
+               listed < pairs ? fmt::format("; of {} one of each kind", pairs) : "");
   for (const Json& pair : json["contact_pairs"])
     fmt::print("  {} - {}: {:.3g} Pa/m\n", pair["a"].get<std::string>(),
                pair["b"].get<std::string>(), pair["stiffness_Pa_per_m"].get<double>());

@@ -13,6 +13,7 @@
 #include "tools/error_bars/measure_error_bars.hpp"
 #include "tools/process/interruption.hpp"
 #include "tools/run/commands.hpp"
+#include "tools/run/portable_start.hpp"
 #include "tools/run/progress.hpp"
 #include "tools/study/study_prepare.hpp"
 
@@ -28,12 +29,13 @@ struct RunArguments {
   std::vector<std::string> overrides;
   int threads = 1;
   bool resume = false, overwrite = false, quiet = false, error_bars = false;
+  bool reproducible = false;
 };
 
 void print(const sim::Model& model, const sim::OverlapResolution& resolution) {
   const auto name = [&](int body) { return model.bodies[static_cast<std::size_t>(body)].name; };
   for (const sim::ResolvedOverlap& overlap : resolution.overlaps) {
-    const sim::ContactModel& contact = model.contacts[static_cast<std::size_t>(overlap.contact)];
+    const sim::ContactModel contact = model.contacts[overlap.contact];
     fmt::print(stderr, "articular: start: `{}` and `{}` overlapped by {:.3g} mm, now {:.2g} mm\n",
                name(contact.a), name(contact.b), 1e3 * overlap.before, 1e3 * overlap.after);
   }
@@ -126,8 +128,10 @@ int print_error_bars(const sim::Scenario& scenario, const RunArguments& argument
 }
 
 int run_scenario(const RunArguments& arguments) {
+  if (arguments.reproducible) use_portable_arithmetic();
   sim::Scenario scenario = sim::read_scenario(arguments.scenario, arguments.overrides);
   scenario.threads = arguments.threads;
+  scenario.reproducible = arguments.reproducible;
   const int exit_code = run_once(scenario, arguments);
   return exit_code == 0 && arguments.error_bars ? print_error_bars(scenario, arguments) : exit_code;
 }
@@ -158,6 +162,9 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_flag("--error-bars", arguments->error_bars,
                     "Run again coarser in mesh, step, contact and tolerance, and estimate the "
                     "discretisation error of every probe: two to six times the time");
+  command->add_flag("--reproducible", arguments->reproducible,
+                    "The same bits on every x86-64 processor, by kernels that all have: slower. "
+                    "Goes on with --resume in the same way only");
   command->add_flag("--quiet", arguments->quiet, "No progress on stderr");
   command->footer(
       "Writes DIR/NAME.pvd (open it in ParaView), DIR/frames/, DIR/history.csv (probes over "

@@ -27,7 +27,7 @@ struct SceneCosts {
   double factor_seconds = 0;                        // preparing the linear solver with it
   double solve_seconds = 0;                         // with the factor
   double detection_seconds = 0;                     // of one search for contacts
-  std::int64_t compared_pairs = 0, near_pairs = 0;  // of bodies; boxes that overlap with the margin
+  std::int64_t possible_pairs = 0, near_pairs = 0;  // of bodies; boxes that overlap with the margin
   // Heap that each of them holds [bytes]:
   double detection_bytes = 0, matrix_bytes = 0, solver_bytes = 0;
   double peak_bytes = 0;  // of this process by now: about what a run needs

@@ -160,6 +160,7 @@ StudySettings operator+(StudySettings settings, const StudySettings& more) {
   settings.overrides.insert(settings.overrides.end(), more.overrides.begin(), more.overrides.end());
   if (more.threads) settings.threads = more.threads;
   if (!more.prepare.empty()) settings.prepare = more.prepare;
+  settings.reproducible |= more.reproducible;
   return settings;
 }
 

@@ -14,6 +14,7 @@ struct StudySettings {
   std::vector<std::string> overrides;  // of `articular run --set`, PATH=VALUE
   std::optional<int> threads;
   std::vector<std::string> prepare;  // arguments of an `articular` command that makes its meshes
+  bool reproducible = false;         // of `articular run`; no key says so
 };
 
 /// These settings and, over them, those of `more`.

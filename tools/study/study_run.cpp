@@ -97,6 +97,7 @@ class CaseRunner {
       command.emplace_back("--threads");
       command.push_back(std::to_string(*c.settings.threads));
     }
+    if (c.settings.reproducible) command.emplace_back("--reproducible");
     for (const std::string& text : c.settings.overrides) {
       command.emplace_back("--set");
       command.push_back(text);

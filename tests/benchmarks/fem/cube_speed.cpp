@@ -133,14 +133,14 @@ class CalculiX {
   }
 
   void run(Record& record, Record& reading) const {
-    const ChildUse use = measure_program("ccx", "cube", folder_.path().string());
+    const ChildUse use = measure_program("ccx", {"cube"}, folder_.path().string());
     if (!use.succeeded) throw std::runtime_error("ccx failed");
     record.add(use);
     record.reactions = reactions_in(folder_.path() / "cube.dat");
     record.details =
         lines_of_log(" iteration ") + " Newton, " + lines_of_log("iteration= ") + " CG";
     // Without an analysis it ends with a code of its own.
-    reading.add(measure_program("ccx", "reading", folder_.path().string()));
+    reading.add(measure_program("ccx", {"reading"}, folder_.path().string()));
   }
 
  private:

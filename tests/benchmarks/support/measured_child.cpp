@@ -44,12 +44,15 @@ ChildUse use_of(pid_t child) {
           .output = {}};
 }
 
-[[noreturn]] void become(const std::string& program, const std::string& argument,
+[[noreturn]] void become(std::string program, std::vector<std::string> arguments,
                          const std::string& folder) {
   for (const char* threads : {"OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"}) setenv(threads, "1", 1);
   const int log = chdir(folder.c_str()) == 0 ? open("log", O_WRONLY | O_CREAT | O_TRUNC, 0600) : -1;
+  std::vector<char*> words{program.data()};
+  for (std::string& argument : arguments) words.push_back(argument.data());
+  words.push_back(nullptr);
   if (log >= 0 && dup2(log, STDOUT_FILENO) >= 0 && dup2(log, STDERR_FILENO) >= 0)
-    execlp(program.c_str(), program.c_str(), argument.c_str(), static_cast<char*>(nullptr));
+    execvp(program.c_str(), words.data());
   _exit(kNotRun);
 }
 
@@ -81,11 +84,11 @@ ChildUse measure_in_child(const std::function<void()>& work) {
   return use;
 }
 
-ChildUse measure_program(const std::string& program, const std::string& argument,
+ChildUse measure_program(const std::string& program, const std::vector<std::string>& arguments,
                          const std::string& folder) {
   const pid_t child = fork();
   if (child < 0) fail("fork");
-  if (child == 0) become(program, argument, folder);
+  if (child == 0) become(program, arguments, folder);
   return use_of(child);
 }
 

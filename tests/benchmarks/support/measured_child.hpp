@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace articular::benchmarks {
 
@@ -20,7 +21,7 @@ ChildUse measure_in_child(const std::function<void()>& work);
 
 /// Runs a program, found by PATH, in a folder; its output goes to the file `log` there. OpenMP and
 /// BLAS get one thread.
-ChildUse measure_program(const std::string& program, const std::string& argument,
+ChildUse measure_program(const std::string& program, const std::vector<std::string>& arguments,
                          const std::string& folder);
 
 }  // namespace articular::benchmarks

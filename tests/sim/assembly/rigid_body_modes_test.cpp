@@ -184,4 +184,59 @@ TEST(RigidBodyModes, WhatTautLigamentsHoldIsNotLoose) {
   EXPECT_TRUE(Simulation(between_springs(0.011)).stepper.loose());
 }
 
+/// Masses in a row that slide along x only, each tied to the next by a taut ligament pair, which
+/// couples them; the first one to the wall if the row is held.
+Scenario row_of_masses(int count, bool is_held) {
+  Scenario s = scene(1);
+  s.analysis = Scenario::Analysis::Static;
+  s.bodies = {stand("wall")};
+  for (int i = 0; i < count; ++i) {
+    Body mass = mass_body("mass " + std::to_string(i), 1e-3, {0.01 * i, 0, 0});
+    mass.inertia = kInertia.asDiagonal();
+    mass.hold.emplace().held = {false, true, true, true, true, true};
+    s.bodies.push_back(mass);
+  }
+  for (int i = is_held ? 0 : 1; i < count; ++i) {
+    Ligament spring;
+    spring.name = "spring " + std::to_string(i);
+    spring.path = {anchor("mass " + std::to_string(i), {0.01 * i, 0, 0}),
+                   i == 0 ? anchor("wall", {-0.01, 0, 0})
+                          : anchor("mass " + std::to_string(i - 1), {0.01 * (i - 1), 0, 0})};
+    spring.law = Ligament::Law::Linear;
+    spring.stiffness = 100;
+    spring.slack_length = 0.009;
+    s.ligaments.push_back(spring);
+  }
+  return s;
+}
+
+TEST(RigidBodyModes, ARowIsLooseAsAWholeOrHeldByItsFirstMass) {
+  for (const int count : {1, 2, 30}) {
+    EXPECT_FALSE(Simulation(row_of_masses(count, true)).stepper.loose()) << count;
+    const auto loose = Simulation(row_of_masses(count, false)).stepper.loose();
+    ASSERT_TRUE(loose) << count;
+    EXPECT_NE(loose->words.find("1.00 0.00 0.00)"), std::string::npos) << loose->words;
+  }
+}
+
+// Of two rows the loose one is found, wherever it stands in the list of bodies.
+TEST(RigidBodyModes, WhatIsNotCoupledIsLookedAtByItself) {
+  for (const bool first : {true, false}) {
+    Scenario s = row_of_masses(5, true);
+    Body alone = mass_body("alone", 1e-3, {0, 1, 0});
+    alone.inertia = kInertia.asDiagonal();
+    alone.hold.emplace().held = {true, true, false, true, true, true};
+    s.bodies.insert(first ? s.bodies.begin() : s.bodies.end(), alone);
+    const auto loose = Simulation(s).stepper.loose();
+    ASSERT_TRUE(loose);
+    EXPECT_EQ(loose->words.find("body `alone` can shift along (0.00 0.00"), 0U) << loose->words;
+  }
+}
+
+// The work grows as the cube of what hangs together.
+TEST(RigidBodyModes, OfMoreThanAHundredCoupledBodiesNothingIsSaid) {
+  EXPECT_TRUE(Simulation(row_of_masses(100, false)).stepper.loose());
+  EXPECT_FALSE(Simulation(row_of_masses(101, false)).stepper.loose());
+}
+
 }  // namespace articular::sim::rigid_body_modes_test

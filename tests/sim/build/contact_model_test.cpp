@@ -61,4 +61,53 @@ TEST(ContactModel, ABulkModulusMakesNobodyTheHarderSide) {
   EXPECT_FALSE(build_model(s).contacts[0].reversed);
 }
 
+ContactPair rough(const std::string& a, const std::string& b, double friction) {
+  ContactPair pair{a, b, {}};
+  pair.friction = friction;
+  return pair;
+}
+
+// Two names before one, one before none, and of equal ones the later: as the format says.
+TEST(ContactModel, OfEntriesThatFitAPairTheMoreExactAndThenTheLaterHolds) {
+  Scenario s = contact_scene(1e-3);
+  s.bodies = {box_body("floor", Body::Kind::Fixed, {1, 1, 0.1}),
+              box_body("wall", Body::Kind::Fixed, {1, 1, 0.1}, {0, 0, 1})};
+  for (int i = 0; i < 3; ++i) {
+    s.bodies.push_back(box_body("cube " + std::to_string(i), Body::Kind::Rigid, Vec3::Constant(0.1),
+                                {0, 0, 2.0 + i}));
+    s.bodies.back().density = 1000;
+  }
+  s.contacts = {rough("cube 0", "cube 1", 0.1), rough("floor", "cube*", 0.2), rough("*", "*", 0.3),
+                rough("cube *", "cube *", 0.4), rough("cube 2", "*", 0.5)};
+  const Model model = build_model(s);
+  const auto friction = [&](int a, int b) {
+    return model.contacts[model.contacts.between(a, b).value()].law.friction;
+  };
+  EXPECT_EQ(friction(2, 3), 0.1);
+  EXPECT_EQ(friction(0, 2), 0.2);
+  EXPECT_EQ(friction(1, 2), 0.3);
+  EXPECT_EQ(friction(4, 3), 0.5);
+  EXPECT_EQ(friction(0, 4), 0.5);  // later than ("floor", "cube*")
+  s.contacts.pop_back();
+  const Model without = build_model(s);
+  EXPECT_EQ(without.contacts[without.contacts.between(2, 4).value()].law.friction, 0.4);
+  EXPECT_FALSE(model.contacts.between(0, 1));  // both are fixed
+  EXPECT_EQ(model.contacts.size(), 9);
+}
+
+TEST(ContactModel, BodiesThatNoPatternFitsTouchNothing) {
+  Scenario s = contact_scene(1e-3);
+  s.bodies = {box_body("floor", Body::Kind::Fixed, {1, 1, 0.1}),
+              box_body("ball", Body::Kind::Rigid, Vec3::Constant(0.1), {0, 0, 1}),
+              box_body("cube", Body::Kind::Rigid, Vec3::Constant(0.1), {0, 0, 2})};
+  for (std::size_t b : {1U, 2U}) s.bodies[b].density = 1000;
+  s.contacts = {rough("cu*", "*", 0)};
+  const Model model = build_model(s);
+  EXPECT_TRUE(model.contacts.between(0, 2));
+  EXPECT_TRUE(model.contacts.between(1, 2));
+  EXPECT_FALSE(model.contacts.between(0, 1));
+  s.contacts = {rough("cu*", "f*", 0)};
+  EXPECT_FALSE(build_model(s).bodies[1].collider);
+}
+
 }  // namespace articular::sim::contact_model_test

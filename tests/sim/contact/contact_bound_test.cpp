@@ -34,7 +34,9 @@ struct Press {
 Press press(std::optional<double> stiffness = {}, std::optional<double> bound = {}) {
   Simulation run(pressed(), [&](Model& model) {
     if (stiffness) contact_stiffness_of (*stiffness)(model);
-    if (bound) model.contacts[0].max_penetration = *bound;
+    if (bound)
+      model.contacts.change(
+          [most = *bound](ContactModel& contact) { contact.max_penetration = most; });
   });
   run.advance(0.1);
   const ContactSummary contact = run.stepper.dynamics().contact_summary(0);

@@ -179,10 +179,9 @@ TEST(Contact, ABlockThatRestsOnAnotherCarriesItsWeight) {
   EXPECT_LT(run.state.max_penetration, 1e-4);
   EXPECT_EQ(run.state.counts.rejected_newton, 0);
   const double lower = 1000 * 10 * std::pow(kSide, 3), upper = lower * std::pow(0.6, 3);
-  for (std::size_t c = 0; c < run.model.contacts.size(); ++c) {
-    const ContactModel& contact = run.model.contacts[c];
-    const double force =
-        run.stepper.dynamics().contact_summary(static_cast<int>(c)).force.z();  // on the first body
+  for (const ContactId c : run.model.contacts.all()) {
+    const ContactModel contact = run.model.contacts[c];
+    const double force = run.stepper.dynamics().contact_summary(c).force.z();  // on the first body
     if (contact.a == 0 && contact.b == 1) {
       EXPECT_NEAR(force, -(lower + upper), 1e-4 * lower);
     }

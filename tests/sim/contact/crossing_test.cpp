@@ -66,7 +66,9 @@ struct Scene {
   }
   std::optional<Crossing> find(const Configuration& from, const Configuration& to,
                                double depth = 0) {
-    return search.find(from, to, std::vector<double>(model.contacts.size(), depth));
+    ContactDepths depths;
+    for (const ContactId contact : model.contacts.all()) depths.add(contact, depth);
+    return search.find(from, to, depths);
   }
   std::optional<Crossing> find(const std::string& body, const Pose& by) {
     return find(start, after(body, by));

@@ -14,7 +14,7 @@ namespace articular::sim::contact_diagnosis_test {
 using Contacts = ContactTrial::Contacts;
 using Outcome = ContactTrial::Outcome;
 
-constexpr int kSheetPlate = 0, kBlockPlate = 1, kBlockWall = 2;
+constexpr ContactId kSheetPlate = 0, kBlockPlate = 1, kBlockWall = 2;
 
 /// A plate is driven through a sheet that nothing lets give way, and onto a block beside it, which
 /// a wall stands next to.
@@ -38,8 +38,8 @@ Scenario plate_through_sheet(double way) {
   return s;
 }
 
-std::vector<int> those(const ContactDiagnosis& found, Contacts which, Outcome outcome) {
-  std::vector<int> contacts;
+std::vector<ContactId> those(const ContactDiagnosis& found, Contacts which, Outcome outcome) {
+  std::vector<ContactId> contacts;
   for (const ContactTrial& trial : found.trials)
     if (trial.contacts == which && trial.outcome == outcome) contacts.push_back(trial.contact);
   return contacts;

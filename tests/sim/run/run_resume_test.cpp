@@ -86,6 +86,67 @@ interval = "7.8125 ms"
 checkpoint_interval = "7.8125 ms"
 )";
 
+/// Rigid cubes fall onto a floor and onto each other: pairs become near and part again.
+std::string heap_of_cubes() {
+  std::string text = R"(
+duration = "24 ms"
+[integrator]
+step = "1 ms"
+[output]
+interval = "8 ms"
+checkpoint_interval = "8 ms"
+[[body]]
+name = "floor"
+kind = "fixed"
+geometry = { box = { size = "60 60 4 mm", cells = [4, 4, 1], center = "0 0 -2 mm" } }
+[[contact]]
+bodies = ["cube *", "*"]
+friction = 0.3
+[[load]]
+kind = "gravity"
+acceleration = "0 0 -9.81 m/s^2"
+[[probe]]
+name = "energy"
+kind = "energy"
+)";
+  for (int i = 0; i < 8; ++i)
+    text += "[[body]]\nname = \"cube " + std::to_string(i) +
+            "\"\nkind = \"rigid\"\ndensity = \"1 g/cm^3\"\nvelocity = \"0 0 " +
+            std::to_string(i < 4 ? -200 : -300) +
+            " mm/s\"\ngeometry = { box = { size = \"5 5 5 mm\", cells = [1, 1, 1], center = \"" +
+            std::to_string(i % 2 * 5.3 + i * 0.03) + " " + std::to_string(i / 2 % 2 * 5.2) + " " +
+            std::to_string(2.6 + i / 4 * 5.2) + " mm\" } }\n";
+  return text;
+}
+
+TEST_F(RunTest, AHeapThatWasInterruptedIsTheUninterruptedOneOnAnyNumberOfThreads) {
+  Scenario heap = read_scenario(folder_.file("heap.toml", heap_of_cubes()));
+  const auto run_to = [&](double until, const std::string& name, bool resume) {
+    const Model model = build_model(heap);
+    RunOptions options;
+    options.directory = out(name);
+    options.resume = resume;
+    options.after_step = [until](const State& state, double) { return state.t >= until; };
+    run(heap, model, options);
+  };
+  run_to(1, "whole", false);
+  const std::string whole = content(out("whole") / "history.csv");
+  EXPECT_GT(nlohmann::json::parse(content(out("whole") / "summary.json"))
+                .at("counts")
+                .at("reported_pairs")
+                .get<int>(),
+            100);
+  heap.threads = 2;
+  for (const double until : {0.0105, 0.0185}) {
+    const std::string name = "parts" + std::to_string(until);
+    run_to(until, name, false);
+    run_to(1, name, true);
+    EXPECT_EQ(content(out(name) / "history.csv"), whole);
+    EXPECT_TRUE(content(out(name) / "checkpoint/state.bin") ==
+                content(out("whole") / "checkpoint/state.bin"));
+  }
+}
+
 constexpr double kBetweenCheckpoints = 0.0078125;
 
 // A step at a checkpoint must not know what was before it: a matrix, a pattern that has grown.

@@ -505,6 +505,15 @@ INSTANTIATE_TEST_SUITE_P(
                          "[\"mandible\", "
                          "\"skull\"]\n",
                 "[[contact]]: the pair `mandible`, `skull` is given twice, first at jaw.toml:21"},
+        Mistake{"ContactOfNobody", kStart + "[[contact]]\nbodies = [\"skull\", @\"disk*\"]\n",
+                "`bodies[1]`: no body that can touch something has a name like `disk*`; `*` stands "
+                "for any characters"},
+        Mistake{"RigidSelfContacts", kStart + "[[contact]]\nself = @\"mand*\"\n",
+                "`self`: only tissue can touch itself, and none has a name like `mand*`"},
+        Mistake{"ContactPatternsTwice",
+                kStart + "[[contact]]\nbodies = [\"*\", \"mand*\"]\n@[[contact]]\nbodies = "
+                         "[\"mand*\", \"*\"]\n",
+                "[[contact]]: the pair `mand*`, `*` is given twice, first at jaw.toml:21"},
         Mistake{"ContactText", "contact = @\"none\"\n" + kStart,
                 "`contact`: expected false or entries that start with [[contact]], found \"none\""},
         Mistake{"AngleOfTissue",

@@ -88,11 +88,11 @@ ModelChange detection_margin_of(double margin) {
 
 ModelChange contact_stiffness_of(double stiffness) {
   return [stiffness](Model& model) {
-    for (ContactModel& contact : model.contacts) {
+    model.contacts.change([stiffness](ContactModel& contact) {
       contact.mean_stiffness = stiffness;
-      contact.stiffness.setConstant(contact.share * stiffness);
-      contact.soft = contact.stiffness;
-    }
+      contact.softening = contact.opposite = 0;
+      contact.layers = 1 / stiffness;
+    });
   };
 }
 

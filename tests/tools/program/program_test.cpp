@@ -1,7 +1,9 @@
 // The program as a user meets it: exit codes, one clear line on stderr, nothing half-written.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
@@ -161,6 +163,17 @@ TEST(Run, SummaryNamesWhatTheLastBitsDependOn) {
   const std::set<std::string> sets = {"sse2", "avx2", "avx512f"};
   EXPECT_TRUE(sets.contains(first.at("processor").at("instruction_set")));
   EXPECT_FALSE(first.at("processor").at("blas_kernels").get<std::string>().empty());
+  EXPECT_EQ(first.at("processor").at("reproducible"), false);
+  for (const char* library : {"OpenBLAS", "CHOLMOD", "glibc", "SUNDIALS", "Eigen"})
+    EXPECT_NE(first.at("versions").at(library).get<std::string>().find('.'), std::string::npos)
+        << library;
+  // Files are told with a hash of their bytes: FNV-1a, by its definition.
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : kScene) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  ASSERT_EQ(first.at("input_files").size(), 1U);
+  EXPECT_EQ(first.at("input_files")[0].at("file"), "scene.toml");
+  EXPECT_EQ(first.at("input_files")[0].at("bytes"), kScene.size());
+  EXPECT_EQ(first.at("input_files")[0].at("fnv1a_64"), fmt::format("{:016x}", hash));
   EXPECT_NE(first.at("build").at("compiler").get<std::string>().find('.'), std::string::npos);
   EXPECT_NE(first.at("build").at("flags").get<std::string>().find("-O"), std::string::npos);
 }
