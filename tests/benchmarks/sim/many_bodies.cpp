@@ -27,7 +27,7 @@ namespace {
 using namespace articular::benchmarks;
 
 constexpr double kSide = 5, kGap = 0.1;  // [mm]
-constexpr int kSteps = 20;               // of a millisecond
+constexpr int kSteps = 2;                // of a millisecond
 
 /// A cube's edge of cubes; the uppermost layer may be incomplete.
 std::string scene(int bodies) {
