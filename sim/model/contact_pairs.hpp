@@ -78,9 +78,7 @@ class ContactPairs {
   /// Of two bodies in any order; none: they do not touch.
   std::optional<ContactId> between(int a, int b) const;
   const std::vector<ContactId>& of_bodies_with_themselves() const { return selves_; }
-  bool touches(int body) const {
-    return !empty() && touches_[static_cast<std::size_t>(body)] != 0;
-  }
+  bool touches(int body) const { return !empty() && touches_[static_cast<std::size_t>(body)] != 0; }
   /// A pair of each kind: what any pair does, the friction that any has, one of these does too,
   /// with elements as small.
   const std::vector<ContactId>& kinds() const { return kinds_; }
