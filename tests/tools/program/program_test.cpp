@@ -299,8 +299,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Program, SaysNothingThatATerminalObeys) {
   const TemporaryFolder folder;
   const ProgramResult result =
-      run_shell(folder, R"("$articular" check "$(printf '\033[2Ja\001.toml')") ");
-      EXPECT_EQ(result.exit_code, 2);
+      run_shell(folder, R"sh("$articular" check "$(printf '\033[2Ja\001.toml')")sh");
+  EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("[2Ja .toml: cannot read this file"), std::string::npos) << result.err;
   EXPECT_EQ(result.err.find('\033'), std::string::npos);
 }
