@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 
+#include "sim/base/file_bytes.hpp"
 #include "sim/base/hash.hpp"
 #include "sim/mesh/frame_series.hpp"
 #include "sim/mesh/mesh_io.hpp"
@@ -68,14 +69,25 @@ void read_history(std::string_view bytes) {
   }
 }
 
+const std::string kFingerprint = "0123456789abcdef";
+
 void read_checkpoint(std::string_view bytes) {
   const std::filesystem::path file = fuzz::as_file("state.bin", bytes);
-  sim::read_checkpoint(file.parent_path(), "0123456789abcdef", [](const std::string&) {});
+  sim::read_checkpoint(file.parent_path(), kFingerprint, [](const std::string&) {});
 }
 
-/// With the checksum that it should have: else a random change is never read any further.
+/// How every checkpoint begins.
+std::string checkpoint_head() {
+  const std::filesystem::path file = fuzz::as_file("state.bin", "");
+  sim::write_checkpoint(file.parent_path(), {}, kFingerprint);
+  const std::string whole = sim::file_bytes(file);
+  return whole.substr(0, whole.find(kFingerprint) + kFingerprint.size());
+}
+
+/// With the head and the checksum that it should have: else what was changed is read no further.
 void read_sound_checkpoint(std::string_view bytes) {
-  std::string sound = "articular checkpoint 8\n0123456789abcdef" + std::string(bytes);
+  static const std::string head = checkpoint_head();
+  std::string sound = head + std::string(bytes);
   const std::uint64_t hash = sim::hash_bytes(sound);
   sound.append(reinterpret_cast<const char*>(&hash), sizeof hash);
   read_checkpoint(sound);
