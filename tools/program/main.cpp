@@ -2,6 +2,7 @@
 // 3 the simulation could not go on; 4 the system failed; 130 interrupted.
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <sstream>
@@ -13,6 +14,8 @@
 #include "tools/anatomy/anatomy.hpp"
 #include "tools/collide/collide_command.hpp"
 #include "tools/mesh/mesh_command.hpp"
+#include "tools/process/interruption.hpp"
+#include "tools/process/standard_streams.hpp"
 #include "tools/render/render.hpp"
 #include "tools/run/commands.hpp"
 #include "tools/study/study_command.hpp"
@@ -65,8 +68,14 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using namespace articular::tools;
   try {
-    return run_program(argc, argv);
+    open_closed_streams();
+    end_at_interruption();
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large: the write fails and says why
+    const int exit_code = run_program(argc, argv);
+    if (exit_code == 0) flush_streams();
+    return exit_code;
   } catch (const articular::sim::InputError& error) {
     return report(error.what(), kBadInput);
   } catch (const articular::sim::SimulationError& error) {
@@ -76,6 +85,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return report("out of memory", kSystemFailed);
   } catch (const std::exception& error) {
+    if (is_text_lost()) return report("standard output or error can't be written", kSystemFailed);
     std::fprintf(stderr, "articular: internal error: %s (please report this)\n", error.what());
     return kBug;
   }

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <csignal>
 #include <memory>
 
@@ -21,8 +20,6 @@ namespace articular::tools {
 namespace {
 
 constexpr int kMostThreads = 256;
-std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
 
 struct RunArguments {
   std::filesystem::path scenario, out;
@@ -72,14 +69,14 @@ int run_once(const sim::Scenario& scenario, const RunArguments& arguments) {
   options.resume = arguments.resume;
   options.overwrite = arguments.overwrite;
   Progress progress(scenario, arguments.quiet);
-  options.is_to_stop = [] { return interrupted.load(); };
+  options.is_to_stop = interruption_asked;
   options.after_step = [&](const sim::State& state, double) {
     progress.update(state);
-    return interrupted.load();
+    return interruption_asked();
   };
   options.after_iteration = [&](double t, const sim::NewtonIteration& iteration) {
     progress.update(t, iteration);
-    return interrupted.load();
+    return interruption_asked();
   };
   options.after_overlap_resolution = [&](const sim::OverlapResolution& resolution) {
     if (!arguments.quiet) print(model, resolution);
@@ -88,11 +85,8 @@ int run_once(const sim::Scenario& scenario, const RunArguments& arguments) {
     progress.finish();
     fmt::print(stderr, "articular: warning: {}\n", warning);
   };
-  const auto interrupt = [](int) { interrupted = true; };
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, interrupt);
-  if (std::signal(SIGHUP, interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
-  for (const int signal : {SIGXFSZ, SIGPIPE})  // the write that it is about fails and says why
-    std::signal(signal, SIG_IGN);
+  listen_for_interruption();
+  std::signal(SIGPIPE, SIG_IGN);  // the write that it is about fails and says why
   sim::RunOutcome outcome = sim::RunOutcome::Finished;
   try {
     outcome = sim::run(scenario, model, options);
@@ -112,7 +106,6 @@ int run_once(const sim::Scenario& scenario, const RunArguments& arguments) {
 
 int print_error_bars(const sim::Scenario& scenario, const RunArguments& arguments) {
   const std::filesystem::path directory = results_folder(scenario, arguments);
-  listen_for_interruption();
   try {
     const std::string table = measure_error_bars(
         scenario,
