@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "sim/base/available_memory.hpp"
 #include "sim/base/mistakes.hpp"
 #include "sim/build/body_collider.hpp"
 #include "sim/build/body_geometry.hpp"
@@ -14,6 +15,7 @@
 #include "sim/build/make_supports.hpp"
 #include "sim/build/make_surface_loads.hpp"
 #include "sim/build/make_tissue.hpp"
+#include "sim/build/memory_need.hpp"
 #include "sim/build/region.hpp"
 #include "sim/build/unit_doubts.hpp"
 #include "sim/build/weighted_points.hpp"
@@ -79,8 +81,14 @@ class Builder {
   int body_index(const std::string& name) const { return sim::body_index(scenario_, name); }
 
   void read_bodies() {
+    std::vector<double> num_tets;
+    for (const Body& body : scenario_.bodies) num_tets.push_back(num_shape_tetrahedra(body));
+    refuse_more_memory(scenario_, num_tets, available_memory());
     read_each(scenario_.bodies,
               [&](const Body& body) { geometry_.push_back(read_geometry(body)); });
+    for (std::size_t b = 0; b < num_tets.size(); ++b)
+      num_tets[b] = static_cast<double>(geometry_[b].mesh.tets.cols());
+    refuse_more_memory(scenario_, num_tets, available_memory());
     for (const Body& body : scenario_.bodies) {
       BodyModel entry;
       entry.name = body.name;

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
+#include "sim/base/available_memory.hpp"
 #include "sim/base/error.hpp"
 #include "sim/output/probe_columns.hpp"
 
@@ -37,15 +37,6 @@ double bytes_of(const BodyModel& body, const Model& model, bool contact_surface)
     bytes += kFile + kRigidNode * static_cast<double>(body.collider->X.cols()) +
              kContactFace * static_cast<double>(body.collider->surface.faces.cols());
   return bytes;
-}
-
-/// "2.1 GB"
-std::string size_text(double bytes) {
-  constexpr std::array kUnits = {"kB", "MB", "GB", "TB", "PB"};
-  bytes /= 1000;
-  std::size_t unit = 0;
-  for (; bytes >= 1000 && unit + 1 < kUnits.size(); ++unit) bytes /= 1000;
-  return fmt::format("{:.3g} {}", bytes, kUnits[unit]);
 }
 
 }  // namespace
