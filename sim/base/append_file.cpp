@@ -8,7 +8,9 @@
 #include <array>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
+#include "sim/base/atomic_file.hpp"
 #include "sim/base/error.hpp"
 
 namespace articular::sim {
@@ -17,41 +19,44 @@ namespace {
 constexpr int kFlags = O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW;
 constexpr mode_t kReadAndWrite = 0666;  // less what the user's mask takes away
 
-/// As far as the file goes, at most that of so many bytes.
-FileExtent extent_of(int descriptor, std::uint64_t most_bytes) {
-  FileExtent extent;
+/// As far as the file goes, at most that of so many bytes. @return 0, or the error number
+int read_extent(int descriptor, std::uint64_t most_bytes, FileExtent& extent) {
   std::array<char, 1 << 16> part{};
   while (extent.bytes < most_bytes) {
     const std::size_t wanted = std::min<std::uint64_t>(part.size(), most_bytes - extent.bytes);
     const ssize_t count =
         ::pread(descriptor, part.data(), wanted, static_cast<off_t>(extent.bytes));
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) break;
+    if (count < 0) return errno;
+    if (count == 0) break;
     extent.hash = hash_bytes({part.data(), static_cast<std::size_t>(count)}, extent.hash);
     extent.bytes += static_cast<std::uint64_t>(count);
   }
-  return extent;
+  return 0;
 }
 
 }  // namespace
 
 AppendFile::AppendFile(const std::filesystem::path& file)
-    : file_(file), descriptor_(::open(file.c_str(), kFlags | O_TRUNC, kReadAndWrite)) {
+    : file_(file),
+      descriptor_(::open(file.c_str(), kFlags | O_TRUNC, kReadAndWrite)),
+      is_new_(true) {
   if (descriptor_ < 0) fail(errno);
 }
 
 AppendFile::AppendFile(const std::filesystem::path& file, const FileExtent& extent)
-    : file_(file), descriptor_(::open(file.c_str(), kFlags & ~O_CREAT)) {
+    : file_(file),
+      descriptor_(::open(file.c_str(), kFlags & ~O_CREAT)),
+      extent_(extent),
+      is_cut_(false) {
+  FileExtent found;
   if (descriptor_ < 0 && errno != ENOENT) fail(errno);
-  const FileExtent found = extent_of(descriptor_, extent.bytes);
-  int error = 0;
-  if (descriptor_ >= 0 && found == extent) {
-    extent_ = extent;
-    if (::ftruncate(descriptor_, static_cast<off_t>(extent.bytes)) == 0) return;
-    error = errno;
+  if (descriptor_ >= 0) {
+    const int error = read_extent(descriptor_, extent.bytes, found);
+    if (error == 0 && found == extent) return;
+    ::close(descriptor_);
+    if (error != 0) fail(error);
   }
-  if (descriptor_ >= 0) ::close(descriptor_);
-  if (error != 0) fail(error);
   throw InputError(
       {file.string()},
       fmt::format(
@@ -65,7 +70,14 @@ AppendFile::~AppendFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
+void AppendFile::cut() {
+  if (is_cut_) return;
+  if (::ftruncate(descriptor_, static_cast<off_t>(extent_.bytes)) != 0) fail(errno);
+  is_cut_ = true;
+}
+
 void AppendFile::append(const std::string& text, const std::string& closing) {
+  cut();
   const std::string bytes = text + closing;
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t count = ::pwrite(descriptor_, bytes.data() + done, bytes.size() - done,
@@ -78,8 +90,10 @@ void AppendFile::append(const std::string& text, const std::string& closing) {
 }
 
 void AppendFile::sync() {
+  cut();
   if (::fsync(descriptor_) != 0 && errno != EINVAL)
     fail(errno);  // EINVAL: a device, nothing to sync
+  if (std::exchange(is_new_, false)) sync_file(std::filesystem::absolute(file_).parent_path());
 }
 
 void AppendFile::fail(int error) const {

@@ -17,8 +17,8 @@ struct FileExtent {
 };
 
 /// A file that grows at its end and is never written whole again. What a killed run or a full disk
-/// left half-written lies behind the extent that a checkpoint knows, and is cut off when the file
-/// is opened there. No symbolic link is followed.
+/// left half-written lies behind the extent that a checkpoint knows, and is cut off before anything
+/// is appended there. No symbolic link is followed.
 class AppendFile {
  public:
   /// A new file, in the place of one that may be there. @throws SystemError
@@ -42,9 +42,13 @@ class AppendFile {
  private:
   [[noreturn]] void fail(int error) const;
 
+  void cut();
+
   std::filesystem::path file_;
   int descriptor_ = -1;
   FileExtent extent_;
+  bool is_new_ = false;  // the name of the file may not outlast a power cut
+  bool is_cut_ = true;
 };
 
 }  // namespace articular::sim

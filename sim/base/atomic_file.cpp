@@ -75,6 +75,16 @@ void write_text_file(const fs::path& file, const std::string& text, Durable dura
   if (durable == Durable::Now) sync_file(fs::absolute(target).parent_path());
 }
 
+void make_folders(const fs::path& folder) {
+  std::error_code error;
+  if (fs::is_directory(folder, error)) return;
+  const fs::path above = fs::absolute(folder).parent_path();
+  if (above != folder) make_folders(above);
+  fs::create_directory(folder, error);
+  if (error) throw SystemError(folder.string() + ": the folder can't be made: " + error.message());
+  if (::access(above.c_str(), R_OK) == 0) sync_file(above);
+}
+
 void sync_file(const fs::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) fail(file, errno);

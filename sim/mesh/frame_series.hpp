@@ -22,6 +22,7 @@ std::string contact_surface_part(const std::string& body);
 bool is_contact_surface(const SeriesEntry& entry);
 
 /// The entries of a .pvd in its order. @throws InputError when it is missing or not understood
+/// @throws SystemError when it can't be read
 std::vector<SeriesEntry> read_series(const std::filesystem::path& pvd);
 
 /// A .pvd that grows by a frame at a time. Its file is whole XML after each.

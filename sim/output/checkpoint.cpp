@@ -144,10 +144,12 @@ void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& che
   for (const ResolvedOverlap& overlap : overlaps) each_of_overlap(overlap, put_member);
   put_vector(checkpoint.state.y, bytes);
   put(hash_bytes(bytes), bytes);
+  make_folders(folder);
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
   if (std::filesystem::exists(folder / kNewest, error))
     std::filesystem::rename(folder / kNewest, folder / kBefore, error);
+  if (error)
+    throw SystemError((folder / kBefore).string() + ": can't be written: " + error.message());
   write_text_file(folder / kNewest, bytes);
 }
 
@@ -158,7 +160,9 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder,
   for (const char* const name : {kNewest, kBefore}) {
     const std::filesystem::path file = folder / name;
     std::ifstream in(file, std::ios::binary);
-    if (!in) continue;
+    std::error_code unknown;
+    if (!in && !std::filesystem::exists(file, unknown) && !unknown) continue;
+    if (!in) throw SystemError(file.string() + ": can't be read");
     try {
       Checkpoint checkpoint = parsed({std::istreambuf_iterator<char>(in), {}}, fingerprint, file);
       if (damaged.empty()) return checkpoint;

@@ -25,6 +25,7 @@ void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& che
 /// @param warn  told of one that is damaged, where the one before serves
 /// @return nothing when there is none
 /// @throws InputError when none is whole, or one belongs to another scenario
+/// @throws SystemError when one is there and can't be read
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder,
                                           const std::string& fingerprint,
                                           const std::function<void(const std::string&)>& warn);

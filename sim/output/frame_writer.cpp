@@ -65,9 +65,7 @@ void require_finite(const std::string& body, const std::vector<Field>& fields) {
 FrameWriter::FrameWriter(std::filesystem::path directory, std::string name, LengthUnit unit)
     : directory_(std::move(directory)), name_(std::move(name)), unit_(std::move(unit)) {
   const std::filesystem::path frames = directory_ / kFrames;
-  std::error_code error;
-  std::filesystem::create_directories(frames, error);
-  if (error) throw SystemError(frames.string() + ": the folder can't be made: " + error.message());
+  make_folders(frames);
   for (const std::filesystem::path& folder : {directory_, frames})
     if (::access(folder.c_str(), W_OK) != 0)
       throw SystemError(folder.string() +

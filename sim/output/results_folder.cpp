@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "sim/base/atomic_file.hpp"
 #include "sim/base/error.hpp"
 
 namespace articular::sim {
@@ -38,15 +39,23 @@ bool is_frame(const fs::path& file) {
                      is_digit);
 }
 
+/// None where the folder is not there.
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) files.push_back(entry.path());
+  if (error && error != std::errc::no_such_file_or_directory) fail(folder, "read", error.value());
+  return files;
+}
+
 /// The scenario that results in a folder are of; "" where nothing tells.
 std::string scenario_of_results(const fs::path& folder) {
   std::ifstream in(folder / "summary.json");
   const auto json = nlohmann::json::parse(in, nullptr, false);
   if (json.is_object() && json.contains("scenario") && json["scenario"].is_string())
     return json["scenario"];
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none))
-    if (entry.path().extension() == ".pvd") return entry.path().stem().string() + ".toml";
+  for (const fs::path& file : files_in(folder))
+    if (file.extension() == ".pvd") return file.stem().string() + ".toml";
   return "";
 }
 
@@ -67,9 +76,7 @@ void delete_file(const fs::path& file) {
 }  // namespace
 
 ResultsFolder::ResultsFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) fail(folder, "made", error.value());
+  make_folders(folder);
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor_ < 0) fail(folder, "opened", errno);
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
@@ -91,20 +98,31 @@ void clear_results(const fs::path& folder, const std::string& scenario, bool ove
     throw InputError({folder.string()}, "holds results of " + other +
                                             "; choose another --out, or replace them with "
                                             "--overwrite");
-  std::vector<fs::path> files;
-  for (const char* const name :
-       {"history.csv", "convergence.csv", "summary.json", "error_bars.csv"})
+  std::vector<fs::path> checkpoints, files;
+  for (const char* const name : {"state.bin", "previous.bin"})
+    checkpoints.push_back(folder / "checkpoint" / name);
+  for (const char* const name : {"history.csv", "convergence.csv", "error_bars.csv"})
     files.push_back(folder / name);
   for (const std::string& name : {scenario, other})
     files.push_back(folder / (fs::path(name).stem().string() + ".pvd"));
-  for (const char* const name : {"state.bin", "previous.bin"})
-    files.push_back(folder / "checkpoint" / name);
-  for (const fs::path& file : {folder / "checkpoint", folder / "frames"}) refuse_link(file);
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder / "frames", none))
-    if (is_frame(entry.path())) files.push_back(entry.path());
-  for (const fs::path& file : files) refuse_link(file);
+  for (const fs::path& file : files_in(folder / "frames"))
+    if (is_frame(file)) files.push_back(file);
+  for (const char* const name : {"checkpoint", "frames", "summary.json"})
+    refuse_link(folder / name);
+  for (const auto* all : {&checkpoints, &files})
+    for (const fs::path& file : *all) refuse_link(file);
+  // First what says that there are whole results, then what goes on from them: whatever stops this,
+  // nobody takes the rest for more than it is.
+  write_unfinished_summary(folder, scenario);
+  for (const fs::path& file : checkpoints) delete_file(file);
+  if (std::error_code none; fs::exists(folder / "checkpoint", none))
+    sync_file(folder / "checkpoint");
   for (const fs::path& file : files) delete_file(file);
+}
+
+void write_unfinished_summary(const fs::path& folder, const std::string& scenario) {
+  const nlohmann::json summary = {{"outcome", "unfinished"}, {"scenario", scenario}};
+  write_text_file(folder / "summary.json", summary.dump(2) + "\n");
 }
 
 }  // namespace articular::sim

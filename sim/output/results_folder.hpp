@@ -20,12 +20,16 @@ class ResultsFolder {
   int descriptor_;  // locked; the lock goes with the process
 };
 
-/// What runs write, and nothing else, is removed: history, frames, series, summary, checkpoints.
+/// What runs write, and nothing else, is removed: history, frames, series, checkpoints. The summary
+/// says "unfinished" before anything is.
 /// @param scenario   name of the file that the new results are of
 /// @param overwrite  also those of another scenario
 /// @throws InputError where they are of another one, or a symbolic link stands in their place
 /// @throws SystemError where they can't be removed
 void clear_results(const std::filesystem::path& folder, const std::string& scenario,
                    bool overwrite);
+
+/// A summary for as long as the run goes on; a killed one leaves it. @throws SystemError
+void write_unfinished_summary(const std::filesystem::path& folder, const std::string& scenario);
 
 }  // namespace articular::sim

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "sim/base/append_file.hpp"
@@ -106,6 +105,7 @@ class Run {
 
  private:
   std::filesystem::path checkpoints() const { return options_.directory / "checkpoint"; }
+  std::string scenario_name() const { return scenario_.file.filename().string(); }
 
   /// A law that can't be turned inside out, a start that is: nothing to begin from.
   void check_start() const {
@@ -130,9 +130,7 @@ class Run {
     }
     check_start();
     refuse_more_than_fits(estimated_output(scenario_, model_), options_.directory);
-    const std::string scenario = scenario_.file.filename().string();
-    clear_results(options_.directory, scenario, options_.overwrite);
-    write_unfinished_summary();
+    clear_results(options_.directory, scenario_name(), options_.overwrite);
     open_tables({}, {});
     resolve_initial_overlaps();
     history_.record(state_, stepper_);
@@ -143,9 +141,10 @@ class Run {
     state_ = std::move(from.state);
     stepper_.restart(state_);
     check_start();
-    if (from.series.bytes > 0) writer_.resume_at(from.series);
     open_tables(from.history, from.convergence);
-    write_unfinished_summary();
+    // Before anything is cut: results that were whole are not from here on.
+    write_unfinished_summary(options_.directory, scenario_name());
+    if (from.series.bytes > 0) writer_.resume_at(from.series);
   }
 
   /// With what an earlier run wrote, or new ones.
@@ -163,13 +162,6 @@ class Run {
     if (is_static())
       open("convergence.csv", convergence, convergence_header(scenario_.output.length_unit),
            convergence_file_);
-  }
-
-  /// For as long as the run goes on; a killed one leaves it.
-  void write_unfinished_summary() const {
-    const nlohmann::json summary = {{"outcome", "unfinished"},
-                                    {"scenario", scenario_.file.filename().string()}};
-    write_text_file(options_.directory / "summary.json", summary.dump(2) + "\n");
   }
 
   void resolve_initial_overlaps() {

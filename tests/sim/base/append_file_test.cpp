@@ -41,6 +41,8 @@ TEST(AppendFile, GoesOnWhereACheckpointKnowsItAndCutsTheRest) {
     file.append("fo");  // a full disk, a killed run
   }
   AppendFile file(folder / "f", known);
+  EXPECT_EQ(content(folder / "f"), "one\ntwo\nthree\nfo");  // nothing is lost by looking
+  file.sync();
   EXPECT_EQ(content(folder / "f"), "one\ntwo\n");
   file.append("3\n");
   EXPECT_EQ(content(folder / "f"), "one\ntwo\n3\n");
