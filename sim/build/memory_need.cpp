@@ -11,7 +11,7 @@ namespace articular::sim {
 namespace {
 
 // Bytes a tetrahedron, as `articular explain` measures them on boxes of 12 to 40 cells an edge.
-constexpr double kRigidModel = 80, kPlainModel = 250, kSmoothedModel = 2000;
+constexpr double kRigidModel = 80, kPlainModel = 180, kSmoothedModel = 2000;
 constexpr double kPlainMatrices = 450, kSmoothedMatrices = 2100;
 
 constexpr double kTetsOfACell = 6;
@@ -81,7 +81,7 @@ void refuse_more_memory(const Scenario& scenario, const std::vector<double>& num
                   "has {:.3g} tetrahedra; give it fewer cells{}",
                   size_text(need), size_text(available), body.name, num_tets[largest],
                   body.kind == Body::Kind::Tissue && is_smoothed(body)
-                      ? ", or plain elements, which take a fifth"
+                      ? ", or plain elements, which take a sixth"
                       : ""));
 }
 

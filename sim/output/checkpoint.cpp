@@ -144,8 +144,11 @@ void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& che
   for (const ResolvedOverlap& overlap : overlaps) each_of_overlap(overlap, put_member);
   put_vector(checkpoint.state.y, bytes);
   put(hash_bytes(bytes), bytes);
-  make_folders(folder);
   std::error_code error;
+  // Not made anew: a checkpoint without the files that it refers to.
+  if (!std::filesystem::is_directory(std::filesystem::absolute(folder).parent_path(), error))
+    throw SystemError(folder.string() + ": the folder of the results is gone");
+  make_folders(folder);
   if (std::filesystem::exists(folder / kNewest, error))
     std::filesystem::rename(folder / kNewest, folder / kBefore, error);
   if (error)

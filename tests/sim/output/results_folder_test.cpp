@@ -69,6 +69,7 @@ TEST_F(Results, WithoutASummaryAreKnownByTheirSeries) {
   fs::remove(folder_ / "summary.json");
   fs::remove(folder_ / "view.pvd");
   EXPECT_EQ(refusal(folder_.path(), "knee.toml"), "");
+  fs::remove(folder_ / "summary.json");
   folder_.file("knee.pvd", "");
   EXPECT_NE(refusal(folder_.path(), "jaw.toml"), "");
   fs::remove(folder_ / "knee.pvd");
