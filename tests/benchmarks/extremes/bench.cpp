@@ -68,6 +68,7 @@ ProgramRun Bench::run_from(
   stepper.restart(state);
   state.energy.start = stepper.stored_energy().total();
   sim::note_extrema(stepper.now(), state);
+  fs::create_directories(folder_ / name);
   sim::write_checkpoint(folder_ / name / "checkpoint", {state, {}, {}, {}},
                         sim::fingerprint(given, model));
   return start({"--resume"}, name, limit);
