@@ -33,7 +33,7 @@ std::string refusal(const Scenario& s, double available) {
 
 TEST(MemoryNeed, TetrahedraOfAShapeAreCountedBeforeItIsMade) {
   Body body;
-  const BoxGeometry box{{1, 2, 3}, {3, 4, 5}, {}};
+  const BoxGeometry box{{1, 2, 3}, {3, 4, 5}, Vec3::Zero()};
   body.geometry = box;
   EXPECT_EQ(num_shape_tetrahedra(body), static_cast<double>(box_mesh(box).tets.cols()));
   const VShapeGeometry v{1, 0.2, 1, {5, 3}};
