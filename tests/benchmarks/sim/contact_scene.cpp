@@ -36,13 +36,12 @@ std::vector<double> graded(double end, double fine, double h, double growth) {
 
 Model model_of(const Scene& scene, const StudyOptions& options) {
   Model model = build_model(scene.scenario());
-  for (ContactModel& contact : model.contacts) {
-    if (options.rule != DepthRule::Averaged) {
-      contact.averaged = contact.is_bounded = false;
-      contact.stiffness.setConstant(contact.mean_stiffness);
-    }
-    contact.stiffness *= options.stiffness;
-  }
+  model.contacts.change([options](ContactModel& contact) {
+    if (options.rule != DepthRule::Averaged) contact.averaged = contact.is_bounded = false;
+    contact.mean_stiffness *= options.stiffness;
+    contact.factor *= options.stiffness;
+    contact.layers /= options.stiffness;
+  });
   return model;
 }
 
