@@ -161,8 +161,8 @@ class Sets {
     return i;
   }
   void unite(int i, int j) {
-    const auto [low, high] = std::minmax(root(i), root(j));
-    parent_[static_cast<std::size_t>(high)] = low;
+    const int p = root(i), q = root(j);
+    parent_[static_cast<std::size_t>(std::max(p, q))] = std::min(p, q);
   }
 
  private:
