@@ -243,7 +243,8 @@ TEST(NearContacts, OfAHeapAreSoManyForEachBodyHoweverManyThereAre) {
   // Of 27, 216 and 729 cubes; with all pairs it would be 14, 108 and 365.
   EXPECT_GT(near[0], 1);
   EXPECT_LT(near[2], 13);  // of 26 neighbours each half
-  EXPECT_LT(tests[2], 1.5 * tests[1]);
+  // More of them lie inside, and the tree is deeper; of all pairs it would be 3.4 times as many.
+  EXPECT_LT(tests[2], 2 * tests[1]);
   EXPECT_LT(tests[2], 100);
 }
 
