@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <vector>
 
 #include "sim/base/error.hpp"
 
@@ -77,12 +78,14 @@ void write_text_file(const fs::path& file, const std::string& text, Durable dura
 
 void make_folders(const fs::path& folder) {
   std::error_code error;
-  if (fs::is_directory(folder, error)) return;
-  const fs::path above = fs::absolute(folder).parent_path();
-  if (above != folder) make_folders(above);
-  fs::create_directory(folder, error);
+  std::vector<fs::path> above;  // of those that are new: what their names are written into
+  for (fs::path path = fs::absolute(folder);
+       path.has_relative_path() && !fs::is_directory(path, error); path = path.parent_path())
+    above.push_back(path.parent_path());
+  fs::create_directories(folder, error);
   if (error) throw SystemError(folder.string() + ": the folder can't be made: " + error.message());
-  if (::access(above.c_str(), R_OK) == 0) sync_file(above);
+  for (const fs::path& path : above)
+    if (::access(path.c_str(), R_OK) == 0) sync_file(path);
 }
 
 void sync_file(const fs::path& file) {
