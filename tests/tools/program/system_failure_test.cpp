@@ -40,8 +40,8 @@ class SystemFailure : public ::testing::Test {
   SystemFailure() { folder_.file("scene.toml", kScene); }
 
   std::string outcome() const {
-    const std::string summary = content(folder_ / "out/summary.json");
-    for (const std::string word : {"unfinished", "interrupted", "finished"})
+    std::string summary = content(folder_ / "out/summary.json");
+    for (std::string word : {"unfinished", "interrupted", "finished"})
       if (summary.find('"' + word + '"') != std::string::npos) return word;
     return summary;
   }
