@@ -158,9 +158,9 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
   for (const ContactId contact : near_.find(model_.contacts, boxes_)) {
     const ContactModel pair = model_.contacts[contact];
     if (pair.a == pair.b)
-      search_itself(contact, moving_of(pair.a), margin, cost);
+      search_itself(contact, pair, margin, cost);
     else
-      search(contact, moving_of(pair.a), moving_of(pair.b), margin, cost);
+      search(contact, pair, margin, cost);
   }
   counts_.evaluations[Term::BoxTest] += near_.num_tests();
   counts_.narrow_tests += cost.narrow_tests;
@@ -177,26 +177,27 @@ CandidateList& ContactSearch::next_list(ContactId contact) {
   return list;
 }
 
-void ContactSearch::search_itself(ContactId contact, Moving& a, double margin,
+void ContactSearch::search_itself(ContactId contact, const ContactModel& pair, double margin,
                                   PenetrationCost& cost) {
+  Moving& a = moving_of(pair.a);
   fit(a);
   ++counts_.evaluations[Term::SelfQuery];
   penetrations_->within(a.index, found_of_a_, cost);
-  collect(found_of_a_, found_of_a_, a, a, model_.contacts[contact].averaged, margin, of_a_);
+  collect(found_of_a_, found_of_a_, a, a, pair.averaged, margin, of_a_);
   CandidateList& list = next_list(contact);
   list.pairs = of_a_.near;
   merge(of_a_.deep, list.pairs);
   num_lists_ += list.pairs.empty() ? 0 : 1;
 }
 
-void ContactSearch::search(ContactId contact, Moving& a, Moving& b, double margin,
+void ContactSearch::search(ContactId contact, const ContactModel& pair, double margin,
                            PenetrationCost& cost) {
+  Moving &a = moving_of(pair.a), &b = moving_of(pair.b);
   fit(a);
   fit(b);
   ++counts_.evaluations[Term::PairQuery];
   penetrations_->between(a.index, b.index, found_of_a_, found_of_b_, cost);
   // In both directions, though one side alone looks for the other: what lies deep shows in either.
-  const ContactModel pair = model_.contacts[contact];
   collect(found_of_a_, found_of_b_, a, b, pair.averaged, margin, of_a_);
   collect(found_of_b_, found_of_a_, b, a, pair.averaged, margin, of_b_);
   const SideCandidates &own = pair.reversed ? of_b_ : of_a_, &other = pair.reversed ? of_a_ : of_b_;

@@ -88,8 +88,9 @@ class ContactSearch {
   struct SideCandidates {
     std::vector<ContactCandidate> near, deep;
   };
-  void search(ContactId contact, Moving& a, Moving& b, double margin, PenetrationCost& cost);
-  void search_itself(ContactId contact, Moving& a, double margin, PenetrationCost& cost);
+  void search(ContactId contact, const ContactModel& pair, double margin, PenetrationCost& cost);
+  void search_itself(ContactId contact, const ContactModel& pair, double margin,
+                     PenetrationCost& cost);
   CandidateList& next_list(ContactId contact);
   /// @param found    triangles of a in tetrahedra of b
   /// @param reverse  of b in a

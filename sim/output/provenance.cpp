@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 #include <gnu/libc-version.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "fem/solver/processor.hpp"
+#include "sim/base/file_bytes.hpp"
 #include "sim/base/hash.hpp"
 #include "sim/base/version.hpp"
 
@@ -36,8 +34,7 @@ Provenance provenance() {
 std::vector<InputFile> input_files(const Scenario& scenario) {
   std::vector<InputFile> inputs;
   for (const std::filesystem::path& file : scenario.files) {
-    std::ifstream in(file, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const std::string bytes = file_bytes(file);
     const std::filesystem::path name = file.lexically_proximate(scenario.file.parent_path());
     inputs.push_back({name.string(), bytes.size(), fmt::format("{:016x}", hash_bytes(bytes))});
   }

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "tests/benchmarks/support/measured_child.hpp"
+#include "tests/sim/support/temporary_folder.hpp"
 
 namespace {
 
@@ -89,14 +90,13 @@ void print(const ChildUse& use, const ChildUse* before) {
 }
 
 int measure(const std::vector<int>& sizes) {
-  std::string name = (std::filesystem::temp_directory_path() / "many-bodies-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  const articular::TemporaryFolder folder;
   std::printf("%8s  %s   %s\n", "", "check: s  by half       MB by half",
               fmt::format("run, {} steps: s  by half  MB by half", kSteps).c_str());
   std::vector<Row> rows;
   bool all_succeeded = true;
   for (const int bodies : sizes) {
-    rows.push_back(measured(bodies, name));
+    rows.push_back(measured(bodies, folder.path()));
     const Row &row = rows.back(), *before = rows.size() > 1 ? &rows[rows.size() - 2] : nullptr;
     std::printf("%8d", row.bodies);
     print(row.check, before != nullptr ? &before->check : nullptr);
@@ -106,7 +106,6 @@ int measure(const std::vector<int>& sizes) {
     std::fflush(stdout);
     all_succeeded = all_succeeded && succeeded;
   }
-  std::filesystem::remove_all(name);
   return all_succeeded ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

@@ -22,6 +22,7 @@
 
 #include "sim/build/build_model.hpp"
 #include "sim/run/run.hpp"
+#include "tests/sim/support/temporary_folder.hpp"
 
 namespace {
 
@@ -138,12 +139,6 @@ class Soak {
   std::int64_t written_before_ = 0, memory_ = 0, first_memory_ = 0, written_ = 0, size_ = 0;
 };
 
-std::filesystem::path temporary_folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "soak-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  return name;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -153,8 +148,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    return Soak(std::llround(steps), argc > 2 ? std::filesystem::path(argv[2]) : temporary_folder())
-        .run();
+    const articular::TemporaryFolder temporary;
+    return Soak(std::llround(steps), argc > 2 ? argv[2] : temporary.path()).run();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "soak: %s\n", error.what());
     return 2;
