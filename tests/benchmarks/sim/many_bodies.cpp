@@ -115,8 +115,9 @@ int main(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   const bool only_scene = !arguments.empty() && arguments.front() == "--scene";
   if (only_scene) arguments.erase(arguments.begin());
-  std::vector<int> sizes;
-  for (const std::string& argument : arguments) sizes.push_back(std::atoi(argument.c_str()));
+  std::vector<int> sizes(arguments.size());
+  std::transform(arguments.begin(), arguments.end(), sizes.begin(),
+                 [](const std::string& argument) { return std::atoi(argument.c_str()); });
   const bool valid = std::all_of(sizes.begin(), sizes.end(), [](int n) { return n > 0; });
   if (!valid || (only_scene && sizes.size() != 1)) {
     std::fprintf(stderr, "usage: many_bodies [BODIES]..., many_bodies --scene BODIES\n");
