@@ -55,7 +55,8 @@ geometry = {{ box = {{ size = "{1} {1} 10 mm", cells = [10, 10, 1], center = "0 
   for (int i = 0; i < bodies; ++i) {
     const auto at = [&](int k) { return (kSide + kGap) * (k - 0.5 * (n - 1)) + jitter(random); };
     const double x = at(i % n), y = at(i / n % n);
-    const double z = kSide / 2 + kGap + (kSide + kGap) * (i / n / n);
+    const int layer = i / n / n;
+    const double z = kSide / 2 + kGap + (kSide + kGap) * layer;
     text += fmt::format(
         "[[body]]\nname = \"cube {}\"\nkind = \"rigid\"\ndensity = \"1 g/cm^3\"\n"
         "geometry = {{ box = {{ size = \"{} {} {} mm\", cells = [1, 1, 1], center = \"{:.6f} "
