@@ -1,9 +1,12 @@
 // The knees of scenarios/knee/, with coarse elements and part of the load.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "sim/build/build_model.hpp"
 #include "sim/run/run.hpp"
@@ -143,13 +146,17 @@ TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
       run_shell(folder, "out=$PWD; SIZE='4 mm' ARTICULAR=\"$articular\" '" ARTICULAR_SOURCE_DIR
                         "/tools/figures/subject-knee' \"$out/meshes\"");
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  sim::Scenario scenario = sim::read_scenario(
+  std::vector<std::string> settings = {"duration=0.1 s"};
+  for (const auto& [body, mesh] :
+       {std::pair("femoral_cartilage", "femcart"),
+        std::pair("tibial_cartilage_medial", "tibcart_1"),
+        std::pair("tibial_cartilage_lateral", "tibcart_2"),
+        std::pair("meniscus_medial", "meniscus_1"), std::pair("meniscus_lateral", "meniscus_2")})
+    settings.push_back(
+        fmt::format("body.{}.mesh.file={}/meshes/{}.vtu", body, folder.path().string(), mesh));
+  const sim::Scenario scenario = sim::read_scenario(
       std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee/subject-axial-load.toml",
-      {"duration=0.1 s"});
-  for (sim::Body& body : scenario.bodies) {
-    auto& mesh = std::get<sim::MeshFile>(body.geometry);
-    if (!mesh.made_by.empty()) mesh.path = folder.path() / "meshes" / mesh.path.filename();
-  }
+      settings);
   sim::RunOptions options;
   options.directory = folder.path() / "out";
   sim::run(scenario, sim::build_model(scenario), options);
