@@ -13,13 +13,13 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// MemAvailable and SwapFree, in lines such as "SwapFree:    1024 kB".
-double free_on_machine() {
+/// MemAvailable and, if it counts, SwapFree, in lines such as "SwapFree:    1024 kB".
+double free_on_machine(bool swap_counts) {
   std::ifstream in("/proc/meminfo");
   double sum = 0, kilobytes = 0;
   bool found = false;
   for (std::string name, unit; in >> name >> kilobytes; std::getline(in, unit)) {
-    if (name == "MemAvailable:" || name == "SwapFree:") sum += 1024 * kilobytes;
+    if (name == "MemAvailable:" || (swap_counts && name == "SwapFree:")) sum += 1024 * kilobytes;
     found |= name == "MemAvailable:";
   }
   return found ? sum : kUnlimited;
@@ -37,12 +37,16 @@ double limit_of_process() {
   return static_cast<double>(limit.rlim_cur);
 }
 
-}  // namespace
-
-double available_memory() {
-  return std::min({free_on_machine(), limit_in("/sys/fs/cgroup/memory.max"),
+double available(bool swap_counts) {
+  return std::min({free_on_machine(swap_counts), limit_in("/sys/fs/cgroup/memory.max"),
                    limit_in("/sys/fs/cgroup/memory/memory.limit_in_bytes"), limit_of_process()});
 }
+
+}  // namespace
+
+double available_memory() { return available(true); }
+
+double available_memory_without_swap() { return available(false); }
 
 std::string size_text(double bytes) {
   constexpr std::array kUnits = {"kB", "MB", "GB", "TB", "PB"};

@@ -2,15 +2,14 @@
 
 namespace articular::sim {
 
-ContactSides sides_of(const Model& model, ContactId contact) {
-  const ContactModel pair = model.contacts[contact];
+ContactSides sides_of(const Model& model, const ContactModel& pair) {
   const Collider& a = *model.bodies[static_cast<std::size_t>(pair.a)].collider;
   const Collider& b = *model.bodies[static_cast<std::size_t>(pair.b)].collider;
   return pair.reversed ? ContactSides{b, a, pair.b, pair.a} : ContactSides{a, b, pair.a, pair.b};
 }
 
 ContactSides sides_of(const Model& model, const ContactPairState& pair_state) {
-  return sides_of(model, pair_state.contact);
+  return sides_of(model, pair_state.pair);
 }
 
 std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider& faces,

@@ -21,6 +21,7 @@ struct ContactPairState {
     Vec3 measure_slope = Vec3::Zero();  // ∂A_a/∂W_a of the triangle's nodes; pointwise: 0
   };
   ContactId contact = 0;
+  ContactModel pair;          // made once, see ContactPairs
   std::vector<Patch> stored;  // never shrinks: the patches are the first ones
   std::size_t num_patches = 0;
   std::span<const Patch> patches() const { return {stored.data(), num_patches}; }
@@ -54,7 +55,7 @@ struct ContactSides {
   int triangle_body, face_body;
   bool is_self() const { return triangle_body == face_body; }
 };
-ContactSides sides_of(const Model& model, ContactId contact);
+ContactSides sides_of(const Model& model, const ContactModel& pair);
 ContactSides sides_of(const Model& model, const ContactPairState& pair_state);
 
 /// Whether there is pressure at a corner of the triangle.

@@ -115,7 +115,7 @@ std::vector<PressureLoad> pressure_loads(const Model& model, const ContactRespon
     if (model.bodies[b].collider) loads[b] = no_load(configuration, *model.bodies[b].collider);
   for (const ContactPairState* pair_state : response.pair_states()) {
     const ContactSides side = sides_of(model, *pair_state);
-    const double share = model.contacts[pair_state->contact].share;
+    const double share = pair_state->pair.share;
     for (const ContactPairState::Patch& entry : pair_state->patches())
       add_load(side, *pair_state, share, entry, loads[static_cast<std::size_t>(side.triangle_body)],
                loads[static_cast<std::size_t>(side.face_body)]);

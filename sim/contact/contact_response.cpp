@@ -19,11 +19,11 @@ ContactPairState& ContactResponse::pair_state_of(const CandidateList& list) {
   if (known != nullptr) return *known;
   ContactPairState& pair_state = pair_states_.emplace_back();
   pair_state.contact = list.contact;
-  const ContactModel contact = model_.contacts[list.contact];
+  pair_state.pair = model_.contacts[list.contact];
   const Collider& nonmortar = sides_of(model_, pair_state).triangles;
   const Eigen::Index num_groups = std::ssize(nonmortar.group_node);
-  pair_state.firm_stiffness = stiffness_at_groups(contact, nonmortar, false);
-  pair_state.soft_stiffness = stiffness_at_groups(contact, nonmortar, true);
+  pair_state.firm_stiffness = stiffness_at_groups(pair_state.pair, nonmortar, false);
+  pair_state.soft_stiffness = stiffness_at_groups(pair_state.pair, nonmortar, true);
   for (Eigen::VectorXd* values :
        {&pair_state.area, &pair_state.measure, &pair_state.depth, &pair_state.pressure})
     values->setZero(num_groups);
@@ -58,7 +58,7 @@ void ContactResponse::evaluate(const Configuration& configuration,
 void ContactResponse::find_pressures(const Configuration& configuration, bool soft,
                                      ContactPairState& pair_state) {
   ++evaluations_[Term::ContactForce];
-  const ContactModel contact = model_.contacts[pair_state.contact];
+  const ContactModel& contact = pair_state.pair;
   pair_state.is_soft = soft;
   pair_state.point_stiffness = contact.averaged ? 0 : pair_state.stiffness(0);
   for (const int group : pair_state.groups) {
@@ -76,7 +76,7 @@ bool ContactResponse::augment() {
   bool any = false;
   for (ContactPairState* const near : near_) {
     ContactPairState& pair_state = *near;
-    const ContactModel contact = model_.contacts[pair_state.contact];
+    const ContactModel& contact = pair_state.pair;
     if (!contact.is_bounded) continue;
     const bool exceeds =
         std::any_of(pair_state.groups.begin(), pair_state.groups.end(), [&](int group) {
@@ -134,7 +134,7 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
     faces_.resize(side.faces.face_area.size());
     met_.resize(side.faces.face_area.size(), 0);
   }
-  const bool averaged = model_.contacts[pair_state.contact].averaged;
+  const bool averaged = pair_state.pair.averaged;
   DepthRange range = depth_range(side.triangles, side.faces, averaged);
   range.allowance = allowance;
   const std::vector<ContactCandidate>& pairs = list.pairs;
@@ -236,7 +236,7 @@ void ContactResponse::add_damping_product(const Configuration& configuration,
 void ContactResponse::update_friction_duals(const Configuration& configuration,
                                             const Eigen::VectorXd& change) {
   for (ContactPairState* const near : near_) {
-    const ContactModel contact = model_.contacts[near->contact];
+    const ContactModel& contact = near->pair;
     if (!(contact.law.friction > 0)) continue;
     const ContactSides side = sides_of(model_, *near);
     sim::update_friction_duals(contact.law, side.triangles, side.faces, configuration, change,

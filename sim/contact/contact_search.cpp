@@ -6,8 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "sim/contact/body_sweep.hpp"
-
 namespace articular::sim {
 namespace {
 
@@ -272,22 +270,21 @@ void ContactSearch::add_deep_pairs(const Penetrations& found, const Moving& a, c
   }
 }
 
-bool ContactSearch::passes_unseen(const Configuration& from, const Configuration& to) const {
-  std::vector<BodySweep> sweeps(model_.bodies.size());
-  std::vector<collision::Aabb> ways(model_.bodies.size());
+bool ContactSearch::passes_unseen(const Configuration& from, const Configuration& to) {
+  sweeps_.assign(model_.bodies.size(), {});
+  ways_.assign(model_.bodies.size(), {});
   for (const Moving& moving : moving_) {
     const auto body = static_cast<std::size_t>(moving.body);
     for (const NodeRef& node : model_.bodies[body].collider->nodes)
-      sweeps[body].add(from.position(node), to.position(node));
-    ways[body] = box_of_way(sweeps[body]);
+      sweeps_[body].add(from.position(node), to.position(node));
+    ways_[body] = box_of_way(sweeps_[body]);
   }
-  NearContacts near;
-  for (const ContactId contact : near.find(model_.contacts, ways)) {
+  for (const ContactId contact : near_ways_.find(model_.contacts, ways_)) {
     const ContactModel pair = model_.contacts[contact];
     if (pair.a == pair.b) continue;
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
     const Collider &A = *model_.bodies[a].collider, &B = *model_.bodies[b].collider;
-    if (most_relative_motion(sweeps[a], sweeps[b]) >
+    if (most_relative_motion(sweeps_[a], sweeps_[b]) >
         std::max(depth_range(A, B, pair.averaged).reach, depth_range(B, A, pair.averaged).reach))
       return true;
   }

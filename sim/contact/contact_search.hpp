@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/base/evaluation_counters.hpp"
+#include "sim/contact/body_sweep.hpp"
 #include "sim/contact/penetration_search.hpp"
 #include "sim/gap/face_bounds.hpp"
 #include "sim/model/configuration.hpp"
@@ -63,7 +64,7 @@ class ContactSearch {
 
   /// Between the two, some pair of bodies that meet on the way move past each other farther than a
   /// face can be found behind a triangle: one could be through the other at the end.
-  bool passes_unseen(const Configuration& from, const Configuration& to) const;
+  bool passes_unseen(const Configuration& from, const Configuration& to);
 
   /// Of the last find() [m].
   double margin() const { return margin_; }
@@ -108,7 +109,11 @@ class ContactSearch {
   }
   NearContacts near_;
   std::vector<collision::Aabb> boxes_;  // by body
-  std::vector<CandidateList> lists_;    // never shrinks: the first ones are candidates
+  // Scratch of passes_unseen(), by body:
+  NearContacts near_ways_;
+  std::vector<BodySweep> sweeps_;
+  std::vector<collision::Aabb> ways_;
+  std::vector<CandidateList> lists_;  // never shrinks: the first ones are candidates
   std::size_t num_lists_ = 0;
   double margin_ = 0;      // [m]
   double open_depth_ = 0;  // [m] largest of all sides that are averaged over

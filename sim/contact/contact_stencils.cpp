@@ -67,7 +67,7 @@ void append_missing_stencils(const Model& model, std::span<const CandidateList> 
                              const fem::BlockMatrix& A, Stencils& stencils) {
   for (const CandidateList& list : candidates) {
     const ContactModel contact = model.contacts[list.contact];
-    const ContactSides side = sides_of(model, list.contact);
+    const ContactSides side = sides_of(model, contact);
     const auto append =
         contact.averaged || contact.law.acts() ? append_missing_averages : append_missing_pairs;
     append(model, list, side.triangles, side.faces, A, stencils);

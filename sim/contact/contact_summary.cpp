@@ -45,7 +45,7 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
                     const Configuration& configuration, Counts&& counts, SummarySums& sums) {
   ContactSummary& sum = sums.summary;
   const ContactSides side = sides_of(model, pair_state);
-  const ContactModel contact = model.contacts[pair_state.contact];
+  const ContactModel& contact = pair_state.pair;
   const double share = contact.share;
   const bool is_self = side.is_self();
   CountedLoad& on_triangles = contact.reversed ? sums.on_b : sums.on_a;

@@ -105,7 +105,7 @@ void warn_of_unresolved_contacts(const Model& model, const Stepper& stepper,
     return model.bodies[static_cast<std::size_t>(b)];
   };
   for (const ContactPairState* const pair_state : stepper.now().contact.pair_states()) {
-    const ContactModel pair = model.contacts[pair_state->contact];
+    const ContactModel& pair = pair_state->pair;
     if (body(pair.a).tissue < 0 && body(pair.b).tissue < 0) continue;
     const Carrying found = carrying(*pair_state);
     const double missed =

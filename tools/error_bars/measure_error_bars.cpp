@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "sim/base/atomic_file.hpp"
+#include "sim/base/available_memory.hpp"
 #include "sim/base/error.hpp"
 #include "sim/output/results_folder.hpp"
 #include "tools/error_bars/coarser_mesh.hpp"
@@ -36,22 +36,14 @@ MainRun read_main_run(const fs::path& directory) {
   return run;
 }
 
-/// [MB] That programs can still have; 0: unknown.
-double free_megabytes() {
-  std::ifstream stream("/proc/meminfo");
-  for (std::string word; stream >> word;)
-    if (double kilobytes = 0; word == "MemAvailable:" && stream >> kilobytes)
-      return kilobytes / 1024;
-  return 0;
-}
-
 /// As many coarser runs side by side as there are threads for, and memory: none takes more than
 /// the run itself.
 int side_by_side(int threads, double megabytes_each, std::size_t runs) {
-  constexpr double kShareOfMemory = 0.8;
-  const double fit = kShareOfMemory * free_megabytes() / std::max(1.0, megabytes_each);
-  const int most = static_cast<int>(std::clamp<double>(static_cast<double>(runs), 1, threads));
-  return std::clamp(static_cast<int>(fit), 1, most);
+  constexpr double kShareOfMemory = 0.8, kMegabyte = 1 << 20;  // as in summary.json
+  const double fit = kShareOfMemory * sim::available_memory_without_swap() /
+                     (kMegabyte * std::max(1.0, megabytes_each));
+  const double most = std::clamp<double>(static_cast<double>(runs), 1, threads);
+  return static_cast<int>(std::clamp(fit, 1.0, most));
 }
 
 /// Coarser runs that are there are of these inputs and no others.

@@ -257,7 +257,7 @@ TEST(ContactSearch, SeesWhatPassesTheOtherBodyUnseen) {
         box_body("a", Body::Kind::Tissue, Vec3::Constant(size), -0.5 * way * direction, {2, 2, 2}),
         box_body("b", Body::Kind::Tissue, Vec3::Constant(size), Vec3::Zero(), {2, 2, 2})};
     const Model model = build_model(s);
-    const ContactSearch search(model, {});
+    ContactSearch search(model, {});
     const Eigen::VectorXd start = initial_state(model);
     Configuration from, to;
     read_state(model, start.data(), 0, from);
