@@ -94,7 +94,8 @@ endfunction()
 
 # articular_test(name SOURCES ... LIBRARIES ... [LABELS ...] [UNSANITIZED ...] [IN_ONE_PROCESS]): one GoogleTest program,
 # each of its tests a ctest, or all of them one. With ARTICULAR_SANITIZED the same objects are linked a second time, with
-# the sanitized libraries: those tests have names that begin with "sanitized/", and that label. Tests take longest to
+# the sanitized libraries: those tests run in eight processes, ctests "sanitized/NAME 1 of 8" and so on with the label
+# "sanitized", as the start of a sanitized process takes longer than most tests. Tests take longest to
 # compile, and what they are to find is in the libraries. Slow ones would take minutes with sanitizers, and graphics
 # drivers leak. So would those of UNSANITIZED, patterns of GoogleTest: they compute for long what shorter ones reach.
 function(articular_test name)
@@ -143,22 +144,36 @@ endfunction()
 include(GoogleTest)
 function(articular_register_tests program prefix in_one_process labels filter)
   set(properties TIMEOUT 600)
-  if(labels)
-    list(APPEND properties LABELS "${labels}")
-  endif()
   if(labels MATCHES "slow")
     list(APPEND properties COST 100)  # first, so that at the end no processor waits for another
   endif()
-  if(prefix)
-    list(APPEND properties ENVIRONMENT "ARTICULAR_PROGRAM=$<TARGET_FILE:articular_sanitized>")
-  endif()
   if(in_one_process)
-    add_test(NAME ${prefix}${program} COMMAND ${program} --gtest_filter=${filter})
-    set_tests_properties(${prefix}${program} PROPERTIES ${properties})
+    articular_register_processes(${program} "${prefix}" 1 "${labels}" "${filter}" ${properties})
+  elseif(prefix)
+    articular_register_processes(${program} "${prefix}" 8 "${labels}" "${filter}" ${properties})
   else()
-    gtest_discover_tests(${program} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${prefix}" TEST_FILTER "${filter}"
-      PROPERTIES ${properties})
+    if(labels)
+      list(APPEND properties LABELS "${labels}")
+    endif()
+    gtest_discover_tests(${program} DISCOVERY_MODE PRE_TEST TEST_FILTER "${filter}" PROPERTIES ${properties})
   endif()
+endfunction()
+
+# articular_register_processes(... PROPERTY VALUE...): tests of which several share a process.
+function(articular_register_processes program prefix processes labels filter)
+  foreach(process RANGE 1 ${processes})
+    set(name ${prefix}${program})
+    if(processes GREATER 1)
+      string(APPEND name " ${process} of ${processes}")
+    endif()
+    math(EXPR index "${process} - 1")
+    set(environment GTEST_TOTAL_SHARDS=${processes} GTEST_SHARD_INDEX=${index})
+    if(prefix)
+      list(APPEND environment "ARTICULAR_PROGRAM=$<TARGET_FILE:articular_sanitized>")
+    endif()
+    add_test(NAME "${name}" COMMAND ${program} --gtest_filter=${filter})
+    set_tests_properties("${name}" PROPERTIES ${ARGN} LABELS "${labels}" ENVIRONMENT "${environment}")
+  endforeach()
 endfunction()
 
 # articular_starts_the_program(TEST...): tests that start `articular` (tests/tools/support/program.hpp) and read what

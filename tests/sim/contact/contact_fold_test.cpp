@@ -116,7 +116,7 @@ void expect_closed_and_recovered(Scenario s, double depth) {
   EXPECT_GT(run.stepper.dynamics().contact_summary(0).area, 5e-7);  // [m²]
   EXPECT_GT(largest_stretch(run), 0.05);
   EXPECT_LT(deepest_node(*run.model.bodies[0].collider, nodes_of(run, 0)), depth * kElement);
-  run.advance(1.5, watch);
+  run.advance(1.2, watch);
   EXPECT_GT(least_ratio, 0);
   EXPECT_EQ(run.stepper.dynamics().contact_summary(0).area, 0);
   EXPECT_LT(largest_stretch(run), 1e-3);

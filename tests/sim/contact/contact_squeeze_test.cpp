@@ -74,7 +74,7 @@ Scenario squeezed(const TemporaryFolder& folder, int cells) {
 TEST(Squeeze, TissueBetweenTwoBonesIsSqueezedToHalfItsThicknessAndDragged) {
   constexpr double kWay = 2e-3;  // [m]
   const TemporaryFolder folder;
-  Scenario s = squeezed(folder, 10);
+  Scenario s = squeezed(folder, 8);
   Motion& motion = std::get<MotionLoad>(s.loads[0]).motion;
   motion.time = {0, 0.1, 0.15, 0.25, 0.3, 0.35};
   const Vec3 down(0, 0, -kSheet / 2), along(kWay, 0.3 * kWay, 0);
@@ -120,8 +120,8 @@ TEST(Squeeze, ADiscBetweenCondyleAndFossaCarries500N) {
   const TemporaryFolder folder;
   Scenario s = contact_scene(1e-3);
   s.bodies = {
-      sheet_body(folder, kFossa, {12e-3, 12e-3, kThickness}, {16, 16, 2}, neo_hookean(10e6, 0.4)),
-      dish_body(folder, kFossa, 16e-3, 16), Body{}};
+      sheet_body(folder, kFossa, {12e-3, 12e-3, kThickness}, {12, 12, 2}, neo_hookean(10e6, 0.4)),
+      dish_body(folder, kFossa, 16e-3, 12), Body{}};
   Body& condyle = s.bodies[2];
   condyle.name = "condyle";
   condyle.kind = Body::Kind::Rigid;
