@@ -316,10 +316,13 @@ class VtkXmlReader {
   }
 
   /// Texts stand one behind the other, each with a zero at its end.
-  static std::string first_text(const Numbers& characters) {
+  std::string first_text(const Numbers& characters) const {
     std::string text;
-    for (std::size_t i = 0; i < characters.size() && characters[i] != 0; ++i)
+    for (std::size_t i = 0; i < characters.size() && characters[i] != 0; ++i) {
+      if (!(characters[i] >= -128 && characters[i] <= 255))
+        fail("its field data hold a text with a number that is no character");
       text += static_cast<char>(static_cast<int>(characters[i]));
+    }
     return text;
   }
 

@@ -237,6 +237,22 @@ TEST(VtkXml, MoreThanTheFileHoldsIsRefusedBeforeMemoryIsTaken) {
             std::string::npos);
 }
 
+// A number beyond all integers was made a character.
+TEST(VtkXml, ATextHoldsCharacters) {
+  const TemporaryFolder folder;
+  const auto unit_of = [&](const std::string& characters) {
+    std::string text = grid_with(
+        "<DataArray type='Float64' NumberOfComponents='3'>0 0 0 1 0 0 0 1 0 0 0 1</DataArray>");
+    text.insert(text.find("<Piece"), "<FieldData><Array type='String' Name='unit'>" + characters +
+                                         "</Array></FieldData>");
+    return read_vtk_xml(folder.file("m.vtu", text), VtkXmlFields::All).texts.at(0).second;
+  };
+  EXPECT_EQ(unit_of("109 109 0 109 0"), "mm");
+  EXPECT_EQ(unit_of("-62 -75 109 0"), "µm");
+  for (const char* const characters : {"1099999999999999999999 0", "256 0", "-129 0", "1e300 0"})
+    EXPECT_THROW(unit_of(characters), InputError) << characters;
+}
+
 // Zeros fold to a thousandth at best.
 TEST(VtkXml, DataThatUnfoldToMoreThanAnyCompressorCanAreRefused) {
   const TemporaryFolder folder;
