@@ -272,14 +272,13 @@ void ContactSearch::add_deep_pairs(const Penetrations& found, const Moving& a, c
 
 bool ContactSearch::passes_unseen(const Configuration& from, const Configuration& to) {
   sweeps_.assign(model_.bodies.size(), {});
-  ways_.assign(model_.bodies.size(), {});
   for (const Moving& moving : moving_) {
     const auto body = static_cast<std::size_t>(moving.body);
     for (const NodeRef& node : model_.bodies[body].collider->nodes)
       sweeps_[body].add(from.position(node), to.position(node));
-    ways_[body] = box_of_way(sweeps_[body]);
+    boxes_[body] = box_of_way(sweeps_[body]);
   }
-  for (const ContactId contact : near_ways_.find(model_.contacts, ways_)) {
+  for (const ContactId contact : near_.find(model_.contacts, boxes_)) {
     const ContactModel pair = model_.contacts[contact];
     if (pair.a == pair.b) continue;
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);

@@ -108,11 +108,9 @@ class ContactSearch {
     return moving_[static_cast<std::size_t>(moving_of_body_[static_cast<std::size_t>(body)])];
   }
   NearContacts near_;
-  std::vector<collision::Aabb> boxes_;  // by body
-  // Scratch of passes_unseen(), by body:
-  NearContacts near_ways_;
+  // Scratch of a question, by body: where they are, or all the way that they go.
+  std::vector<collision::Aabb> boxes_;
   std::vector<BodySweep> sweeps_;
-  std::vector<collision::Aabb> ways_;
   std::vector<CandidateList> lists_;  // never shrinks: the first ones are candidates
   std::size_t num_lists_ = 0;
   double margin_ = 0;      // [m]
