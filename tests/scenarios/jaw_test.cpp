@@ -79,19 +79,15 @@ TEST(JawOpening, TheMouthOpensByTensOfMillimetresAndClosesAgain) {
 }
 
 TEST(JawOpening, WithoutContactACondyleLeavesItsFossa) {
-  const TemporaryFolder folder;
-  sim::Scenario scenario = sim::read_scenario(
-      std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/mandible/opening.toml",
+  sim::Scenario scenario = shipped_scenario(
+      "mandible/opening.toml",
       {"choice.disc=none", "accuracy=fast", "integrator.step=4 ms", "duration=0.2 s"});
   scenario.contact = false;
   scenario.contacts.clear();
   std::erase_if(scenario.probes, [](const sim::Probe& probe) {
     return std::holds_alternative<sim::ContactProbe>(probe.what);
   });
-  sim::RunOptions options;
-  options.directory = folder.path() / "out";
-  sim::run(scenario, sim::build_model(scenario), options);
-  const ScenarioResults results(options.directory);
+  const ScenarioResults results = run_scenario(scenario);
   // The fossa's roof is 3 mm above the condyle's disc.
   const auto& z = results.column("condyle_left.position.z [mm]");
   const double highest = *std::max_element(z.begin(), z.end()) - z.front();

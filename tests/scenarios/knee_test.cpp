@@ -21,18 +21,14 @@ namespace articular::knee_test {
 ScenarioResults coarse_knee(const std::string& file, const std::vector<std::string>& overrides) {
   const TemporaryFolder folder;
   anatomy::write_anatomy(anatomy::knee_anatomy({4, 2}), folder.path() / "anatomy");
-  sim::Scenario scenario = sim::read_scenario(
-      std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee" / file, overrides);
+  sim::Scenario scenario = shipped_scenario("knee/" + file, overrides);
   for (sim::Body& body : scenario.bodies) {
     auto& mesh = std::get<sim::MeshFile>(body.geometry);
     mesh.path = folder.path() / "anatomy" / mesh.path.filename();
     for (sim::MeshFile& file : body.contact_meshes)
       file.path = folder.path() / "anatomy" / file.path.filename();
   }
-  sim::RunOptions options;
-  options.directory = folder.path() / "out";
-  sim::run(scenario, sim::build_model(scenario), options);
-  return ScenarioResults(options.directory);
+  return run_scenario(scenario);
 }
 
 /// @param duration   [s], 1000 N each
@@ -154,13 +150,7 @@ TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
         std::pair("meniscus_medial", "meniscus_1"), std::pair("meniscus_lateral", "meniscus_2")})
     settings.push_back(
         fmt::format("body.{}.mesh.file={}/meshes/{}.vtu", body, folder.path().string(), mesh));
-  const sim::Scenario scenario = sim::read_scenario(
-      std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios/knee/subject-axial-load.toml",
-      settings);
-  sim::RunOptions options;
-  options.directory = folder.path() / "out";
-  sim::run(scenario, sim::build_model(scenario), options);
-  const ScenarioResults results(options.directory);
+  const ScenarioResults results = run_scenario("knee/subject-axial-load.toml", settings);
   EXPECT_EQ(results.summary().at("outcome"), "finished");
   const double load = 100;  // [N]
   EXPECT_NEAR(results.column("femur.force.y [N]").back(), load, 1e-3 * load);

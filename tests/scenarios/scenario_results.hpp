@@ -57,16 +57,24 @@ class ScenarioResults {
   std::map<std::string, std::vector<double>> columns_;
 };
 
-/// Runs scenarios/FILE, or the file of an absolute path, with overrides as of `--set`.
-inline ScenarioResults run_scenario(const std::string& file,
-                                    const std::vector<std::string>& overrides = {}) {
+inline ScenarioResults run_scenario(const sim::Scenario& scenario) {
   const TemporaryFolder folder;
-  const sim::Scenario scenario = sim::read_scenario(
-      std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios" / file, overrides);
   sim::RunOptions options;
   options.directory = folder.path();
   sim::run(scenario, sim::build_model(scenario), options);
   return ScenarioResults(folder.path());
+}
+
+/// scenarios/FILE, or the file of an absolute path, with overrides as of `--set`.
+inline sim::Scenario shipped_scenario(const std::string& file,
+                                      const std::vector<std::string>& overrides = {}) {
+  return sim::read_scenario(std::filesystem::path(ARTICULAR_SOURCE_DIR) / "scenarios" / file,
+                            overrides);
+}
+
+inline ScenarioResults run_scenario(const std::string& file,
+                                    const std::vector<std::string>& overrides = {}) {
+  return run_scenario(shipped_scenario(file, overrides));
 }
 
 }  // namespace articular
