@@ -5,25 +5,30 @@
 
 namespace articular::sim {
 
-/// The part of a Newton correction to take: as much of it as does not lead far uphill again on its
-/// other side, where contacts have closed.
+/// The part of a Newton correction to take: all of it, unless it leads far uphill again on its
+/// other side, where contacts have closed; then to about the lowest point on the way. Looking costs
+/// little beside the matrix of the next correction.
 /// @param most      at most this part
 /// @param slope     of the energy along the correction where it starts, by the part; negative:
 ///                  downhill, else there is nothing to search for
 /// @param slope_at  that slope at a part; NaN: nothing can be there
 template <class SlopeAt>
 double searched_part(double most, double slope, SlopeAt&& slope_at) {
-  constexpr double kSlopeFall = 0.8;
+  constexpr double kMostUphill = 0.8, kMostDownhill = 0.5;  // of the slope at the start
   constexpr int kMostTrials = 8;
+  if (!(slope < 0)) return most;
+  double low = 0, high = most, slope_low = slope, slope_high = slope;
   double part = most;
-  if (!(slope < 0)) return part;
   for (int trial = 0; trial < kMostTrials; ++trial) {
     const double there = slope_at(part);
-    if (there <= -kSlopeFall * slope) return part;  // false for NaN
-    const double secant = std::isfinite(there) ? slope / (slope - there) : 0.25;
-    part *= std::clamp(secant, 0.1, 0.5);
+    const bool is_beyond = !(there <= -kMostUphill * slope);  // NaN too
+    if (!is_beyond && (part == most || there >= kMostDownhill * slope)) return part;
+    (is_beyond ? high : low) = part;
+    (is_beyond ? slope_high : slope_low) = there;
+    const double secant = std::isfinite(slope_high) ? slope_low / (slope_low - slope_high) : 0.25;
+    part = low + std::clamp(secant, 0.1, 0.5) * (high - low);
   }
-  return part;
+  return low > 0 ? low : part;
 }
 
 }  // namespace articular::sim
