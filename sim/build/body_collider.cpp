@@ -15,9 +15,10 @@ namespace articular::sim {
 namespace {
 
 /// How far in front of a face a triangle's depth counts in the averages, in heights of the elements
-/// at its surface: more than a facet's sagitta under a round bone. The larger, the more a dragged
-/// sphere's force ripples; the smaller, the stiffer coarse surfaces are (README.md).
-constexpr double kOpenDepth = 0.1;
+/// at its surface; from half of it on it fades. More than a facet's sagitta under a round bone. The
+/// larger, the more a dragged sphere's force ripples; the smaller, the stiffer coarse surfaces are
+/// (RESULTS.md).
+constexpr double kOpenDepth = 0.12;
 /// A tissue's face counts as crossed up to this part of an element's height. Contact keeps depths
 /// far below it; what lies deeper is seen from beyond an edge, and was not entered through that
 /// face.

@@ -123,7 +123,7 @@ Vec3 next_friction_dual(const SurfaceLaw& law, const Vec3& slip, const Vec3& cha
 // u_i = v_i − d_i ṅ − Σ β_mi ḟ_m at the triangle's nodes, with ṅ = −Σ ∇N_j (n·v_j).
 
 Vec18 slip_gradient(const ContactPatch& patch, const Mat3& t) {
-  const Mat3 q = t * patch.Q;  // of u_i
+  const Mat3 q = t * patch.counted;  // of u_i
   const Vec3 lever = q * patch.height;
   Vec18 g;
   for (int i = 0; i < 3; ++i) {
@@ -137,7 +137,7 @@ Mat3 slip_integrals(const ContactPatch& patch, const SixVectors& v) {
   const Vec3 turning = -patch.g * (v.leftCols<3>().transpose() * patch.normal);
   const Mat3 u =
       v.leftCols<3>() - turning * patch.height.transpose() - v.rightCols<3>() * patch.beta;
-  return u * patch.Q;
+  return u * patch.counted;
 }
 
 void find_drag(const SurfaceLaw& law, const Collider& triangles, const Collider& faces,

@@ -42,7 +42,8 @@ PatchSum mean_depths(const ContactPairState& pair_state, const ContactPairState:
                      const Eigen::Matrix3Xi& groups, const Vec3& p) {
   PatchSum sum{p};
   for (int i = 0; i < 3; ++i)
-    sum.m[i] = p[i] * pair_state.depth[groups(i, entry.triangle)] * entry.measure_slope[i];
+    sum.m[i] = p[i] * pair_state.depth[groups(i, entry.triangle)] *
+               pair_state.measure_slope[groups(i, entry.triangle)];
   return sum;
 }
 
@@ -52,9 +53,10 @@ PatchSum energy_sum(const ContactPairState& pair_state, const ContactPairState::
   Vec3 p;
   for (int i = 0; i < 3; ++i) p[i] = pair_state.penalty(groups(i, entry.triangle));
   PatchSum sum = mean_depths(pair_state, entry, groups, p);
-  for (int i = 0; i < 3; ++i)
-    sum.m[i] -= p[i] * p[i] / (2 * pair_state.stiffness(groups(i, entry.triangle))) *
-                entry.measure_slope[i];
+  for (int i = 0; i < 3; ++i) {
+    const int group = groups(i, entry.triangle);
+    sum.m[i] -= p[i] * p[i] / (2 * pair_state.stiffness(group)) * pair_state.measure_slope[group];
+  }
   return sum;
 }
 

@@ -18,7 +18,6 @@ struct ContactPairState {
   struct Patch {
     ContactPatch patch;
     int triangle = 0, face = 0;
-    Vec3 measure_slope = Vec3::Zero();  // ∂A_a/∂W_a of the triangle's nodes; pointwise: 0
   };
   ContactId contact = 0;
   ContactModel pair;          // made once, see ContactPairs
@@ -26,8 +25,10 @@ struct ContactPairState {
   std::size_t num_patches = 0;
   std::span<const Patch> patches() const { return {stored.data(), num_patches}; }
   // By smoothing group of the side whose triangles these are; zero where it meets nothing:
+  Eigen::VectorXd whole_area;                      // T [m²], of all triangles around it, at rest
   Eigen::VectorXd area;                            // W [m²]
   Eigen::VectorXd measure;                         // A [m²]
+  Eigen::VectorXd measure_slope;                   // ∂A/∂W; pointwise: 0
   Eigen::VectorXd depth;                           // g [m]
   Eigen::VectorXd pressure;                        // p [Pa], with that of damping
   Eigen::VectorXd multiplier;                      // λ [Pa]; empty: none

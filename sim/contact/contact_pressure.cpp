@@ -47,7 +47,7 @@ void add_load(const ContactSides& side, const ContactPairState& pair_state, doub
               const ContactPairState::Patch& entry, PressureLoad& on_triangles,
               PressureLoad& on_faces) {
   const auto& groups = side.triangles.groups;
-  if (entry.patch.nearest != ContactPatch::kFace) return;  // acts along the face
+  if (is_beside_rim(entry.patch)) return;  // acts along the face
   // What is near, but carries nothing, must not thin out another contact at the same node. Of a
   // body with itself both directions count, or half the pressure would stand for all of it.
   if (!carries(pair_state, entry.triangle, groups) && !side.is_self()) return;

@@ -25,15 +25,19 @@ ContactPairState& ContactResponse::pair_state_of(const CandidateList& list) {
   pair_state.firm_stiffness = stiffness_at_groups(pair_state.pair, nonmortar, false);
   pair_state.soft_stiffness = stiffness_at_groups(pair_state.pair, nonmortar, true);
   for (Eigen::VectorXd* values :
-       {&pair_state.area, &pair_state.measure, &pair_state.depth, &pair_state.pressure})
+       {&pair_state.whole_area, &pair_state.area, &pair_state.measure, &pair_state.measure_slope,
+        &pair_state.depth, &pair_state.pressure})
     values->setZero(num_groups);
+  for (Eigen::Index t = 0; t < nonmortar.groups.cols(); ++t)
+    for (const int group : nonmortar.groups.col(t))
+      pair_state.whole_area[group] += nonmortar.face_area[static_cast<std::size_t>(t)] / 3;
   known = &pair_state;
   return pair_state;
 }
 
 void ContactResponse::clear(ContactPairState& pair_state) const {
-  for (Eigen::VectorXd* values :
-       {&pair_state.area, &pair_state.measure, &pair_state.depth, &pair_state.pressure})
+  for (Eigen::VectorXd* values : {&pair_state.area, &pair_state.measure, &pair_state.measure_slope,
+                                  &pair_state.depth, &pair_state.pressure})
     for (const int group : pair_state.groups) (*values)[group] = 0;
   pair_state.groups.clear();
   pair_state.drag.clear();
@@ -62,7 +66,11 @@ void ContactResponse::find_pressures(const Configuration& configuration, bool so
   pair_state.is_soft = soft;
   pair_state.point_stiffness = contact.averaged ? 0 : pair_state.stiffness(0);
   for (const int group : pair_state.groups) {
-    pair_state.depth[group] /= pair_state.measure[group];
+    const double area = pair_state.area[group];
+    double& measure = pair_state.measure[group];
+    measure = contact.averaged ? std::sqrt(area * pair_state.whole_area[group]) : area;
+    if (contact.averaged) pair_state.measure_slope[group] = 0.5 * measure / area;
+    pair_state.depth[group] /= measure;
     pair_state.pressure[group] = pair_state.penalty(group);
   }
   if (!contact.law.acts()) return;
@@ -110,21 +118,22 @@ namespace {
 
 /// A triangle's patches. Where faces stand oblique to it their weights differ, and beside rims the
 /// depths: no face takes over from the next what an edge sweeps. Nor, in the tangent, at the corner
-/// where such an edge meets an end.
+/// where such an edge meets an end. Where depths begin to count the sum is zero all along the edge.
 void end_at_edges(std::span<ContactPairState::Patch> patches) {
   if (std::none_of(patches.begin(), patches.end(), [](const ContactPairState::Patch& entry) {
-        return entry.patch.turning != 0 || entry.patch.nearest != ContactPatch::kFace ||
-               has_end(entry.patch);
+        return entry.patch.turning != 0 || is_beside_rim(entry.patch) || has_end(entry.patch);
       }))
     return;
   for (ContactPairState::Patch& entry : patches)
-    for (int k = 0; k < entry.patch.num_edges; ++k)
-      entry.patch.edge[static_cast<std::size_t>(k)].is_end = true;
+    for (int k = 0; k < entry.patch.num_edges; ++k) {
+      PatchEdge& edge = entry.patch.edge[static_cast<std::size_t>(k)];
+      edge.is_end = edge.kind != PatchEdge::Kind::OpenDepth;
+    }
 }
 
 }  // namespace
 
-/// Patches of a contact pair, and what they sum to at groups: W, A and (in place of g) G.
+/// Patches of a contact pair, and what they sum to at groups: W and (in place of g) G.
 void ContactResponse::find_patches(const CandidateList& list, const Configuration& configuration,
                                    double allowance, ContactPairState& pair_state) {
   const ContactSides side = sides_of(model_, pair_state);
@@ -134,8 +143,7 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
     faces_.resize(side.faces.face_area.size());
     met_.resize(side.faces.face_area.size(), 0);
   }
-  const bool averaged = pair_state.pair.averaged;
-  DepthRange range = depth_range(side.triangles, side.faces, averaged);
+  DepthRange range = depth_range(side.triangles, side.faces, pair_state.pair.averaged);
   range.allowance = allowance;
   const std::vector<ContactCandidate>& pairs = list.pairs;
   for (std::size_t first = 0; first < pairs.size();) {  // they come sorted by triangle
@@ -148,10 +156,12 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
       const int face = pairs[first].face;
       range.reach = pairs[first].reach;
       const FlatTriangle& f = face_now(configuration, side.faces, face);
-      for (int nearest = 0; nearest <= ContactPatch::kFace; ++nearest) {
+      const std::optional<FacingPair> facing = facing_pair(s, f, range);
+      if (!facing) continue;
+      for (int nearest = 0; nearest < ContactPatch::kParts; ++nearest) {
         if (pair_state.num_patches == pair_state.stored.size()) pair_state.stored.emplace_back();
         ContactPairState::Patch& entry = pair_state.stored[pair_state.num_patches];
-        if (!contact_patch(s, f, rest_area, range, entry.patch, nearest)) continue;
+        if (!contact_patch(*facing, s, f, rest_area, range, nearest, entry.patch)) continue;
         ++pair_state.num_patches;
         entry.triangle = triangle;
         entry.face = face;
@@ -159,21 +169,14 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
         integrals += depth_integrals(entry.patch);
       }
     }
-    Vec3 measure_slope = Vec3::Zero();
     for (int i = 0; i < 3; ++i) {
       if (!(covered[i] > 0)) continue;
       const int group = side.triangles.groups(i, triangle);
-      if (pair_state.measure[group] == 0) pair_state.groups.push_back(group);
-      const double measure = averaged ? std::sqrt(covered[i] * rest_area / 3) : covered[i];
-      if (averaged) measure_slope[i] = 0.5 * measure / covered[i];
-      pair_state.measure[group] += measure;
+      if (pair_state.area[group] == 0) pair_state.groups.push_back(group);
       pair_state.area[group] += covered[i];
       pair_state.depth[group] += integrals[i];
     }
-    const std::span<ContactPairState::Patch> of_triangle(pair_state.stored.data() + first_patch,
-                                                         pair_state.num_patches - first_patch);
-    for (ContactPairState::Patch& entry : of_triangle) entry.measure_slope = measure_slope;
-    end_at_edges(of_triangle);
+    end_at_edges({pair_state.stored.data() + first_patch, pair_state.num_patches - first_patch});
   }
 }
 

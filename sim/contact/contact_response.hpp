@@ -17,12 +17,12 @@
 ///
 ///   g_a = G_a / A_a,   E = ½ Σ k_a A_a <g_a>²,   p_a = k_a <g_a>,
 ///
-/// G_a summed over the patches around a, A_a = Σ √(W_a T/3) over the triangles (area T) there: the
-/// node's share of them where they are covered; a covered sliver counts little. A node between
-/// creases has several a, one for each smoothing group around it (smoothing_groups.hpp). A mean
-/// depth lets a faceted soft surface rest on a round bone where a pointwise one would carry on a
-/// few spots only, so that k may be large: a mortar method whose multipliers p_a the penalty gives
-/// [Puso 2004].
+/// G_a and W_a summed over the patches around a, A_a = √(W_a T_a) with the node's share T_a of all
+/// triangles there: where they are covered A = W = T; a covered sliver counts little. A node
+/// between creases has several a, one for each smoothing group around it (smoothing_groups.hpp). A
+/// mean depth lets a faceted soft surface rest on a round bone where a pointwise one would carry on
+/// a few spots only, so that k may be large: a mortar method whose multipliers p_a the penalty
+/// gives [Puso 2004].
 ///
 /// Where a g_a exceeds the contact's max_penetration all the same, multipliers λ_a take over what
 /// the penalty carried, p_a = <λ_a + k_a g_a> (augment(): Uzawa's method).

@@ -1,8 +1,19 @@
 #include "sim/contact/contact_stiffness.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace articular::sim {
+namespace {
+
+/// 1 at the corner of the triangle that belongs to the group, 0 at the others.
+Vec3 corner_of_group(const Eigen::Matrix3Xi& groups, int triangle, int group) {
+  Eigen::Index corner = 0;
+  while (groups(corner, triangle) != group) ++corner;
+  return Vec3::Unit(corner);
+}
+
+}  // namespace
 
 ContactStiffness::ContactStiffness(const Model& model) : model_(model) {
   gradient_.setZero(3, model.num_blocks);
@@ -12,7 +23,7 @@ ContactStiffness::ContactStiffness(const Model& model) : model_(model) {
 void ContactStiffness::add(const ContactPairState& pair_state, const Configuration& configuration,
                            fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A,
                            FrictionCoupling& coupling) {
-  add_node_stiffness(pair_state, configuration, scale, A, coupling);
+  add_node_stiffness(pair_state, configuration, tangent, scale, A, coupling);
   const double k = scale.stiffness * pair_state.point_stiffness;
   if (tangent != fem::Tangent::Consistent && k == 0) return;
   const ContactSides side = sides_of(model_, pair_state);
@@ -35,42 +46,6 @@ void ContactStiffness::add(const ContactPairState& pair_state, const Configurati
       stiffness.left.leftCols<9>() = 0.5 * H.middleCols<9>(half);
       stiffness.right.leftCols<9>().middleRows<9>(half).setIdentity();
       add_product(model_, configuration, nodes, stiffness.left, stiffness.right, A);
-    }
-  }
-  if (!(pair_state.point_stiffness > 0))
-    add_measure_stiffness(pair_state, configuration, scale.stiffness, A);
-}
-
-/// (p_a²/2k_a − p_a g_a) ∂²A_a/∂W² ∇W ∇Wᵀ: of A = √(W T/3) of each triangle, ∂A/∂W the `slope`, it
-/// is −slope/2W.
-void ContactStiffness::add_measure_stiffness(const ContactPairState& pair_state,
-                                             const Configuration& configuration, double scale,
-                                             fem::BlockMatrix& A) {
-  const auto& groups = sides_of(model_, pair_state).triangles.groups;
-  const auto patches = pair_state.patches();
-  for (std::size_t first = 0, end = 0; first < patches.size(); first = end) {
-    const ContactPairState::Patch& entry = patches[first];
-    Vec3 covered = Vec3::Zero();
-    bool changes = false;
-    group_.clear();
-    for (; end < patches.size() && patches[end].triangle == entry.triangle; ++end) {
-      covered += nodal_areas(patches[end].patch);
-      changes = changes || patches[end].patch.turning != 0 || has_end(patches[end].patch);
-      group_.push_back(static_cast<int>(end));
-    }
-    if (!changes) continue;
-    for (int i = 0; i < 3; ++i) {
-      const int group = groups(i, entry.triangle);
-      const double p = pair_state.penalty(group);
-      if (!(p > 0 && covered[i] > 0)) continue;
-      const double energy = p * p / (2 * pair_state.stiffness(group)) - p * pair_state.depth[group];
-      add_rank_one(
-          pair_state, group_, configuration,
-          -scale * energy * entry.measure_slope[i] / (2 * covered[i]),
-          [i](const ContactPairState::Patch& other) {
-            return patch_gradient(other.patch, {Vec3::Zero(), -Vec3::Unit(i)});
-          },
-          A);
     }
   }
 }
@@ -155,10 +130,34 @@ void ContactStiffness::add_coupling(const ContactPairState& pair_state,
   coupling.add_group(coupled_);
 }
 
+/// (p_a²/2k_a − p_a g_a) ∂²A_a/∂W² ∇W ∇Wᵀ; with A = √(W T) and ∂A/∂W the `measure_slope`, ∂²A/∂W²
+/// is −slope/2W. ∇W is not zero where patches end, turn or fade.
+void ContactStiffness::add_measure_stiffness(const ContactPairState& pair_state,
+                                             std::span<const int> patches, int group,
+                                             const Configuration& configuration, double scale,
+                                             fem::BlockMatrix& A) {
+  const double p = pair_state.penalty(group);
+  if (!(p > 0) || std::none_of(patches.begin(), patches.end(), [&](int i) {
+        const ContactPatch& patch = pair_state.stored[static_cast<std::size_t>(i)].patch;
+        return patch.turning != 0 || patch.fade > 0 || has_end(patch);
+      }))
+    return;
+  const auto& groups = sides_of(model_, pair_state).triangles.groups;
+  const double energy = p * p / (2 * pair_state.stiffness(group)) - p * pair_state.depth[group];
+  add_rank_one(
+      pair_state, patches, configuration,
+      -scale * energy * pair_state.measure_slope[group] / (2 * pair_state.area[group]),
+      [&](const ContactPairState::Patch& entry) {
+        return patch_gradient(entry.patch,
+                              {Vec3::Zero(), -corner_of_group(groups, entry.triangle, group)});
+      },
+      A);
+}
+
 /// Σ k_a/A_a (A_a ∇g_a) (A_a ∇g_a)ᵀ, the same with the damping, and what friction resists with; how
 /// it grows with the pressure, −∂t_a/∂p_a ∇p_aᵀ, is coupling.
 void ContactStiffness::add_node_stiffness(const ContactPairState& pair_state,
-                                          const Configuration& configuration,
+                                          const Configuration& configuration, fem::Tangent tangent,
                                           const SystemScale& scale, fem::BlockMatrix& A,
                                           FrictionCoupling& coupling) {
   const bool averaged = !(pair_state.point_stiffness > 0);
@@ -170,15 +169,12 @@ void ContactStiffness::add_node_stiffness(const ContactPairState& pair_state,
     const auto begin = static_cast<std::size_t>(patch_begin_[static_cast<std::size_t>(a)]);
     const auto end = static_cast<std::size_t>(patch_begin_[static_cast<std::size_t>(a) + 1]);
     const std::span<const int> around(patch_of_group_.data() + begin, end - begin);
-    const auto place = [&](const ContactPairState::Patch& entry) {
-      Eigen::Index local = 0;
-      while (groups(local, entry.triangle) != a) ++local;
-      return local;
-    };
     const auto of_depth = [&](const ContactPairState::Patch& entry) {
-      return patch_gradient(entry.patch,
-                            mean_depths(pair_state, entry, groups, Vec3::Unit(place(entry))));
+      return patch_gradient(entry.patch, mean_depths(pair_state, entry, groups,
+                                                     corner_of_group(groups, entry.triangle, a)));
     };
+    if (averaged && tangent == fem::Tangent::Consistent)
+      add_measure_stiffness(pair_state, around, a, configuration, scale.stiffness, A);
     const double penalty = scale.stiffness * pair_state.stiffness(a) / pair_state.measure[a];
     if (pair_state.drag.empty()) {
       add_rank_one(pair_state, around, configuration, penalty, of_depth, A);
@@ -191,7 +187,8 @@ void ContactStiffness::add_node_stiffness(const ContactPairState& pair_state,
                  A);
     const auto of_slip = [&](const Vec3& t) {
       return [&, t](const ContactPairState::Patch& entry) {
-        return slip_gradient(entry.patch, t * Vec3::Unit(place(entry)).transpose());
+        return slip_gradient(entry.patch,
+                             t * corner_of_group(groups, entry.triangle, a).transpose());
       };
     };
     for (const auto& [axis, strength] :

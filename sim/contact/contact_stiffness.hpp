@@ -31,20 +31,21 @@ class ContactStiffness {
   void add_rank_one(const ContactPairState& pair_state, std::span<const int> patches,
                     const Configuration& configuration, double factor, Gradient&& gradient,
                     fem::BlockMatrix& A);
+  void add_measure_stiffness(const ContactPairState& pair_state, std::span<const int> patches,
+                             int group, const Configuration& configuration, double scale,
+                             fem::BlockMatrix& A);
   void add_node_stiffness(const ContactPairState& pair_state, const Configuration& configuration,
-                          const SystemScale& scale, fem::BlockMatrix& A,
+                          fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A,
                           FrictionCoupling& coupling);
   template <class Drag, class Depth>
   void add_coupling(const ContactPairState& pair_state, std::span<const int> patches,
                     const Configuration& configuration, double factor, Drag&& drag, Depth&& depth,
                     FrictionCoupling& coupling);
-  void add_measure_stiffness(const ContactPairState& pair_state, const Configuration& configuration,
-                             double scale, fem::BlockMatrix& A);
 
   const Model& model_;
-  // Scratch: the patches of each group of the pair state, those of a triangle, a gradient by
-  // blocks, and what couples one group.
-  std::vector<int> patch_begin_, patch_of_group_, group_;
+  // Scratch: the patches of each group of the pair state, a gradient by blocks, and what couples
+  // one group.
+  std::vector<int> patch_begin_, patch_of_group_;
   Positions gradient_;
   std::vector<int> blocks_;
   std::vector<char> has_gradient_;

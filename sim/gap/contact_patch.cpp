@@ -77,8 +77,9 @@ Mat3 edge_integral(const PatchEdge& edge, const Vec3& p) {
           4 * p.dot(middle) * middle * middle.transpose());
 }
 
-/// Q, depth_max and the edges of the part within the cuts, in units of the triangle's area.
-/// @return how much of it that is
+/// Q, counted, depth_max and the edges of the part within the cuts, in units of the triangle's
+/// area.
+/// @return how much of it that is, times ω
 double cover(const Cuts& cuts, ContactPatch& patch) {
   const TrianglePolygon whole = whole_triangle();
   std::array<TrianglePolygon, 2> rooms;
@@ -92,38 +93,40 @@ double cover(const Cuts& cuts, ContactPatch& patch) {
     patch.depth_max =
         std::max(patch.depth_max, patch.depth.dot(part->corner[static_cast<std::size_t>(i)]));
   find_edges(*part, cuts, patch);
-  return integrate(*part, patch.Q);
+  const double fraction = integrate(*part, patch.Q);
+  patch.counted = patch.Q;
+  if (!(patch.fade > 0)) return fraction;
+  patch.counted = weighted_integral(*part, patch.depth / patch.fade);
+  return patch.counted.sum();
 }
 
-struct Facing {
-  double weight, slope, bend;
-};
-
-/// Smoothstep from kFacingNone to kFacingFull.
-Facing facing_weight(double opposing) {
+/// w by the faces' n_F·n: a smoothstep from kFacingNone to kFacingFull.
+void find_weight(FacingPair& pair) {
   constexpr double kRange = kFacingFull - kFacingNone;
-  const double t = (opposing - kFacingNone) / kRange;
-  if (t <= 0) return {0, 0, 0};
-  if (t >= 1) return {1, 0, 0};
-  return {t * t * (3 - 2 * t), 6 * t * (1 - t) / kRange, 6 * (1 - 2 * t) / (kRange * kRange)};
+  const double t = (-pair.cosine - kFacingNone) / kRange;
+  pair.weight = t <= 0 ? 0 : 1;
+  if (t <= 0 || t >= 1) return;
+  pair.weight = t * t * (3 - 2 * t);
+  pair.slope = -6 * t * (1 - t) / kRange;
+  pair.bend = 6 * (1 - 2 * t) / (kRange * kRange);
 }
 
 /// β. @return false where nothing is opposite
-bool find_opposite(const FlatTriangle& s, const FlatTriangle& f, ContactPatch& patch) {
+bool find_opposite(const FlatTriangle& s, const FlatTriangle& f, FacingPair& pair) {
   // Weights of the face's nodes at each node of s: signed areas of the projected triangles (the
   // projected face turns the other way round, its area is negative).
   for (int m = 0; m < 3; ++m) {
     const Vec3 edge = f.x.col((m + 2) % 3) - f.x.col((m + 1) % 3);
-    const Vec3 across = s.normal.cross(edge) / (f.twice_area * patch.cosine);
-    patch.beta.row(m) = across.transpose() * (s.x.colwise() - f.x.col((m + 1) % 3));
-    if (!(patch.beta.row(m).maxCoeff() > 0)) return false;
+    const Vec3 across = s.normal.cross(edge) / (f.twice_area * pair.cosine);
+    pair.beta.row(m) = across.transpose() * (s.x.colwise() - f.x.col((m + 1) % 3));
+    if (!(pair.beta.row(m).maxCoeff() > 0)) return false;
   }
   return true;
 }
 
 /// δ(depth) is this times u in the part nearest to the face or to one of its edges.
 Vec3 depth_motion(const FlatTriangle& f, const ContactPatch& patch, int nearest) {
-  if (nearest == ContactPatch::kFace) return patch.c;
+  if (nearest >= ContactPatch::kFace) return patch.c;
   return f.rim_height[nearest] * patch.face_g.col(nearest);
 }
 
@@ -150,6 +153,9 @@ void find_motion(const FlatTriangle& s, const FlatTriangle& f, ContactPatch& pat
       case PatchEdge::Kind::OpenDepth:
         edge.motion = patch.c;
         break;
+      case PatchEdge::Kind::WholeWeight:
+        edge.motion = patch.fade > 0 ? Vec3(-patch.c) : patch.c;
+        break;
       case PatchEdge::Kind::NextPart:
         edge.motion = depth_motion(f, patch, edge.index) - patch.inward;
         break;
@@ -158,16 +164,23 @@ void find_motion(const FlatTriangle& s, const FlatTriangle& f, ContactPatch& pat
 }
 
 /// @param behind  what lies so far behind the face [m]
-Cuts cuts_of_part(const FlatTriangle& f, const Vec3& behind, double open,
-                  const ContactPatch& patch) {
+/// @param h       depths count wholly from −h on [m]
+Cuts cuts_of_part(const FlatTriangle& f, const Vec3& behind, double h, const ContactPatch& patch) {
   using Kind = PatchEdge::Kind;
   Cuts cuts;
   for (int m = 0; m < 3; ++m)
     cuts.add(Kind::FaceEdge, m, (f.rims >> m & 1) != 0, patch.beta.row(m));
-  if (patch.nearest == ContactPatch::kFace)
-    cuts.add(Kind::OpenDepth, 0, open > 0, behind.array() + open);
-  else
-    cuts.add(Kind::NextPart, ContactPatch::kFace, false, behind - patch.depth);
+  switch (patch.nearest) {
+    case ContactPatch::kFading:
+      cuts.add(Kind::OpenDepth, 0, false, patch.depth);
+      cuts.add(Kind::WholeWeight, 0, false, -behind.array() - h);
+      return cuts;
+    case ContactPatch::kFace:
+      cuts.add(Kind::WholeWeight, 0, false, behind.array() + h);
+      break;
+    default:
+      cuts.add(Kind::NextPart, ContactPatch::kFace, false, behind - patch.depth);
+  }
   for (int m = 0; m < 3; ++m)
     if (m != patch.nearest && f.rim_height[m] > 0)
       cuts.add(Kind::NextPart, m, false,
@@ -188,39 +201,55 @@ FlatTriangle flat_triangle(const Mat3& x) {
   return triangle;
 }
 
-bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_area,
-                   const DepthRange& range, ContactPatch& patch, int nearest) {
-  const bool is_rim = nearest != ContactPatch::kFace;
-  if (is_rim && f.rim_height[nearest] == 0) return false;
-  const Vec3& n = s.normal;
-  patch.cosine = f.normal.dot(n);
-  const Facing facing = facing_weight(-patch.cosine);
-  if (!(facing.weight > 0)) return false;
+std::optional<FacingPair> facing_pair(const FlatTriangle& s, const FlatTriangle& f,
+                                      const DepthRange& range) {
+  FacingPair pair;
+  pair.cosine = f.normal.dot(s.normal);
+  find_weight(pair);
+  if (!(pair.weight > 0)) return std::nullopt;
+  pair.c = f.normal / pair.cosine;
+  pair.height = pair.c.transpose() * (s.x.colwise() - f.x.col(0));
+  if (!(pair.height.maxCoeff() - range.allowance > -range.open &&
+        pair.height.minCoeff() <= range.reach))
+    return std::nullopt;
+  if (!find_opposite(s, f, pair)) return std::nullopt;
+  return pair;
+}
 
-  patch.c = f.normal / patch.cosine;
-  patch.height = patch.c.transpose() * (s.x.colwise() - f.x.col(0));
-  const Vec3 behind = patch.height.array() - range.allowance;
-  if (!(behind.maxCoeff() > (is_rim ? 0 : -range.open) && patch.height.minCoeff() <= range.reach))
-    return false;
-  if (!find_opposite(s, f, patch)) return false;
-
+bool contact_patch(const FacingPair& pair, const FlatTriangle& s, const FlatTriangle& f,
+                   double rest_area, const DepthRange& range, int nearest, ContactPatch& patch) {
   patch.nearest = nearest;
+  const bool is_rim = is_beside_rim(patch), fades = nearest == ContactPatch::kFading;
+  if (is_rim && f.rim_height[nearest] == 0) return false;
+  const double h = 0.5 * range.open;
+  const Vec3 behind = pair.height.array() - range.allowance;
+  if (!(behind.maxCoeff() > (is_rim ? 0 : fades ? -range.open : -h))) return false;
+  if (fades && !(h > 0 && behind.minCoeff() <= -h)) return false;
+
+  patch.cosine = pair.cosine;
+  patch.c = pair.c;
+  patch.height = pair.height;
+  patch.beta = pair.beta;
+  patch.fade = fades ? h : 0;
   patch.depth = behind;
+  if (fades) patch.depth.array() += range.open;
   if (is_rim) patch.depth = f.rim_height[nearest] * patch.beta.row(nearest);
-  const Cuts cuts = cuts_of_part(f, behind, range.open, patch);
+  const Cuts cuts = cuts_of_part(f, behind, h, patch);
   patch.num_edges = 0;
   patch.depth_max = -range.open;
   const double fraction = cover(cuts, patch);
   if (!(fraction > 0)) return false;
+  if (fades) patch.depth_max -= range.open;
   if (patch.depth_max + range.allowance > range.reach) return false;
 
   for (int k = 0; k < patch.num_edges; ++k)
-    patch.edge[static_cast<std::size_t>(k)].length *= facing.weight * rest_area;
-  patch.Q *= facing.weight * rest_area;
-  patch.area = facing.weight * fraction * rest_area;
-  patch.normal = n;
-  patch.turning = -facing.slope / facing.weight;
-  patch.bending = facing.bend / facing.weight;
+    patch.edge[static_cast<std::size_t>(k)].length *= pair.weight * rest_area;
+  patch.Q *= pair.weight * rest_area;
+  patch.counted *= pair.weight * rest_area;
+  patch.area = pair.weight * fraction * rest_area;
+  patch.normal = s.normal;
+  patch.turning = pair.slope / pair.weight;
+  patch.bending = pair.bend / pair.weight;
   find_motion(s, f, patch);
   return true;
 }
@@ -249,6 +278,7 @@ bool has_end(const ContactPatch& patch) {
 namespace {
 
 /// w ∫ p δd dA + w ∮ φ δχ dl/|∇χ|
+/// @param sum  by_depth()
 Vec18 unturned_gradient(const ContactPatch& patch, const PatchSum& sum) {
   Vec18 g = Vec18::Zero();
   add_opposite(patch, patch.inward, patch.Q * sum.p, g);
@@ -263,7 +293,7 @@ Vec18 unturned_gradient(const ContactPatch& patch, const PatchSum& sum) {
 }  // namespace
 
 Vec18 patch_gradient(const ContactPatch& patch, const PatchSum& sum) {
-  Vec18 g = unturned_gradient(patch, sum);
+  Vec18 g = unturned_gradient(patch, by_depth(patch, sum));
   if (patch.turning == 0) return g;
   const double turning = patch.turning * value(patch, sum) * patch.cosine;
   for (int i = 0; i < 3; ++i) {
@@ -284,12 +314,13 @@ PatchStiffness patch_stiffness(const ContactPatch& patch, double k) {
   return stiffness;
 }
 
-void add_curvature(const ContactPatch& patch, const PatchSum& sum, PatchStiffness& stiffness) {
+void add_curvature(const ContactPatch& patch, const PatchSum& given, PatchStiffness& stiffness) {
+  const PatchSum sum = by_depth(patch, given);
   Mat18x10 &left = stiffness.left, &right = stiffness.right;
   // Beside a rim δ²d is in end_stiffness().
   Vec3 q = Vec3::Zero();
-  if (patch.nearest == ContactPatch::kFace) q = patch.Q * sum.p;
-  const double turning = patch.turning != 0 ? patch.turning * value(patch, sum) : 0;
+  if (!is_beside_rim(patch)) q = patch.Q * sum.p;
+  const double turning = patch.turning != 0 ? patch.turning * value(patch, given) : 0;
   // Beside δd = c·u: the turning of the normal, −c·δn, and the sweep of the edges.
   for (int j = 0; j < 3; ++j)
     left.block<3, 3>(3 * j, 0) += (patch.e[j] * patch.normal) * q.transpose();
@@ -331,7 +362,7 @@ void add_curvature(const ContactPatch& patch, const PatchSum& sum, PatchStiffnes
     cosine.segment<3>(9 + 3 * i) = -(patch.cosine * patch.face_e[i]) * patch.c;
   }
   left.col(9) = patch.turning * unturned_gradient(patch, sum) +
-                0.5 * patch.bending * value(patch, sum) * cosine;
+                0.5 * patch.bending * value(patch, given) * cosine;
   right.col(9) = cosine;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "fem/base/types.hpp"
 
@@ -16,6 +17,10 @@
 ///
 /// Sums of G_a over the patches around a node give its mean depth (contact_response.hpp). Bodies
 /// that overlap from the start may be allowed a part of it: an allowance [m] is taken from d.
+///
+/// In front of the face depths count from −2h on, and fade in: up to −h with the weight ω = 2 +
+/// d/h, and as the depth −h ω, which are both affine and begin with 0. So W_a and G_a jump nowhere.
+/// What fades is a patch of its own.
 ///
 /// A point that passed a sharp edge of the other body may be nearer to that edge than it is deep:
 /// it came in beside the face, not through it. There the depth is the distance from the edge, h_m
@@ -37,12 +42,13 @@ using Vec18 = Eigen::Matrix<double, 18, 1>;
 using Mat18 = Eigen::Matrix<double, 18, 18>;
 using Mat18x10 = Eigen::Matrix<double, 18, 10>;
 
-/// Where the polygon ends inside the triangle: at an edge of the face, χ = β_m = 0, where depths
-/// begin to count, χ = d + open = 0, or where another part of it begins, χ the depth there less the
-/// one here. ∮ f dl / |∇χ| along it is `length` times the mean of f. At an edge where the next
-/// patch takes over what this one loses its motion changes no sum.
+/// Where the polygon ends inside the triangle: at an edge of the face, χ = β_m = 0; where depths
+/// begin to count, χ = d + 2h = 0; where they count wholly, χ = d + h, or, from the part that
+/// fades, −d − h; or where another part of it begins, χ the depth there less the one here.
+/// ∮ f dl / |∇χ| along it is `length` times the mean of f. At an edge where the next patch takes
+/// over what this one loses its motion changes no sum.
 struct PatchEdge {
-  enum class Kind { FaceEdge, OpenDepth, NextPart };
+  enum class Kind { FaceEdge, OpenDepth, WholeWeight, NextPart };
   /// What the edge ends at: another one of the patch, or the triangle's side N_index = 0.
   struct End {
     enum class At { Nothing, Edge, Side } at = At::Nothing;
@@ -50,7 +56,7 @@ struct PatchEdge {
   };
   Kind kind = Kind::FaceEdge;
   int index = 0;                            // FaceEdge: m; NextPart: its `nearest`
-  bool is_end = false;                      // φ does not go on beyond: at a rim, an OpenDepth
+  bool is_end = false;                      // φ does not go on beyond: at a rim
   Vec3 level = Vec3::Zero();                // χ at the nodes of s
   Vec3 motion = Vec3::Zero();               // δχ = motion·u, see contact_patch.cpp
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // its ends, in barycentric coordinates of s
@@ -59,24 +65,26 @@ struct PatchEdge {
 };
 
 struct ContactPatch {
-  static constexpr int kFace = 3;
-  int nearest = kFace;         // or the number of the face's edge
-  double area = 0;             // [m²] rest area of the polygon, times w
-  double depth_max = 0;        // [m]
-  Mat3 Q = Mat3::Zero();       // w ∫ N Nᵀ dA [m²]
-  Mat3 beta = Mat3::Zero();    // beta(m, i): weight of face node m opposite node i of s
-  Vec3 depth = Vec3::Zero();   // d at the nodes of s, without the allowance [m]
-  Vec3 height = Vec3::Zero();  // behind the face, with the allowance [m]
-  Vec3 inward = Vec3::Zero();  // δd = inward·u, see contact_patch.cpp
-  Vec3 c = Vec3::Zero();       // n_F / (n_F·n)
-  Vec3 e = Vec3::Zero();       // e_i = c·∇N_i [1/m]
-  Vec3 normal = Vec3::Zero();  // n, unit
-  double cosine = 0;           // n_F·n
-  double turning = 0;          // w'/w, by the cosine
-  double bending = 0;          // w''/w
-  Vec3 face_e = Vec3::Zero();  // n·∇β_m on the face [1/m]
-  Mat3 g = Mat3::Zero();       // ∇N_i, one a column [1/m]
-  Mat3 face_g = Mat3::Zero();  // ∇β_m for motion that keeps the depth, one a column [1/m]
+  static constexpr int kFace = 3, kFading = 4, kParts = 5;
+  int nearest = kFace;          // or the number of the face's edge, or kFading
+  double fade = 0;              // h [m] of the part that fades, else 0
+  double area = 0;              // [m²] rest area of the polygon, times w ω
+  double depth_max = 0;         // [m]
+  Mat3 Q = Mat3::Zero();        // w ∫ N Nᵀ dA [m²]
+  Mat3 counted = Mat3::Zero();  // w ∫ ω N Nᵀ dA [m²], ω = 1 but where it fades
+  Mat3 beta = Mat3::Zero();     // beta(m, i): weight of face node m opposite node i of s
+  Vec3 depth = Vec3::Zero();    // d at the nodes of s, without the allowance; fading: h ω [m]
+  Vec3 height = Vec3::Zero();   // behind the face, with the allowance [m]
+  Vec3 inward = Vec3::Zero();   // δd = inward·u, see contact_patch.cpp
+  Vec3 c = Vec3::Zero();        // n_F / (n_F·n)
+  Vec3 e = Vec3::Zero();        // e_i = c·∇N_i [1/m]
+  Vec3 normal = Vec3::Zero();   // n, unit
+  double cosine = 0;            // n_F·n
+  double turning = 0;           // w'/w, by the cosine
+  double bending = 0;           // w''/w
+  Vec3 face_e = Vec3::Zero();   // n·∇β_m on the face [1/m]
+  Mat3 g = Mat3::Zero();        // ∇N_i, one a column [1/m]
+  Mat3 face_g = Mat3::Zero();   // ∇β_m for motion that keeps the depth, one a column [1/m]
   std::array<PatchEdge, 7> edge;
   int num_edges = 0;
 };
@@ -87,7 +95,7 @@ inline constexpr double kFacingNone = 0.5, kFacingFull = 0.8;
 
 /// Depths that count [m].
 struct DepthRange {
-  double open;           // in front of the face up to here
+  double open;           // 2h, in front of the face up to here
   double reach;          // a patch deeper than this anywhere did not come in through this face
   double allowance = 0;  // up to here behind the face is none; then depths count from there
 };
@@ -102,25 +110,42 @@ struct FlatTriangle {
 };
 FlatTriangle flat_triangle(const Mat3& x);
 
+/// What all parts of a pair share; names as in ContactPatch.
+struct FacingPair {
+  double cosine = 0;
+  double weight = 0, slope = 0, bend = 0;  // w, w', w''
+  Vec3 c, height;
+  Mat3 beta;
+};
+
+/// @return nothing when nothing of s is opposite f within the range
+std::optional<FacingPair> facing_pair(const FlatTriangle& s, const FlatTriangle& f,
+                                      const DepthRange& range);
+
+/// @param pair       facing_pair() of s and f
 /// @param rest_area  of the triangle s [m²]
 /// @param nearest    which part of the polygon, ContactPatch::nearest
-/// @return false when nothing of s is opposite f within the range and part
-bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_area,
-                   const DepthRange& range, ContactPatch& patch, int nearest = ContactPatch::kFace);
+/// @return false when there is nothing of that part
+bool contact_patch(const FacingPair& pair, const FlatTriangle& s, const FlatTriangle& f,
+                   double rest_area, const DepthRange& range, int nearest, ContactPatch& patch);
 
 /// Whether the polygon ends inside the triangle.
 bool has_end(const ContactPatch& patch);
+/// Whether its depths are distances from an edge of the face.
+inline bool is_beside_rim(const ContactPatch& patch) { return patch.nearest < ContactPatch::kFace; }
 
 /// W_a [m²] and G_a [m³] of the triangle's nodes.
-inline Vec3 nodal_areas(const ContactPatch& patch) { return patch.Q.rowwise().sum(); }
-inline Vec3 depth_integrals(const ContactPatch& patch) { return patch.Q * patch.depth; }
+inline Vec3 nodal_areas(const ContactPatch& patch) { return patch.counted.rowwise().sum(); }
+inline Vec3 depth_integrals(const ContactPatch& patch) {
+  return (patch.fade > 0 ? -1 : 1) * (patch.Q * patch.depth);
+}
 /// By the triangle's nodes [N] of pressures there; beside a rim they act along the face.
 inline Vec3 normal_forces(const ContactPatch& patch, const Vec3& p) {
-  return (patch.nearest == ContactPatch::kFace ? 1 : 0) * (patch.Q * p);
+  return (is_beside_rim(patch) ? 0 : 1) * (patch.counted * p);
 }
 
 /// Σ_a share p_a G_a − m_a W_a, by numbers at the nodes of the triangle that stay as they are,
-/// share 1; or the energy ½ k w ∫ d² dA: p = k d, share ½.
+/// share 1; or the energy ½ k w ∫ d² dA: p = k d, share ½, where nothing fades.
 struct PatchSum {
   Vec3 p = Vec3::Zero(), m = Vec3::Zero();
   double share = 1;

@@ -104,9 +104,10 @@ void add_bending(const ContactPatch& patch, const Mat3& R, Mat18& H) {
 
 }  // namespace
 
-bool end_stiffness(const ContactPatch& patch, const PatchSum& sum, Mat18& H) {
-  const bool is_rim = patch.nearest != ContactPatch::kFace;
+bool end_stiffness(const ContactPatch& patch, const PatchSum& given, Mat18& H) {
+  const bool is_rim = is_beside_rim(patch);
   if (!is_rim && !has_end(patch)) return false;
+  const PatchSum sum = by_depth(patch, given);
   H.setZero();
   Mat3 R = Mat3::Zero();
   if (is_rim) R += patch.inward * (patch.Q * sum.p).transpose();

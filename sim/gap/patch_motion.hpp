@@ -33,7 +33,13 @@ void add_opposite(const ContactPatch& patch, const Vec3& direction, const Vec3& 
   }
 }
 
-/// φ of a sum at a point.
+/// The same sum as w ∫ φ dA, φ = share p d − m with the patch's `depth` for d: where it fades, the
+/// depth that counts is −d and ω is d/h.
+inline PatchSum by_depth(const ContactPatch& patch, const PatchSum& sum) {
+  return patch.fade > 0 ? PatchSum{-sum.p - sum.m / patch.fade} : sum;
+}
+
+/// φ at a point, of a sum by_depth().
 inline double phi(const ContactPatch& patch, const PatchSum& sum, const Vec3& N) {
   return sum.share * sum.p.dot(N) * patch.depth.dot(N) - sum.m.dot(N);
 }

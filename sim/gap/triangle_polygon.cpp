@@ -55,4 +55,24 @@ double integrate(const TrianglePolygon& polygon, Mat3& Q) {
   return total;
 }
 
+/// A fan of triangles, by ∫ λ_i λ_j λ_k = a/60 times 1, 2 or 6 where none, two or all are the same.
+Mat3 weighted_integral(const TrianglePolygon& polygon, const Vec3& weight_at_nodes) {
+  Mat3 total = Mat3::Zero();
+  Mat3 v;
+  v.col(0) = polygon.corner[0];
+  for (std::size_t i = 1; i + 1 < static_cast<std::size_t>(polygon.count); ++i) {
+    v.col(1) = polygon.corner[i];
+    v.col(2) = polygon.corner[i + 1];
+    const double area =
+        (v(1, 1) - v(1, 0)) * (v(2, 2) - v(2, 0)) - (v(2, 1) - v(2, 0)) * (v(1, 2) - v(1, 0));
+    const Vec3 weight = v.transpose() * weight_at_nodes;
+    const Vec3 sum = v.rowwise().sum(), moment = v * weight;
+    const Vec3 both = weight.sum() * sum + moment;
+    total += area / 60 *
+             (both * sum.transpose() + sum * moment.transpose() +
+              v * (2 * weight.array() + weight.sum()).matrix().asDiagonal() * v.transpose());
+  }
+  return total;
+}
+
 }  // namespace articular::sim

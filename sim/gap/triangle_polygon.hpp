@@ -26,5 +26,7 @@ const TrianglePolygon& clipped(const Vec3& at_nodes, int side, const TrianglePol
 
 /// ∫ N Nᵀ over the polygon in units of the triangle's area. @return the polygon's area
 double integrate(const TrianglePolygon& polygon, Mat3& Q);
+/// ∫ ω N Nᵀ over it, for ω affine.
+Mat3 weighted_integral(const TrianglePolygon& polygon, const Vec3& weight_at_nodes);
 
 }  // namespace articular::sim

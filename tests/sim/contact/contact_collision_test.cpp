@@ -90,16 +90,19 @@ double angular_drift(double step, Integrator::Scheme scheme) {
   return (angular_momentum(run) - start).norm() / (momentum(run).norm() * kSide);
 }
 
-// Forces have no moment where they act, at the end of the step; the drift is the scheme's.
+// Forces have no moment where they act, at the end of the step; the drift is the scheme's. As
+// contact has kinks, single halvings of the step give 1.4 to 3 with TR-BDF2: it is the mean of
+// three.
 TEST(Collision, AngularMomentumDriftsAtTheOrderOfTheScheme) {
   const auto order = [](Integrator::Scheme scheme) {
-    const double coarse = angular_drift(0.125e-3, scheme), fine = angular_drift(0.0625e-3, scheme);
+    const double step = 0.0625e-3;
+    const double coarse = angular_drift(step, scheme), fine = angular_drift(step / 8, scheme);
     EXPECT_GT(fine, 0);
-    EXPECT_LT(fine, 1e-3);
-    return std::log2(coarse / fine);
+    EXPECT_LT(coarse, 1e-3);
+    return std::log2(coarse / fine) / 3;
   };
   EXPECT_NEAR(order(Integrator::Scheme::ImplicitEuler), 1, 0.3);
-  EXPECT_NEAR(order(Integrator::Scheme::TrBdf2), 2, 0.6);  // contact has kinks
+  EXPECT_NEAR(order(Integrator::Scheme::TrBdf2), 2, 0.4);
 }
 
 // The internal and contact energies are not convex, but a block that hardly deforms and turns

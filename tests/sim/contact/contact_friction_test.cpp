@@ -14,6 +14,7 @@
 
 #include "sim/contact/contact_search.hpp"
 #include "tests/sim/support/contact_scene.hpp"
+#include "tests/sim/support/patch_triangles.hpp"
 
 namespace articular::sim::contact_friction_test {
 
@@ -38,21 +39,33 @@ ContactPatch patch() {
   return result;
 }
 
+/// The same triangle in front of the face, where depths fade in.
+ContactPatch fading_patch() {
+  const Mat3 lifted = kTriangle.colwise() + Vec3(0, 0, 1);
+  ContactPatch result;
+  EXPECT_TRUE(contact_patch(flat_triangle(lifted), flat_triangle(kFace), 0.5, {1, 1}, result,
+                            ContactPatch::kFading));
+  EXPECT_GT(result.area, 0.1 * result.Q.sum());
+  EXPECT_LT(result.area, 0.9 * result.Q.sum());
+  return result;
+}
+
 TEST(Slip, IsTheMotionRelativeToTheFaceAndItsGradientTheTranspose) {
   Random random(1);
-  const ContactPatch contact = patch();
-  for (int trial = 0; trial < 5; ++trial) {
-    const Eigen::Matrix<double, 3, 6> v = random.vector(18).reshaped(3, 6);
-    const Mat3 t = random.vector(9).reshaped(3, 3);
-    const double power = (slip_integrals(contact, v).array() * t.array()).sum();
-    EXPECT_NEAR(slip_gradient(contact, t).dot(v.reshaped()), power, 1e-14);
+  for (const ContactPatch& contact : {patch(), fading_patch()}) {
+    for (int trial = 0; trial < 5; ++trial) {
+      const Eigen::Matrix<double, 3, 6> v = random.vector(18).reshaped(3, 6);
+      const Mat3 t = random.vector(9).reshaped(3, 3);
+      const double power = (slip_integrals(contact, v).array() * t.array()).sum();
+      EXPECT_NEAR(slip_gradient(contact, t).dot(v.reshaped()), power, 1e-14);
+    }
+    // The triangle alone slides.
+    Eigen::Matrix<double, 3, 6> v = Eigen::Matrix<double, 3, 6>::Zero();
+    v.leftCols<3>().colwise() = Vec3(1, 2, 0);
+    const Mat3 slip = slip_integrals(contact, v);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR((slip.col(i) - nodal_areas(contact)[i] * Vec3(1, 2, 0)).norm(), 0, 1e-14);
   }
-  // The triangle alone slides.
-  Eigen::Matrix<double, 3, 6> v = Eigen::Matrix<double, 3, 6>::Zero();
-  v.leftCols<3>().colwise() = Vec3(1, 2, 0);
-  const Mat3 slip = slip_integrals(contact, v);
-  for (int i = 0; i < 3; ++i)
-    EXPECT_NEAR((slip.col(i) - nodal_areas(contact)[i] * Vec3(1, 2, 0)).norm(), 0, 1e-14);
 }
 
 TEST(Slip, IsNoneInARigidMotion) {

@@ -8,8 +8,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
+#include "sim/gap/triangle_polygon.hpp"
 #include "tests/sim/support/patch_triangles.hpp"
 #include "tests/sim/support/scene.hpp"
 
@@ -244,7 +246,8 @@ TEST(ContactPatch, UnderAnUnevenSheetTheSummedTangentIsTheDerivativeOfTheSummedG
 /// Depths count a little in front of the face, so that polygons end there as well as at rims.
 constexpr DepthRange kNear{0.1, 10};
 
-/// Of Σ p_a G_a − m_a W_a, over all parts where points may be nearer to rims than to the face.
+/// Of Σ p_a G_a − m_a W_a, over all parts: what fades in, and points nearer to rims than to the
+/// face.
 struct PartialSum {
   Pair pair;
   Vec3 p, m;
@@ -253,10 +256,10 @@ struct PartialSum {
     std::vector<ContactPatch> found;
     FlatTriangle f = flat_triangle(pair.f);
     f.rim_height = rim_height;
-    for (int nearest = 0; nearest <= ContactPatch::kFace; ++nearest) {
+    for (int nearest = 0; nearest < ContactPatch::kParts; ++nearest) {
       ContactPatch patch;
       if (!contact_patch(flat_triangle(pair.s), f, kRestArea, kNear, patch, nearest)) continue;
-      for (PatchEdge& edge : patch.edge) edge.is_end = true;
+      for (PatchEdge& edge : patch.edge) edge.is_end = edge.kind != PatchEdge::Kind::OpenDepth;
       found.push_back(patch);
     }
     return found;
@@ -296,14 +299,18 @@ Vec3 nodal_areas_of(const std::vector<ContactPatch>& parts) {
 
 TEST(ContactPatch, AtRimsAndWhereDepthsBeginToCountTheGradientIsTheDerivativeOfTheSum) {
   Random random(11);
-  int at_rims = 0, open = 0, corners_pass = 0;
+  int at_rims = 0, fading = 0, open = 0, corners_pass = 0;
   for (int n = 0; n < 300; ++n) {
     const PartialSum sum{partial_pair(random), random.vec3(), random.vec3()};
     const std::vector<ContactPatch> parts = sum.parts();
-    if (parts.empty() || parts[0].area < 0.05 * kRestArea) continue;
-    for (int k = 0; k < parts[0].num_edges; ++k)
-      ++(parts[0].edge[static_cast<std::size_t>(k)].kind == PatchEdge::Kind::OpenDepth ? open
-                                                                                       : at_rims);
+    if (nodal_areas_of(parts).sum() < 0.05 * kRestArea) continue;
+    for (const ContactPatch& patch : parts) {
+      fading += patch.fade > 0 ? 1 : 0;
+      for (const PatchEdge& edge : std::span(patch.edge.data(), std::size_t(patch.num_edges))) {
+        at_rims += edge.kind == PatchEdge::Kind::FaceEdge ? 1 : 0;
+        open += edge.kind == PatchEdge::Kind::OpenDepth ? 1 : 0;
+      }
+    }
     const Vec18 g = sum.gradient();
     double best = std::numeric_limits<double>::infinity();
     for (const double h : {1e-5, 1e-6})
@@ -312,6 +319,7 @@ TEST(ContactPatch, AtRimsAndWhereDepthsBeginToCountTheGradientIsTheDerivativeOfT
     EXPECT_LT(best, 1e-3);
   }
   EXPECT_GT(at_rims, 100);
+  EXPECT_GT(fading, 50);
   EXPECT_GT(open, 30);
   EXPECT_LT(corners_pass, 3);
 }
@@ -572,6 +580,79 @@ TEST(ContactPatch, InFrontOfTheFaceTheDepthIsNegativeAndCountsToTheOpenDepth) {
   EXPECT_NEAR(patch.depth_max, 0.1 * std::sqrt(1.05), 1e-15);
   ASSERT_TRUE(contact_patch(flat_triangle(s), flat_triangle(large_face()), 0.5, {0, 10}, patch));
   EXPECT_NEAR(patch.area, 0.25, 1e-14);
+}
+
+/// Sums over the part whose depths count wholly and the part that fades.
+struct Counted {
+  double area = 0, depth = 0;
+};
+Counted counted(const Mat3& s, const DepthRange& range) {
+  Counted sum;
+  for (const int part : {ContactPatch::kFace, ContactPatch::kFading}) {
+    ContactPatch patch;
+    if (!contact_patch(flat_triangle(s), flat_triangle(large_face()), 0.5, range, patch, part))
+      continue;
+    sum.area += nodal_areas(patch).sum();
+    sum.depth += depth_integrals(patch).sum();
+    EXPECT_NEAR(patch.area, nodal_areas(patch).sum(), 1e-15);
+    EXPECT_LE(patch.depth_max, part == ContactPatch::kFading ? -0.5 * range.open + 1e-15 : 1);
+  }
+  return sum;
+}
+
+// ω = 2 + d/h between −2h and −h; a parallel triangle counts as a whole.
+TEST(ContactPatch, InFrontOfTheFaceDepthsFadeIn) {
+  const double h = 0.2;
+  for (const double gap : {0.1, 0.2, 0.25, 0.3, 0.39, 0.4, 0.5}) {
+    const double weight = std::clamp(2 - gap / h, 0.0, 1.0);
+    const Counted sum = counted(small_triangle(-gap), {2 * h, 10});
+    EXPECT_NEAR(sum.area, 0.5 * weight, 1e-14);
+    EXPECT_NEAR(sum.depth, -0.5 * std::min(gap, h) * weight, 1e-14);
+  }
+}
+
+// Against a sum over small parts of the triangle, each at one gap.
+TEST(ContactPatch, OnATriangleThatCrossesAllRangesTheIntegralsAreThoseOfTheWeight) {
+  const double h = 0.2;
+  Mat3 s = small_triangle(-0.2);
+  s(2, 0) -= 0.25;  // behind the face by 0.05
+  s(2, 1) += 0.3;
+  Counted expected;
+  const int n = 400;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n - i; ++j)
+      for (const double third : {1.0 / 3, 2.0 / 3}) {
+        if (third > 0.5 && j == n - i - 1) continue;
+        const double a = (i + third) / n, b = (j + third) / n;
+        const double z = s(2, 0) + a * (s(2, 1) - s(2, 0)) + b * (s(2, 2) - s(2, 0));
+        // Along the triangle's own normal.
+        const double d = -z / std::abs(flat_triangle(s).normal.z());
+        const double weight = std::clamp(2 + d / h, 0.0, 1.0);
+        expected.area += 0.5 / (n * n) * weight;
+        expected.depth += 0.5 / (n * n) * std::max(d, -h) * weight;
+      }
+  const Counted sum = counted(s, {2 * h, 10});
+  EXPECT_GT(expected.area, 0.1);
+  EXPECT_NEAR(sum.area, expected.area, 1e-5);
+  EXPECT_NEAR(sum.depth, expected.depth, 1e-5);
+}
+
+// With a weight that is 1 everywhere, and in a triangle where the integrals are known.
+TEST(TrianglePolygon, TheWeightedIntegralHasTheWeightAtEachPoint) {
+  const TrianglePolygon whole = whole_triangle();
+  TrianglePolygon room;
+  const TrianglePolygon& part = clipped({0.3, -0.2, 0.6}, 0, whole, room);
+  ASSERT_EQ(part.count, 4);
+  Mat3 Q;
+  integrate(part, Q);
+  EXPECT_LT((weighted_integral(part, Vec3::Ones()) - Q).norm(), 1e-15);
+  for (int i = 0; i < 3; ++i)  // Σ_j N_j = 1
+    EXPECT_LT((weighted_integral(part, Vec3::Unit(i)).rowwise().sum() - Q.col(i)).norm(), 1e-15);
+  const Mat3 over_whole = weighted_integral(whole, Vec3::Unit(0));
+  EXPECT_NEAR(over_whole(0, 0), 0.1, 1e-15);
+  EXPECT_NEAR(over_whole(1, 1), 1.0 / 30, 1e-15);
+  EXPECT_NEAR(over_whole(1, 0), 1.0 / 30, 1e-15);
+  EXPECT_NEAR(over_whole(1, 2), 1.0 / 60, 1e-15);
 }
 
 TEST(ContactPatch, InFrontOfTheFaceOrBesideItOrDeeperThanTheReachIsNoContact) {

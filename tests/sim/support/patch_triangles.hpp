@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/base/types.hpp"
+#include "sim/gap/contact_patch.hpp"
 
 namespace articular::sim {
 
@@ -16,6 +16,14 @@ inline Mat3 small_triangle(double depth) {
   Mat3 s;
   s << 0, 0, 1, 0, 1, 0, -depth, -depth, -depth;
   return s;
+}
+
+/// One part of a pair alone.
+inline bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double rest_area,
+                          const DepthRange& range, ContactPatch& patch,
+                          int nearest = ContactPatch::kFace) {
+  const std::optional<FacingPair> pair = facing_pair(s, f, range);
+  return pair && contact_patch(*pair, s, f, rest_area, range, nearest, patch);
 }
 
 }  // namespace articular::sim
