@@ -93,11 +93,12 @@ function(articular_program target)
 endfunction()
 
 # articular_test(name SOURCES ... LIBRARIES ... [LABELS ...] [UNSANITIZED ...] [IN_ONE_PROCESS]): one GoogleTest program,
-# each of its tests a ctest, or all of them one. With ARTICULAR_SANITIZED the same objects are linked a second time, with
-# the sanitized libraries: those tests run in eight processes, ctests "sanitized/NAME 1 of 8" and so on with the label
-# "sanitized", as the start of a sanitized process takes longer than most tests. Tests take longest to
-# compile, and what they are to find is in the libraries. Slow ones would take minutes with sanitizers, and graphics
-# drivers leak. So would those of UNSANITIZED, patterns of GoogleTest: they compute for long what shorter ones reach.
+# each of its tests a ctest, or all of them one. With ARTICULAR_SANITIZED all tests are run, and most take less time than
+# the start of a process: those of a program share eight, ctests "NAME 1 of 8" and so on; but each slow one is a ctest.
+# The same objects are then linked a second time, with the sanitized libraries, for ctests "sanitized/NAME 1 of 8" with
+# the label "sanitized". Tests take longest to compile, and what they are to find is in the libraries. Slow ones would take
+# minutes with sanitizers, and graphics drivers leak. So would those of UNSANITIZED, patterns of GoogleTest: they compute
+# for long what shorter ones reach.
 function(articular_test name)
   cmake_parse_arguments(arg "IN_ONE_PROCESS" "" "SOURCES;LIBRARIES;LABELS;UNSANITIZED" ${ARGN})
   if(NOT ARTICULAR_SLOW_TESTS AND arg_LABELS MATCHES "slow|render")
@@ -149,7 +150,7 @@ function(articular_register_tests program prefix in_one_process labels filter)
   endif()
   if(in_one_process)
     articular_register_processes(${program} "${prefix}" 1 "${labels}" "${filter}" ${properties})
-  elseif(prefix)
+  elseif(ARTICULAR_SANITIZED AND NOT labels MATCHES "slow|render")
     articular_register_processes(${program} "${prefix}" 8 "${labels}" "${filter}" ${properties})
   else()
     if(labels)
