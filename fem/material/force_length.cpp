@@ -58,13 +58,14 @@ double ForceLength::slope(double stretch) const {
 double ForceLength::work(double stretch) const {
   const double saturated = zero_stretch_ + (40 + std::log(ratio_)) / rate_;
   const double end = std::min(stretch, saturated);
-  double sum = 0, next = 0;
-  for (double begin = zero_stretch_; begin < end; begin = next) {
-    next = std::min({begin + 1 / rate_, 1.5 * begin, end});
+  double sum = 0, begin = zero_stretch_;
+  while (begin < end) {
+    const double next = std::min({begin + 1 / rate_, 1.5 * begin, end});
     const double middle = 0.5 * (begin + next), half = 0.5 * (next - begin);
     for (const auto& [at, weight] : kGauss)
       for (const double s : {middle - half * at, middle + half * at})
         sum += half * weight * factor(s) / s;
+    begin = next;
   }
   return stretch > saturated ? sum + std::log(stretch / saturated) : sum;
 }

@@ -154,7 +154,7 @@ struct IsotropicLanes {
   Matrix first_piola(const State& s) const {
     const Slopes d = slopes(s);
     Matrix P = (2 * d.I1) * s.F + d.J * s.cof;
-    if constexpr (Energy::kHasI2) P = P + d.I2 * of_I2(s);
+    if constexpr (Energy::kHasI2) P = P + d.I2 * second_invariant_gradient(s);
     return P;
   }
 
@@ -165,7 +165,7 @@ struct IsotropicLanes {
     Matrix D;
     Symmetric FtF, FFt;
     if constexpr (Energy::kHasI2) {
-      D = of_I2(s);
+      D = second_invariant_gradient(s);
       FtF = gram(F);
       FFt = gram(transposed(F));
     }
@@ -260,7 +260,7 @@ struct IsotropicLanes {
   }
 
   /// ∂I2/∂F = 2 (I1 F − F FᵀF)
-  static Matrix of_I2(const State& s) {
+  static Matrix second_invariant_gradient(const State& s) {
     const Matrix FFtF = s.F * (transposed(s.F) * s.F);
     return (2 * s.i.I1) * s.F - all(2) * FFtF;
   }

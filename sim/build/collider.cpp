@@ -97,7 +97,7 @@ Tetrahedra shell_under(Positions& X, Triangles& triangles, double thickness) {
   constexpr int kMostHalvings = 5;
   for (int round = 0;; ++round) {
     X.rightCols(n) = X.leftCols(n) - normals * depth.asDiagonal();
-    const Tetrahedra tets = prisms_under(triangles, n);
+    Tetrahedra tets = prisms_under(triangles, n);
     const std::vector<char> folded = folded_prisms(X, triangles, tets, depth);
     if (std::find(folded.begin(), folded.end(), 1) == folded.end()) return tets;
     if (round >= kMostHalvings) {
@@ -128,6 +128,7 @@ void keep_outer_faces(const std::vector<char>& is_outer, collision::Surface& sur
   const Eigen::Matrix3Xi faces = surface.faces(Eigen::all, kept);
   surface.faces = faces;
   std::vector<int> face_tet;
+  face_tet.reserve(kept.size());
   for (const int f : kept) face_tet.push_back(surface.face_tet[static_cast<std::size_t>(f)]);
   surface.face_tet = std::move(face_tet);
   std::vector<std::vector<int>> by_tet(static_cast<std::size_t>(surface.neighbours.cols()));

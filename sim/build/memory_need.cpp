@@ -16,7 +16,7 @@ constexpr double kPlainMatrices = 450, kSmoothedMatrices = 2100;
 
 constexpr double kTetsOfACell = 6;
 /// Four corners of each are counted by an int.
-constexpr double kMostTetrahedra = std::numeric_limits<int>::max() / 4;
+constexpr double kMostTetrahedra = std::numeric_limits<int>::max() / 4.0;
 
 bool is_smoothed(const Body& body) {
   return body.material->element == TissueMaterial::Element::Smoothed;

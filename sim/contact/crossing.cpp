@@ -249,8 +249,10 @@ class Passing {
   bool goes_deep(const Entry& entry, double until) const {
     if (is_itself()) return true;
     const double s = 0.5 * (entry.when + until);
+    const Eigen::Index num_faces = through_.collider->surface.faces.cols();
     std::vector<FaceBounds> faces;
-    for (int f = 0; f < through_.collider->surface.faces.cols(); ++f)
+    faces.reserve(static_cast<std::size_t>(num_faces));
+    for (int f = 0; f < num_faces; ++f)
       faces.push_back(face_bounds((1 - s) * through_.face_from(f) + s * through_.face_to(f)));
     return nearest_face(at(s), faces).depth > kShallow * reach_;
   }

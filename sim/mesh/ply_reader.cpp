@@ -152,7 +152,7 @@ class PlyFile {
   void read_list(const Property& property, bool is_face) {
     const double count = read_number(property.count);
     std::vector<int> polygon;
-    for (double i = 0; i < count; ++i) {
+    for (std::uint64_t i = 0; static_cast<double>(i) < count; ++i) {
       const double value = read_number(property.value);
       if (!is_face) continue;
       if (value < 0 || value > std::numeric_limits<int>::max() || value != std::floor(value))

@@ -159,7 +159,7 @@ class Diagnosis {
         if (trial.contacts == which && trial.outcome == outcome) found.push_back(trial.contact);
       return found;
     };
-    const std::vector<ContactId> needed = those(TriedContacts::AllBut, Outcome::Taken);
+    std::vector<ContactId> needed = those(TriedContacts::AllBut, Outcome::Taken);
     if (!needed.empty() || result_.trials.front().outcome != Outcome::Taken) return needed;
     return those(TriedContacts::Alone, Outcome::Failed);
   }

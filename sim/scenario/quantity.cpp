@@ -201,6 +201,7 @@ std::string unknown_symbol(std::string_view name) {
       return fmt::format("unknown unit `{0}{1}`; a product is written `{0} {1}`", name.substr(0, i),
                          name.substr(i));
   std::vector<std::string> names;
+  names.reserve(kSymbols.size());
   for (const Symbol& symbol : kSymbols) names.emplace_back(symbol.name);
   const std::string nearest = nearest_name(name, names);
   return fmt::format("unknown unit `{}`{}", name,

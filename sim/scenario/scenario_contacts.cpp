@@ -24,7 +24,7 @@ void read_friction(const TableReader& table, Scenario::Analysis analysis, Contac
 
 /// By its name, or the pattern of names that some body fits which can touch something.
 std::string read_touching_bodies(const Node& node, const Context& context) {
-  const std::string written = read_text(node);
+  std::string written = read_text(node);
   if (!is_pattern(written)) return read_touching_body(node, context).name;
   const bool any = std::any_of(context.bodies.begin(), context.bodies.end(), [&](const Body& body) {
     return fits(written, body.name) && has_surface(body) && body.collides;

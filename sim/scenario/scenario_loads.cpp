@@ -169,8 +169,8 @@ RefuseSample read_recorded_samples(const TableReader& table, const Context& cont
   motion.translation = std::move(samples.translation);
   motion.rotation = std::move(samples.rotation);
   motion.interpolation = Motion::Interpolation::Spline;
-  const RefuseSample refuse = [rows = std::move(samples.rows)](std::size_t k, int part,
-                                                               const std::string& message) {
+  RefuseSample refuse = [rows = std::move(samples.rows)](std::size_t k, int part,
+                                                         const std::string& message) {
     throw InputError(rows[k],
                      fmt::format("{}: {}", part == 0 ? "translation" : "rotation", message));
   };

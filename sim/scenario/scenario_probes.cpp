@@ -23,7 +23,7 @@ std::string read_body_of_kind(const Node& node, const Context& context, Body::Ki
 }
 
 std::string read_line_reference(const Node& node, const Context& context, const Names& lines) {
-  const std::string line = context.name(read_text(node));
+  std::string line = context.name(read_text(node));
   if (std::find(lines.begin(), lines.end(), line) == lines.end())
     fail(node, fmt::format("no muscle or ligament is called `{}`{}", one_line(line),
                            suggestion(line, lines)));
@@ -32,7 +32,7 @@ std::string read_line_reference(const Node& node, const Context& context, const 
 
 std::string read_support_reference(const Node& node, const Context& context,
                                    const Names& supports) {
-  const std::string support = context.name(read_text(node));
+  std::string support = context.name(read_text(node));
   if (std::find(supports.begin(), supports.end(), support) == supports.end())
     fail(node, fmt::format("no [[support]] has the name `{}`{}", one_line(support),
                            suggestion(support, supports)));

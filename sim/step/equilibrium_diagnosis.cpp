@@ -45,6 +45,7 @@ std::vector<Tally> tallies_of(std::span<const ConvergenceRow> rows) {
       ++tally.iterations;
     }
   std::vector<Tally> tallies;
+  tallies.reserve(sums.size());
   for (const auto& [what, tally] : sums) tallies.push_back(tally);
   std::stable_sort(tallies.begin(), tallies.end(), [](const Tally& a, const Tally& b) {
     return std::pair(a.flips, a.iterations) > std::pair(b.flips, b.iterations);

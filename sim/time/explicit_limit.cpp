@@ -125,7 +125,7 @@ struct RitzValues {
 /// Arnoldi's iteration with two passes of Gram–Schmidt.
 class Arnoldi {
  public:
-  Arnoldi(ScaledRate& rate, VectorXd start)
+  Arnoldi(ScaledRate& rate, const VectorXd& start)
       : rate_(rate), V_(start.size(), kMost + 1), H_(MatrixXd::Zero(kMost + 1, kMost)) {
     V_.col(0) = start.normalized();
   }

@@ -59,6 +59,7 @@ std::vector<int> counts_of(const Body& body) {
 
 std::vector<int> coarser(const std::vector<int>& counts, double factor) {
   std::vector<int> fewer;
+  fewer.reserve(counts.size());
   for (const int n : counts)
     fewer.push_back(std::max(1, static_cast<int>(std::lround(n / factor))));
   return fewer;

@@ -18,7 +18,7 @@ namespace {
 constexpr double kMesherUnit = 1e-3;  // [m]; positions go to the mesher in mm
 
 std::filesystem::path mesher_program() {
-  const std::filesystem::path mesher = this_program().parent_path() / "articular-mesher";
+  std::filesystem::path mesher = this_program().parent_path() / "articular-mesher";
   std::error_code error;
   if (!std::filesystem::exists(mesher, error))
     throw sim::SystemError(mesher.string() +

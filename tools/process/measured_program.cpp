@@ -35,6 +35,7 @@ double since(Clock::time_point start) {
 
 std::vector<char*> pointers(const std::vector<std::string>& texts) {
   std::vector<char*> result;
+  result.reserve(texts.size() + 1);
   for (const std::string& text : texts)
     result.push_back(const_cast<char*>(text.c_str()));  // exec changes nothing
   result.push_back(nullptr);

@@ -8,7 +8,7 @@ namespace articular::tools {
 
 std::filesystem::path this_program() {
   std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   if (error) throw sim::SystemError("can't tell where this program lies: " + error.message());
   return self;
 }

@@ -16,6 +16,7 @@ using End = ProgramUse::End;
 template <class Take>
 double median(const std::vector<ProgramUse>& runs, Take take) {
   std::vector<double> values;
+  values.reserve(runs.size());
   for (const ProgramUse& run : runs) values.push_back(take(run));
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();

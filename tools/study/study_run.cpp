@@ -162,6 +162,7 @@ std::vector<CaseRecord> run_cases(const Study& study, const std::vector<StudyCas
   for (const StudyCase& c : cases) runner.check(c);
   for (const StudyCase& c : cases) runner.prepare(c);
   std::vector<CaseRecord> records;
+  records.reserve(cases.size());
   for (const StudyCase& c : cases) records.push_back(runner.finished(c));
   std::size_t all = 0;
   for (int round = 0; round < study.repeats; ++round)

@@ -88,7 +88,7 @@ Curves run_scene(const Laboratory& laboratory, const Scene& scene, const AfterSt
   const std::string results = scene.name + "-results";
   if (!run_scene(laboratory, scene, results, false, after_step))
     throw std::logic_error(scene.name + " did not come to its end");
-  const Curves curves(laboratory.folder / results);
+  Curves curves(laboratory.folder / results);
   std::filesystem::remove_all(laboratory.folder / results);  // others may follow with its name
   return curves;
 }

@@ -43,6 +43,7 @@ void measure(const char* name, const VShapes& shapes, double apart,
   std::vector<std::vector<double>> milliseconds(numbers_of_threads.size());
   std::vector<double> updates;
   std::vector<BlockQueryScratch> scratch;
+  scratch.reserve(numbers_of_threads.size());
   for (const int threads : numbers_of_threads)
     scratch.emplace_back(std::make_shared<articular::ThreadPool>(threads));
   for (int round = 0; round < kRounds; ++round)

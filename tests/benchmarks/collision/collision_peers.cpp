@@ -133,6 +133,7 @@ std::string rounded(double value) {
 template <class CellOf>
 void print_row(const std::string& name, const std::vector<Column>& columns, CellOf&& cell_of) {
   std::vector<std::string> cells;
+  cells.reserve(columns.size());
   for (const Column& column : columns) cells.push_back(cell_of(column));
   print_row(name, cells);
 }

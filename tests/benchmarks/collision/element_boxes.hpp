@@ -20,8 +20,12 @@ struct Box {
 };
 
 inline bool overlap(const Box& a, const Box& b) {
-  return (a.min[0] <= b.max[0]) & (b.min[0] <= a.max[0]) & (a.min[1] <= b.max[1]) &
-         (b.min[1] <= a.max[1]) & (a.min[2] <= b.max[2]) & (b.min[2] <= a.max[2]);
+  bool meet = true;  // without a branch for each comparison
+  for (int i = 0; i < 3; ++i) {
+    meet &= a.min[i] <= b.max[i];
+    meet &= b.min[i] <= a.max[i];
+  }
+  return meet;
 }
 
 /// Boxes of all elements of one body: where every peer's update begins.

@@ -24,7 +24,8 @@ std::string cubes(int n, bool rigid) {
   for (int i = 0; i < n * n * n; ++i) {
     const auto at = [&](int k) { return (kSide + kGap) * (k - 0.5 * (n - 1)) + jitter(random); };
     const double x = at(i % n), y = at(i / n % n);
-    const double z = kSide / 2 + kGap + (kSide + kGap) * (i / n / n);
+    const int layer = i / n / n;
+    const double z = kSide / 2 + kGap + (kSide + kGap) * layer;
     text += box(fmt::format("cube {}", i), rigid ? "rigid" : "tissue",
                 {.size = {kSide, kSide, kSide}, .cells = {1, 1, 1}, .center = {x, y, z}},
                 rigid ? density(1000) : solid(1000, "neo-hookean", 1e5, 0.3));

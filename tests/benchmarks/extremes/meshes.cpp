@@ -91,7 +91,7 @@ std::vector<Extreme> meshes() {
       for (const std::string element : {"plain", "smoothed"})
         rows.push_back(
             {.name = name,
-             .range = range + (is_static ? ", static, " : ", dynamic, ") + element,
+             .range = fmt::format("{}, {}, {}", range, is_static ? "static" : "dynamic", element),
              .expected = expected,
              .quick = quick && is_static && element == "plain",
              .study = [=](const Bench& bench) { return study(bench, element, is_static); }});

@@ -209,10 +209,8 @@ void measure(const Size& size) {
     }
   }
   Eigen::VectorXd x = Eigen::VectorXd::Ones(beam.num_unknowns()), y;
-  std::vector<double> products;
-  for (int repeat = 0; repeat < 15; ++repeat) {
-    products.push_back(milliseconds([&] { beam.matrix().multiply(x, y); }));
-  }
+  std::vector<double> products(15);
+  for (double& product : products) product = milliseconds([&] { beam.matrix().multiply(x, y); });
   print_assembly(beam);
   std::printf(
       "| solver | ms a step, median | mean | assembly | set-up | solve | first step | CG "

@@ -145,10 +145,13 @@ void StretchedCube::search_along_line(Report& report) {
   constexpr double kFallen = 0.9, kShortest = 1e-3;
   const Positions from = x_;
   const double slope = b_.dot(dx_);
-  for (double part = 1; part > kShortest; part /= 2, ++report.cut_steps) {
+  double part = 1;
+  while (part > kShortest) {
     move(from, part);
     update_force();
     if (std::abs(b_.dot(dx_)) <= kFallen * slope) return;
+    part /= 2;
+    ++report.cut_steps;
   }
   throw std::runtime_error("no step lowers the force");
 }

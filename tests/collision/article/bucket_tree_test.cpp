@@ -45,7 +45,7 @@ double entries_per_tet(const BucketTree& tree) {
   return static_cast<double>(entries) / tree.num_tets();
 }
 
-BucketTree tree_of(const Mesh& mesh, BucketTreeOptions options = {}) {
+BucketTree tree_of(const Mesh& mesh, const BucketTreeOptions& options = {}) {
   return BucketTree(mesh.tets, mesh.surface, mesh.X, options);
 }
 

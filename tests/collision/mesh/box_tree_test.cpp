@@ -94,7 +94,8 @@ std::vector<Aabb> heap(int n) {
   std::vector<Aabb> boxes;
   for (int i = 0; i < n * n * n; ++i) {
     Aabb box;
-    box.include(Eigen::Vector3d(i % n, i / n % n, i / n / n) + testing::random_vector(random, 0.2));
+    const int x = i % n, y = i / n % n, z = i / n / n;
+    box.include(Eigen::Vector3d(x, y, z) + testing::random_vector(random, 0.2));
     box.include(Eigen::Vector3d(box.min + Eigen::Vector3d::Ones()));
     boxes.push_back(box);
   }

@@ -191,8 +191,8 @@ inline Real point_face2(const Point<Real>& p, const Point<Real>& a, const Point<
 
 inline Real segment_segment2(const Point<Real>& a0, const Point<Real>& a1, const Point<Real>& b0,
                              const Point<Real>& b1) {
-  const Real ends = std::min({point_segment2(a0, b0, b1), point_segment2(a1, b0, b1),
-                              point_segment2(b0, a0, a1), point_segment2(b1, a0, a1)});
+  Real ends = std::min({point_segment2(a0, b0, b1), point_segment2(a1, b0, b1),
+                        point_segment2(b0, a0, a1), point_segment2(b1, a0, a1)});
   const Point<Real> u = a1 - a0, v = b1 - b0, n = cross(u, v), d = b0 - a0;
   const Real n2 = dot(n, n);
   if (!(n2 > 0)) return ends;

@@ -149,7 +149,8 @@ TEST(ActiveBlock, FreeBlockShortensUntilTheStressesAlongTheFibreCancel) {
   const double c10 = 2e4;
   const MuscleFibre fibre({});
   Block block(BlemkerMuscle<>(fibre, {.c10 = c10, .kappa = 1e7}));
-  for (double activation = 0.05; activation < 0.96; activation += 0.05) {
+  for (int percent = 5; percent <= 95; percent += 5) {
+    const double activation = percent / 100.0;
     block.settle(activation, false);
     const auto stress = [&](double s) {
       return 2 * c10 * (s * s - 1 / s) + s * fibre.tension(s, activation);

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -125,8 +126,8 @@ void expect_scalar_results(const Soup& soup, const AnyMaterial& material, Instru
   Positions f = Positions::Zero(3, soup.x.cols()), f_both = f;
   elasticity.add_internal_force(soup.x, f);
   BlockMatrix K = elasticity.make_matrix(), K_projected = K, K_both = K;
-  std::vector<int> blocks;
-  for (int i = 0; i < soup.x.cols(); ++i) blocks.push_back(i);
+  std::vector<int> blocks(static_cast<std::size_t>(soup.x.cols()));
+  std::iota(blocks.begin(), blocks.end(), 0);
   const double scale = 0.25;
   elasticity.add_stiffness(soup.x, Tangent::Consistent, scale, K);
   elasticity.add_stiffness(soup.x, Tangent::Projected, scale, K_projected);

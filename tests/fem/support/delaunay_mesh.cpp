@@ -191,7 +191,7 @@ TetMesh delaunay_mesh(const std::array<int, 3>& cells, const std::function<Vec3(
 }
 
 LoadedBody delaunay_cook_membrane(int n) {
-  const double volume = 48 * (44 + 16) / 2 * (48.0 / n);
+  const double volume = 48 * (44 + 16) / 2.0 * (48.0 / n);
   return cook_membrane(delaunay_mesh(
       {n, n, 1}, [n](const Vec3& unit) { return cook_point(n, unit); }, volume));
 }

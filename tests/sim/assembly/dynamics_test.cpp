@@ -82,8 +82,8 @@ Eigen::VectorXd random_state(const Model& model, double amplitude, double speed,
 }
 
 /// Contact is far stiffer than the tissue.
-Model model_of(Scenario scenario) {
-  Model model = build_model(std::move(scenario));
+Model model_of(const Scenario& scenario) {
+  Model model = build_model(scenario);
   contact_stiffness_of(1e8)(model);
   return model;
 }

@@ -108,8 +108,8 @@ MotionLoad closing(const std::string& plate, const Vec3& way) {
 
 /// What pressed bodies show: how far they were closed and whether they came back.
 /// @param depth  of a node in a foreign element that there may be, by the element
-void expect_closed_and_recovered(Scenario s, double depth) {
-  Simulation run(std::move(s));
+void expect_closed_and_recovered(const Scenario& s, double depth) {
+  Simulation run(s);
   double least_ratio = 1;
   const auto watch = [&] { least_ratio = std::min(least_ratio, least_volume_ratio(run)); };
   run.advance(0.4, watch);

@@ -119,10 +119,11 @@ TEST(Crossing, ASlowPassageIsSeenAtTheMiddleOfTheSheet) {
   Configuration from = scene.start;
   double way = 0;
   constexpr double kStep = 2.3e-4;
-  for (; way < 0.02; way += kStep) {
+  while (way < 0.02) {
     const Configuration to = scene.after("plate", shifted({0, 0, -way - kStep}));
     if (scene.find(from, to, std::max(0.0, way - 1e-3))) break;
     from = to;
+    way += kStep;
   }
   EXPECT_NEAR(way, 1e-3 + kThick / 2, kStep);
 }

@@ -87,9 +87,11 @@ TEST(LineLaws, ValuesHaveNoJumps) {
   for (const Law& law : laws()) {
     const double step = 1e-6 * (law.high - law.low);
     const double limit = 1.1 * step * largest(law, &ValueSlope::slope);
-    for (double x = law.low; x < law.high; x += 997 * step)
+    for (int k = 0; k < 1004; ++k) {
+      const double x = law.low + k * 997 * step;
       EXPECT_LE(std::abs(law.at(x + step).value - law.at(x).value), limit)
           << law.name << " at " << x;
+    }
     for (const double kink : law.kinks)
       EXPECT_LE(std::abs(law.at(kink + step).value - law.at(kink - step).value), 2 * limit)
           << law.name << " at " << kink;

@@ -19,7 +19,8 @@ namespace articular::sim::surface_load_test {
 
 constexpr double kPressure = 700;  // [Pa]
 
-SurfaceLoad on_surface(const Vec3& low, const Vec3& high, std::variant<double, Vec3> stress) {
+SurfaceLoad on_surface(const Vec3& low, const Vec3& high,
+                       const std::variant<double, Vec3>& stress) {
   SurfaceLoad load;
   load.at.tissue = "block";
   load.at.region.box = {low, high};

@@ -15,7 +15,7 @@ constexpr const char* kNodes =
     "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1\n";
 
 std::filesystem::path deck(const TemporaryFolder& folder, const std::string& text) {
-  const std::filesystem::path file = folder / "part.inp";
+  std::filesystem::path file = folder / "part.inp";
   std::ofstream(file) << text;
   return file;
 }

@@ -49,7 +49,8 @@ TissueMaterial material(TissueMaterial made, Element element) {
   return made;
 }
 
-SurfaceLoad on_surface(const Vec3& low, const Vec3& high, std::variant<double, Vec3> stress) {
+SurfaceLoad on_surface(const Vec3& low, const Vec3& high,
+                       const std::variant<double, Vec3>& stress) {
   SurfaceLoad load;
   load.at.tissue = "block";
   load.at.region.box = {low, high};

@@ -211,8 +211,9 @@ TEST(FrameWriter, AResumedRunContinuesTheSeriesWithoutGapOrDouble) {
   const std::vector<SeriesEntry> entries = read_series(folder / "opening.pvd");
   ASSERT_EQ(entries.size(), 24U);
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    EXPECT_EQ(entries[i].index, static_cast<int>(i / 3));
-    EXPECT_EQ(entries[i].time, 0.1 * static_cast<double>(i / 3));
+    const int frame = static_cast<int>(i / 3);
+    EXPECT_EQ(entries[i].index, frame);
+    EXPECT_EQ(entries[i].time, 0.1 * frame);
   }
 }
 

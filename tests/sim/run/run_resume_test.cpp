@@ -109,13 +109,15 @@ acceleration = "0 0 -9.81 m/s^2"
 name = "energy"
 kind = "energy"
 )";
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < 8; ++i) {
+    const int layer = i / 4;
     text += "[[body]]\nname = \"cube " + std::to_string(i) +
             "\"\nkind = \"rigid\"\ndensity = \"1 g/cm^3\"\nvelocity = \"0 0 " +
-            std::to_string(i < 4 ? -200 : -300) +
+            std::to_string(layer == 0 ? -200 : -300) +
             " mm/s\"\ngeometry = { box = { size = \"5 5 5 mm\", cells = [1, 1, 1], center = \"" +
             std::to_string(i % 2 * 5.3 + i * 0.03) + " " + std::to_string(i / 2 % 2 * 5.2) + " " +
-            std::to_string(2.6 + i / 4 * 5.2) + " mm\" } }\n";
+            std::to_string(2.6 + layer * 5.2) + " mm\" } }\n";
+  }
   return text;
 }
 

@@ -47,8 +47,13 @@ TEST(TomlKeyDepth, AKeyOfManyThousandPartsIsRefused) {
           << error.what();
     }
   }
-  std::string nested = "1";  // no key of it has many parts
-  for (int i = 0; i < 255; ++i) nested = "{ " + key.substr(0, 199) + " = " + nested + " }";
+  const std::string begin = "{ " + key.substr(0, 199) + " = ";
+  std::string nested, ends;  // no key of it has many parts
+  for (int i = 0; i < 255; ++i) {
+    nested += begin;
+    ends += " }";
+  }
+  nested += "1" + ends;
   EXPECT_THROW(read_toml(folder.file("deep.toml", "a = " + nested)), InputError);
   EXPECT_NO_THROW(parse_toml_value(nested, "v", {}));
   EXPECT_NO_THROW(parse_toml_value("{ " + key + " = 1 }", "v", {}));  // a text that is no TOML

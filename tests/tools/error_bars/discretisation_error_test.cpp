@@ -14,6 +14,7 @@ constexpr double kFormal = 2;
 std::vector<SizedValue> from_law(double exact, double slope, double order,
                                  const std::vector<double>& sizes) {
   std::vector<SizedValue> values;
+  values.reserve(sizes.size());
   for (const double h : sizes) values.push_back({h, exact + slope * std::pow(h, order)});
   return values;
 }

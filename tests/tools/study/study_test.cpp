@@ -122,7 +122,7 @@ TEST(Study, CasesSideBySideGiveTheSameValues) {
   ASSERT_EQ(run_program(folder, "study s.toml --out one").exit_code, 0);
   ASSERT_EQ(run_program(folder, "study s.toml --out two --jobs 3").exit_code, 0);
   EXPECT_NE(content(folder / "two/study.md").find("CPU time"), std::string::npos);
-  const auto values = [](std::string table) {  // the last two columns
+  const auto values = [](const std::string& table) {  // the last two columns
     std::string result;
     for (std::size_t at = 0; at < table.size(); at = table.find('\n', at) + 1) {
       const std::string line = table.substr(at, table.find('\n', at) - at);

@@ -16,6 +16,7 @@ OutputValue number(double value) { return {{1}, {value}}; }
 /// exact + slope * h^order at the sizes.
 ReferenceValue from_law(double exact, double slope, double order, std::vector<double> sizes) {
   std::vector<OutputValue> runs;
+  runs.reserve(sizes.size());
   for (const double h : sizes) runs.push_back(number(exact + slope * std::pow(h, order)));
   return reference_value(runs, sizes);
 }

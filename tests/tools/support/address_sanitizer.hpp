@@ -1,6 +1,7 @@
 #pragma once
 
 // Of the sanitizer's own library, where the program is linked with it.
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming): so it calls itself
 extern "C" void __asan_init() __attribute__((weak));
 
 namespace articular {
