@@ -273,7 +273,8 @@ bool has_end(const ContactPatch& patch) {
 //   δ²d = −2 δd c·δn − 2 Σ δβ_m c·δf_m − d c·δ²n,   −c·δ²n = |δn|² + 2 Σ e_j δn·δx_j,
 //
 // and at an edge ∮ 2 p δd δχ dl/|∇χ| with what is in contact_patch_ends.cpp. Where one face takes
-// over from another, both together have ∮ p δd δχ dl/|∇χ| of each.
+// over from another, or what counts wholly from what fades, both together have ∮ p δd δχ dl/|∇χ| of
+// each; so has the edge where depths begin to count, as φ is 0 there.
 
 namespace {
 
