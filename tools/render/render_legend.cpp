@@ -80,8 +80,10 @@ std::vector<double> round_labels(double low, double high) {
   }
   std::vector<double> labels;
   const double slack = 1e-6 * step;  // round-off of the multiples
-  for (double i = std::ceil((low - slack) / step); i * step <= high + slack; ++i)
-    labels.push_back(i * step + 0.0);  // no "-0"
+  // Not ++first: where the range is round-off of its ends it would stay what it is, for ever.
+  const double first = std::ceil((low - slack) / step);
+  for (int k = 0; (first + k) * step <= high + slack; ++k)
+    labels.push_back((first + k) * step + 0.0);  // no "-0"
   return labels;
 }
 

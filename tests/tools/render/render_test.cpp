@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <optional>
@@ -24,7 +25,7 @@ namespace articular::tools::render_test {
 /// Sets or (without a value) unsets a variable of the environment for the time of a test.
 class Environment {
  public:
-  Environment(std::string name, std::optional<std::string> value) : name_(std::move(name)) {
+  Environment(std::string name, const std::optional<std::string>& value) : name_(std::move(name)) {
     if (const char* const before = std::getenv(name_.c_str())) before_ = before;
     set(value);
   }
@@ -511,7 +512,8 @@ TEST(Legend, ScalesEndAtRoundNumbersAndLabelsStayInside) {
   EXPECT_DOUBLE_EQ(round_up(0.0123), 0.015);
   EXPECT_EQ(round_up(81), 100);
   EXPECT_EQ(round_labels(0, 100), (std::vector<double>{0, 20, 40, 60, 80, 100}));
-  for (double high = 1e-7; high < 1e7; high *= 1.7)
+  for (int k = 0; k < 61; ++k) {
+    const double high = 1e-7 * std::pow(1.7, k);  // to 1e7
     for (const double low : {0.0, -high, 1 - high}) {
       const double top = low == 1 - high ? 1 + high : high;
       const std::vector<double> labels = round_labels(low, top);
@@ -521,6 +523,14 @@ TEST(Legend, ScalesEndAtRoundNumbersAndLabelsStayInside) {
       EXPECT_GE(labels.front(), low - slack);
       EXPECT_LE(labels.back(), top + slack);
     }
+  }
+}
+
+// As of a ratio that is 1 but for round-off. Multiples of the step are beyond 2⁵³ there.
+TEST(Legend, LabelsEndWhereTheScaleIsAsShortAsRoundOff) {
+  const double below = std::nextafter(1.0, 0.0), above = std::nextafter(1.0, 2.0);
+  EXPECT_LE(round_labels(1, above).size(), 12U);
+  EXPECT_LE(round_labels(below, above).size(), 12U);
 }
 
 }  // namespace articular::tools::render_test
