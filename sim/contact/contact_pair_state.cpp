@@ -18,7 +18,7 @@ std::array<const NodeRef*, 6> nodes_of(const Collider& triangles, const Collider
   for (int i = 0; i < 3; ++i) {
     nodes[static_cast<std::size_t>(i)] =
         &triangles.nodes[static_cast<std::size_t>(triangles.surface.faces(i, triangle))];
-    nodes[static_cast<std::size_t>(3 + i)] =
+    nodes[3 + static_cast<std::size_t>(i)] =
         &faces.nodes[static_cast<std::size_t>(faces.surface.faces(i, face))];
   }
   return nodes;
@@ -84,7 +84,7 @@ PatchSum pressure_sum(const ContactPairState& pair_state, const ContactPairState
 
 Vec18 forces_on_nodes(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
                       const Eigen::Matrix3Xi& groups) {
-  const Vec18 forces = -patch_gradient(entry.patch, energy_sum(pair_state, entry, groups));
+  Vec18 forces = -patch_gradient(entry.patch, energy_sum(pair_state, entry, groups));
   if (pair_state.drag.empty()) return forces;
   Mat3 t;
   for (int i = 0; i < 3; ++i)

@@ -130,19 +130,19 @@ class Passing {
         reach_(reach),
         known_(
             std::max(reach, through.encloses ? depth : std::min(depth, through.collider->reach))),
-        region_(widened(body.sweep.way.intersection(through.sweep.way))) {}
+        region_(widened(body.sweep.way.intersection(through.sweep.way))),
+        faces_near_(through, region_) {}
 
   void find(std::optional<Crossing>& deepest) {
-    const FacesNear near(through_, region_);
-    near_ = &near;
     for (const SurfacePoint& point : body_.points) {
       from_ = point.in(body_.from);
       to_ = point.in(body_.to);
       Box way;
       way.extend(from_).extend(to_);
       if (!way.intersects(region_)) continue;
-      near.find(widened(way), candidates_);
-      std::erase_if(candidates_, [&](int index) { return is_tied(point, near.face(index)); });
+      faces_near_.find(widened(way), candidates_);
+      std::erase_if(candidates_,
+                    [&](int index) { return is_tied(point, faces_near_.face(index)); });
       if (candidates_.empty()) continue;
       const std::optional<Crossing> crossing = crossing_of(point);
       if (crossing && !(deepest && deepest->depth >= crossing->depth)) deepest = crossing;
@@ -191,7 +191,7 @@ class Passing {
   }
 
   std::optional<Entry> entry_at_start(const SurfacePoint& point) {
-    const std::vector<FaceBounds>& faces = near_->at_start();
+    const std::vector<FaceBounds>& faces = faces_near_.at_start();
     among_ = candidates_;
     if (is_itself()) {
       Vec3 normal = Vec3::Zero();
@@ -205,13 +205,13 @@ class Passing {
     if (!through_.encloses &&
         !is_under(from_, faces[static_cast<std::size_t>(nearest.face)], nearest.depth))
       return std::nullopt;
-    return Entry{near_->face(nearest.face), 0, true};
+    return Entry{faces_near_.face(nearest.face), 0, true};
   }
 
   void find_events() {
     events_.clear();
     for (const int index : candidates_) {
-      const int face = near_->face(index);
+      const int face = faces_near_.face(index);
       const Passages found = passages(from_, to_, through_.face_from(face), through_.face_to(face));
       for (int k = 0; k < found.count; ++k)
         events_.push_back({found.of[static_cast<std::size_t>(k)], face});
@@ -267,7 +267,7 @@ class Passing {
   double reach_;  // [m]
   double known_;  // [m] no point lies deeper at the start without having lost its side
   Box region_;    // both come into it
-  const FacesNear* near_ = nullptr;
+  FacesNear faces_near_;
   Vec3 from_ = Vec3::Zero(), to_ = Vec3::Zero();  // the point
   std::vector<int> candidates_, among_;
   std::vector<Event> events_;

@@ -150,7 +150,7 @@ void for_each_sheet_face(const Positions& x, Visit&& visit) {
     const std::array<int, 6> nodes = {0, 1, 2, 3, 4 + k, 4 + (k + 1) % 6};
     Pair pair;
     pair.s = x.leftCols(3);
-    for (int m = 0; m < 3; ++m) pair.f.col(m) = x.col(nodes[static_cast<std::size_t>(3 + m)]);
+    for (int m = 0; m < 3; ++m) pair.f.col(m) = x.col(nodes[3 + static_cast<std::size_t>(m)]);
     visit(pair, nodes);
   }
 }
