@@ -160,6 +160,8 @@ void complete_collider(Collider& collider, const std::vector<char>& is_outer) {
 
   // Faces that are farther from parallel don't face the same one.
   collider.group_node = number_smoothing_groups(collider.X, faces, kFacingNone, collider.groups);
+  collider.group_area = areas_of_smoothing_groups(collider.groups, std::ssize(collider.group_node),
+                                                  collider.face_area);
   collider.rims = rims_of_smoothing_groups(collider.X, faces, kFacingNone);
   collider.rim_height = heights_over_convex_rims(collider.X, faces, kFacingNone);
 

@@ -106,6 +106,15 @@ std::vector<int> number_smoothing_groups(const Positions& X, const Eigen::Matrix
   return node_of;
 }
 
+Eigen::VectorXd areas_of_smoothing_groups(const Eigen::Matrix3Xi& groups, Eigen::Index num_groups,
+                                          std::span<const double> face_area) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(num_groups);
+  for (Eigen::Index f = 0; f < groups.cols(); ++f)
+    for (const int group : groups.col(f))
+      areas[group] += face_area[static_cast<std::size_t>(f)] / 3;
+  return areas;
+}
+
 std::vector<unsigned> rims_of_smoothing_groups(const Positions& X, const Eigen::Matrix3Xi& faces,
                                                double crease) {
   std::vector<unsigned> rims(static_cast<std::size_t>(faces.cols()), 7);

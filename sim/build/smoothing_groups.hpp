@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sim/model/model.hpp"
@@ -16,6 +17,10 @@ namespace articular::sim {
 /// @return the node of each
 std::vector<int> number_smoothing_groups(const Positions& X, const Eigen::Matrix3Xi& faces,
                                          double crease, Eigen::Matrix3Xi& groups);
+
+/// A third of each face around it [m²], by group.
+Eigen::VectorXd areas_of_smoothing_groups(const Eigen::Matrix3Xi& groups, Eigen::Index num_groups,
+                                          std::span<const double> face_area);
 
 /// Of each face, bit k: its group ends at the edge opposite corner k.
 std::vector<unsigned> rims_of_smoothing_groups(const Positions& X, const Eigen::Matrix3Xi& faces,

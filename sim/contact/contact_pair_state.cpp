@@ -43,7 +43,7 @@ PatchSum mean_depths(const ContactPairState& pair_state, const ContactPairState:
   PatchSum sum{p};
   for (int i = 0; i < 3; ++i)
     sum.m[i] = p[i] * pair_state.depth[groups(i, entry.triangle)] *
-               pair_state.measure_slope[groups(i, entry.triangle)];
+               pair_state.measure_slope(groups(i, entry.triangle));
   return sum;
 }
 
@@ -55,7 +55,7 @@ PatchSum energy_sum(const ContactPairState& pair_state, const ContactPairState::
   PatchSum sum = mean_depths(pair_state, entry, groups, p);
   for (int i = 0; i < 3; ++i) {
     const int group = groups(i, entry.triangle);
-    sum.m[i] -= p[i] * p[i] / (2 * pair_state.stiffness(group)) * pair_state.measure_slope[group];
+    sum.m[i] -= p[i] * p[i] / (2 * pair_state.stiffness(group)) * pair_state.measure_slope(group);
   }
   return sum;
 }

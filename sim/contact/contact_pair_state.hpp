@@ -25,10 +25,8 @@ struct ContactPairState {
   std::size_t num_patches = 0;
   std::span<const Patch> patches() const { return {stored.data(), num_patches}; }
   // By smoothing group of the side whose triangles these are; zero where it meets nothing:
-  Eigen::VectorXd whole_area;                      // T [m²], of all triangles around it, at rest
   Eigen::VectorXd area;                            // W [m²]
-  Eigen::VectorXd measure;                         // A [m²]
-  Eigen::VectorXd measure_slope;                   // ∂A/∂W; pointwise: 0
+  Eigen::VectorXd measure;                         // A [m²]: averaged √(W T), pointwise W
   Eigen::VectorXd depth;                           // g [m]
   Eigen::VectorXd pressure;                        // p [Pa], with that of damping
   Eigen::VectorXd multiplier;                      // λ [Pa]; empty: none
@@ -37,6 +35,10 @@ struct ContactPairState {
   bool is_soft = false;                            // which of them counts now
   double stiffness(int group) const {              // k [Pa/m]
     return (is_soft ? soft_stiffness : firm_stiffness)[group];
+  }
+  /// ∂A/∂W where depths are averaged; 0 where a group meets nothing.
+  double measure_slope(int group) const {
+    return pair.averaged && area[group] > 0 ? 0.5 * measure[group] / area[group] : 0;
   }
   /// <λ + k g> [Pa]: the pressure without that of damping.
   double penalty(int group) const {

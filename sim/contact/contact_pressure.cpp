@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/build/smoothing_groups.hpp"
+
 namespace articular::sim {
 namespace {
 
@@ -71,10 +73,9 @@ void add_load(const ContactSides& side, const ContactPairState& pair_state, doub
 }
 
 Eigen::VectorXd group_areas(const Collider& collider, const PressureLoad& load) {
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(load.force.size());
-  for (Eigen::Index f = 0; f < load.face_area.size(); ++f)
-    for (const int group : collider.groups.col(f)) areas[group] += load.face_area[f] / 3;
-  return areas;
+  return areas_of_smoothing_groups(
+      collider.groups, load.force.size(),
+      {load.face_area.data(), static_cast<std::size_t>(load.face_area.size())});
 }
 
 Eigen::VectorXd group_pressures(const Collider& collider, const PressureLoad& load) {

@@ -25,19 +25,15 @@ ContactPairState& ContactResponse::pair_state_of(const CandidateList& list) {
   pair_state.firm_stiffness = stiffness_at_groups(pair_state.pair, nonmortar, false);
   pair_state.soft_stiffness = stiffness_at_groups(pair_state.pair, nonmortar, true);
   for (Eigen::VectorXd* values :
-       {&pair_state.whole_area, &pair_state.area, &pair_state.measure, &pair_state.measure_slope,
-        &pair_state.depth, &pair_state.pressure})
+       {&pair_state.area, &pair_state.measure, &pair_state.depth, &pair_state.pressure})
     values->setZero(num_groups);
-  for (Eigen::Index t = 0; t < nonmortar.groups.cols(); ++t)
-    for (const int group : nonmortar.groups.col(t))
-      pair_state.whole_area[group] += nonmortar.face_area[static_cast<std::size_t>(t)] / 3;
   known = &pair_state;
   return pair_state;
 }
 
 void ContactResponse::clear(ContactPairState& pair_state) const {
-  for (Eigen::VectorXd* values : {&pair_state.area, &pair_state.measure, &pair_state.measure_slope,
-                                  &pair_state.depth, &pair_state.pressure})
+  for (Eigen::VectorXd* values :
+       {&pair_state.area, &pair_state.measure, &pair_state.depth, &pair_state.pressure})
     for (const int group : pair_state.groups) (*values)[group] = 0;
   pair_state.groups.clear();
   pair_state.drag.clear();
@@ -65,16 +61,15 @@ void ContactResponse::find_pressures(const Configuration& configuration, bool so
   const ContactModel& contact = pair_state.pair;
   pair_state.is_soft = soft;
   pair_state.point_stiffness = contact.averaged ? 0 : pair_state.stiffness(0);
+  const ContactSides side = sides_of(model_, pair_state);
   for (const int group : pair_state.groups) {
     const double area = pair_state.area[group];
     double& measure = pair_state.measure[group];
-    measure = contact.averaged ? std::sqrt(area * pair_state.whole_area[group]) : area;
-    if (contact.averaged) pair_state.measure_slope[group] = 0.5 * measure / area;
+    measure = contact.averaged ? std::sqrt(area * side.triangles.group_area[group]) : area;
     pair_state.depth[group] /= measure;
     pair_state.pressure[group] = pair_state.penalty(group);
   }
   if (!contact.law.acts()) return;
-  const ContactSides side = sides_of(model_, pair_state);
   find_drag(contact.law, side.triangles, side.faces, configuration, pair_state);
   if (contact.law.friction > 0) ++evaluations_[Term::Friction];
   if (contact.law.damping > 0) ++evaluations_[Term::ContactDamping];

@@ -146,7 +146,7 @@ void ContactStiffness::add_measure_stiffness(const ContactPairState& pair_state,
   const double energy = p * p / (2 * pair_state.stiffness(group)) - p * pair_state.depth[group];
   add_rank_one(
       pair_state, patches, configuration,
-      -scale * energy * pair_state.measure_slope[group] / (2 * pair_state.area[group]),
+      -scale * energy * pair_state.measure_slope(group) / (2 * pair_state.area[group]),
       [&](const ContactPairState::Patch& entry) {
         return patch_gradient(entry.patch,
                               {Vec3::Zero(), -corner_of_group(groups, entry.triangle, group)});

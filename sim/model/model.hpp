@@ -83,6 +83,7 @@ struct Collider {
   std::vector<double> face_area;          // at the start [m²]
   Eigen::Matrix3Xi groups;                // of the corners of each face, and
   std::vector<int> group_node;            // the node of each: see smoothing_groups.hpp
+  Eigen::VectorXd group_area;             // around each, at the start [m²]
   std::vector<unsigned> rims;             // of each face, FlatTriangle::rims
   Positions rim_height;                   // of each face, FlatTriangle::rim_height
   std::vector<int> nearby_begin, nearby;  // per tetrahedron: faces around it

@@ -23,6 +23,21 @@ struct Groups {
   std::map<int, std::set<int>> at_node;  // of the surface
 };
 
+TEST(SmoothingGroups, AreasAroundNodesOfABoxAreThoseOfTheirCells) {
+  const double cell = 0.01;
+  const MeshData box = box_mesh({{3 * cell, 3 * cell, 3 * cell}, {3, 3, 3}, Vec3::Zero()});
+  const Groups s(box);
+  const std::vector<double> face_area(static_cast<std::size_t>(s.faces.cols()), cell * cell / 2);
+  const Eigen::VectorXd areas =
+      areas_of_smoothing_groups(s.groups, std::ssize(s.node_of), face_area);
+  EXPECT_NEAR(areas.sum(), 6 * 9 * cell * cell, 1e-15);
+  for (const auto& [node, groups] : s.at_node) {
+    if (groups.size() > 1) continue;  // not at an edge: a sixth of a cell for each of its faces
+    const auto faces_around = (s.faces.array() == node).count();
+    EXPECT_NEAR(areas[node], static_cast<double>(faces_around) * cell * cell / 6, 1e-18);
+  }
+}
+
 TEST(SmoothingGroups, ABoxHasThreeAtACornerTwoAtAnEdgeAndOneElsewhere) {
   const MeshData box = box_mesh({{0.03, 0.03, 0.03}, {3, 3, 3}, Vec3::Zero()});
   const Groups s(box);

@@ -26,4 +26,22 @@ inline bool contact_patch(const FlatTriangle& s, const FlatTriangle& f, double r
   return pair && contact_patch(*pair, s, f, rest_area, range, nearest, patch);
 }
 
+/// Of Σ p_a G_a for numbers p that stay as they are.
+inline Vec18 patch_gradient(const ContactPatch& patch, const Vec3& p) {
+  return sim::patch_gradient(patch, PatchSum{p});
+}
+
+inline Mat18 product(const PatchStiffness& stiffness) {
+  const Mat18 half = stiffness.left * stiffness.right.transpose();
+  return half + half.transpose();
+}
+inline Mat18 patch_hessian(const ContactPatch& patch) { return product(patch_stiffness(patch, 1)); }
+inline Mat18 patch_curvature(const ContactPatch& patch, const PatchSum& sum) {
+  PatchStiffness stiffness = patch_stiffness(patch, 0);
+  add_curvature(patch, sum, stiffness);
+  Mat18 H;
+  if (!end_stiffness(patch, sum, H)) H.setZero();
+  return H + product(stiffness);
+}
+
 }  // namespace articular::sim

@@ -1,6 +1,6 @@
 // What `articular collide` finds is what brute force finds, however it is asked.
 #include "tools/collide/collide.hpp"
-#include "tests/tools/support/address_sanitizer.hpp"
+#include "tests/support/address_sanitizer.hpp"
 
 #include <gtest/gtest.h>
 

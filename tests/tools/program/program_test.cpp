@@ -8,7 +8,7 @@
 #include <ostream>
 #include <set>
 
-#include "tests/tools/support/address_sanitizer.hpp"
+#include "tests/support/address_sanitizer.hpp"
 #include "tests/tools/support/program.hpp"
 
 namespace articular::program_test {
