@@ -73,7 +73,9 @@ void write_text_file(const fs::path& file, const std::string& text, Durable dura
     ::unlink(temporary.c_str());
     fail(file, status.value());
   }
-  if (durable == Durable::Now) sync_file(fs::absolute(target).parent_path());
+  if (durable != Durable::Now) return;
+  const fs::path folder = target.parent_path();
+  sync_file(folder.empty() ? fs::path(".") : folder);
 }
 
 void make_folders(const fs::path& folder) {

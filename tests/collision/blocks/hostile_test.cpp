@@ -8,6 +8,7 @@
 
 #include "collision/blocks/narrow_list.hpp"
 #include "tests/collision/support/hostile_meshes.hpp"
+#include "tests/collision/support/rounds.hpp"
 #include "tests/collision/support/rule_oracle.hpp"
 
 namespace articular::collision::testing::hostile_test {
@@ -90,7 +91,7 @@ TEST(Hostile, FuzzedMeshesAreDecidedAsByTheRule) {
     return body;
   };
   int num_tested = 0;
-  while (num_tested < 60) {
+  while (num_tested < rounds(64)) {
     const std::optional<Body> a = fuzzed(), b = fuzzed();
     if (!a || !b) continue;
     ++num_tested;

@@ -10,6 +10,7 @@
 #include "tests/collision/support/exact_referee.hpp"
 #include "tests/collision/support/hostile_meshes.hpp"
 #include "tests/collision/support/oracles.hpp"
+#include "tests/collision/support/rounds.hpp"
 #include "tests/collision/support/rule_oracle.hpp"
 
 namespace articular::collision::testing::kernel_bounds_test {
@@ -207,7 +208,7 @@ bool meets_exactly(const Pair& pair) { return exact::overlap(pair.triangle, pair
 TEST_P(KernelBounds, AVerdictOnABlockIsThatOfExactArithmetic) {
   std::mt19937 random(21);
   Tally tally;
-  for (int trial = 0; trial < kTrials; ++trial) {
+  for (int trial = 0; trial < rounds(kTrials); ++trial) {
     const std::vector<Pair> pairs = a_block_of_pairs(random);
     const Verdicts verdicts = by_block(pairs, 0, GetParam());
     for (std::size_t i = 0; i < kBlockSize; ++i)
@@ -270,7 +271,7 @@ bool within_margin(const Pair& pair, double margin) {
 TEST_P(KernelBounds, AVerdictWithAMarginIsThatOfExactArithmetic) {
   std::mt19937 random(23);
   Tally tally;
-  for (int trial = 0; trial < kTrials; ++trial) {
+  for (int trial = 0; trial < rounds(kTrials); ++trial) {
     std::vector<Pair> pairs = a_block_of_pairs(random);
     const double size = (pairs[0].tetrahedron.colwise() - pairs[0].tetrahedron.col(0)).norm();
     const double margin = size * any_size(random, -6, 1);

@@ -13,6 +13,7 @@
 #include "tests/collision/support/exact_referee.hpp"
 #include "tests/collision/support/meshes.hpp"
 #include "tests/collision/support/oracles.hpp"
+#include "tests/collision/support/rounds.hpp"
 
 namespace articular::collision::testing::separating_axes_test {
 
@@ -175,7 +176,7 @@ INSTANTIATE_TEST_SUITE_P(SeparatingAxes, SeparatingAxesScale,
 TEST_P(SeparatingAxesScale, NearTouchingPairsAreDecidedAsInExactArithmetic) {
   std::mt19937 random(3);
   Comparison comparison;
-  for (int i = 0; i < 1100; ++i)
+  for (int i = 0; i < rounds(1100); ++i)
     ASSERT_NO_FATAL_FAILURE(comparison.check(
         scaled(brought_near(random_pair(random), gap_of_case(i), random), GetParam())));
   comparison.expect_both_outcomes();
@@ -184,7 +185,7 @@ TEST_P(SeparatingAxesScale, NearTouchingPairsAreDecidedAsInExactArithmetic) {
 TEST(SeparatingAxes, FarFromTheOriginPairsAreDecidedAsInExactArithmetic) {
   std::mt19937 random(4);
   Comparison comparison;
-  for (int i = 0; i < 1100; ++i) {
+  for (int i = 0; i < rounds(1100); ++i) {
     const Pair pair = brought_near(random_pair(random), gap_of_case(i), random);
     const Eigen::Vector3d far = random_vector(random, std::pow(10.0, i % 7));
     ASSERT_NO_FATAL_FAILURE(comparison.check(mapped(pair, Eigen::Matrix3d::Identity(), far)));
@@ -231,7 +232,7 @@ TEST(SeparatingAxes, SliversAreDecidedAsInExactArithmetic) {
   constexpr int kKinds = static_cast<int>(Sliver::NumKinds);
   for (int kind = 0; kind < kKinds; ++kind) {
     Comparison comparison;
-    for (int i = 0; i < 1100; ++i) {
+    for (int i = 0; i < rounds(1100); ++i) {
       const double thickness = std::pow(10.0, uniform(random, -11, -1));
       const Pair pair = sliver_pair(static_cast<Sliver>(kind), thickness, i % 3 == 0, random);
       ASSERT_NO_FATAL_FAILURE(comparison.check(brought_near(pair, gap_of_case(i), random)));
@@ -244,7 +245,7 @@ TEST(SeparatingAxes, SliversAreDecidedAsInExactArithmetic) {
 TEST(SeparatingAxes, ShapesOfVeryDifferentSizeAreDecidedAsInExactArithmetic) {
   std::mt19937 random(6);
   Comparison comparison;
-  for (int i = 0; i < 2200; ++i) {
+  for (int i = 0; i < rounds(2200); ++i) {
     Pair pair = random_pair(random);
     const double ratio = std::pow(10.0, uniform(random, -6, -1));
     if (i % 4 < 2)
@@ -262,7 +263,7 @@ TEST(SeparatingAxes, DegenerateShapesOnAGridAreDecidedAsInExactArithmetic) {
   std::mt19937 random(7);
   std::uniform_int_distribution<int> digit(0, 3), shear(-2, 2);
   int num = 0, num_meeting = 0;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < rounds(6000); ++i) {
     Pair pair;
     for (double& x : pair.triangle.reshaped()) x = digit(random);
     for (double& x : pair.tetrahedron.reshaped()) x = digit(random);
@@ -301,7 +302,7 @@ Pair pair_in_plane(int i, std::mt19937& random) {
 TEST(SeparatingAxes, NearTouchingShapesInOnePlaneAreDecidedAsInExactArithmetic) {
   std::mt19937 random(8);
   int num_apart = 0, num_meeting = 0;
-  for (int i = 0; i < 2200; ++i) {
+  for (int i = 0; i < rounds(2200); ++i) {
     Pair pair = pair_in_plane(i, random);
     // Along the perpendicular to an edge, or along any line.
     Eigen::Vector3d edge = random_vector(random, 1);
@@ -321,13 +322,13 @@ TEST(SeparatingAxes, NearTouchingShapesInOnePlaneAreDecidedAsInExactArithmetic) 
     const Pair turned = mapped(pair, random_rotation(random), random_vector(random, 1));
     ASSERT_TRUE(distance < 1e-12 || !overlap(turned)) << turned;
   }
-  EXPECT_GT(num_apart, 500);
-  EXPECT_GT(num_meeting, 500);
+  EXPECT_GT(num_apart, rounds(500));
+  EXPECT_GT(num_meeting, rounds(500));
 }
 
 TEST(SeparatingAxes, ShapesWithCommonCornersOverlapWhateverTheirPlaceAndScale) {
   std::mt19937 random(9);
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < rounds(20000); ++i) {
     Pair pair = random_pair(random);
     if (i % 5 == 0) pair = sliver_pair(Sliver::Cap, 1e-9, false, random);
     const double scale = std::pow(10.0, uniform(random, -100, 100));
@@ -375,7 +376,7 @@ TEST(SeparatingAxes, TheOrderOfTheNodesAndTheSignOfTheVolumeDoNotMatter) {
 TEST(SeparatingAxes, ADisplacementOrAnotherUnitOfLengthDoesNotMatter) {
   std::mt19937 random(11);
   int num_overlapping = 0;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < rounds(10000); ++i) {
     const Pair pair = brought_near(random_pair(random), gap_of_case(i % 14), random);
     const double gap = separating_axis_gap(pair.triangle, pair.tetrahedron);
     if (std::abs(gap) < 1e-12) continue;
@@ -386,13 +387,13 @@ TEST(SeparatingAxes, ADisplacementOrAnotherUnitOfLengthDoesNotMatter) {
     ASSERT_EQ(overlap(elsewhere), gap < 0) << elsewhere;
     num_overlapping += gap < 0 ? 1 : 0;
   }
-  EXPECT_GT(num_overlapping, 3000);
+  EXPECT_GT(num_overlapping, rounds(3000));
 }
 
 TEST(SeparatingAxes, WithAMarginPairsOverlapUpToThatDistance) {
   std::mt19937 random(12);
   int num_apart = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < rounds(1500); ++i) {
     const double gap = std::pow(10.0, uniform(random, -9, 0.5));
     const double scale = std::pow(10.0, uniform(random, -100, 100));
     Pair pair = random_pair(random);
@@ -416,7 +417,7 @@ TEST(SeparatingAxes, WithAMarginPairsOverlapUpToThatDistance) {
     }
     ++num_apart;
   }
-  EXPECT_GT(num_apart, 500);
+  EXPECT_GT(num_apart, rounds(500));
 }
 
 }  // namespace articular::collision::testing::separating_axes_test
