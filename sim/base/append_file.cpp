@@ -93,7 +93,7 @@ void AppendFile::sync() {
   cut();
   if (::fsync(descriptor_) != 0 && errno != EINVAL)
     fail(errno);  // EINVAL: a device, nothing to sync
-  if (std::exchange(is_new_, false)) sync_file(std::filesystem::absolute(file_).parent_path());
+  if (std::exchange(is_new_, false)) sync_name(file_);
 }
 
 void AppendFile::fail(int error) const {

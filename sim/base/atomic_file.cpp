@@ -73,9 +73,7 @@ void write_text_file(const fs::path& file, const std::string& text, Durable dura
     ::unlink(temporary.c_str());
     fail(file, status.value());
   }
-  if (durable != Durable::Now) return;
-  const fs::path folder = target.parent_path();
-  sync_file(folder.empty() ? fs::path(".") : folder);
+  if (durable == Durable::Now) sync_name(target);
 }
 
 void make_folders(const fs::path& folder) {
@@ -96,6 +94,11 @@ void sync_file(const fs::path& file) {
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
   if (error != 0 && error != EINVAL) fail(file, error);  // EINVAL: a file system that can't
+}
+
+void sync_name(const fs::path& file) {
+  const fs::path folder = file.parent_path();
+  sync_file(folder.empty() ? "." : folder);
 }
 
 }  // namespace articular::sim

@@ -15,6 +15,8 @@ void write_text_file(const std::filesystem::path& file, const std::string& text,
 
 /// A file, or a folder with the names in it, outlasts a power cut from now on. @throws SystemError
 void sync_file(const std::filesystem::path& file);
+/// So does the name of a file, in the folder that it lies in. @throws SystemError
+void sync_name(const std::filesystem::path& file);
 
 /// Makes a folder and those above it, where they are not there; they outlast a power cut.
 /// @throws SystemError
