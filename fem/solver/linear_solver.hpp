@@ -49,8 +49,11 @@ class LinearSolver {
   [[nodiscard]] virtual SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) = 0;
 };
 
-/// CHOLMOD, supernodal, one thread.
-std::unique_ptr<LinearSolver> make_cholesky();
+/// A supernodal factorization, see signed_cholesky.hpp.
+/// @param pool  here and below: shared with others who compute at other times; the answer has the
+///              same bits with any number of threads
+std::unique_ptr<LinearSolver> make_cholesky(
+    std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1));
 
 /// Conjugate gradients with the inverses of the diagonal blocks as preconditioner.
 /// @param tolerance  on |r| / |b|
@@ -60,7 +63,9 @@ std::unique_ptr<LinearSolver> make_conjugate_gradients(double tolerance, int max
 /// preconditioner, through the factor of the quasi-definite matrix [plain G; Gᵀ −C/scale]: a dozen
 /// iterations at any ν, and no block of G C⁻¹ Gᵀ is formed.
 /// @param tolerance  on |r| / |b|
-std::unique_ptr<LinearSolver> make_saddle_point_solver(double tolerance, int max_iterations);
+std::unique_ptr<LinearSolver> make_saddle_point_solver(
+    double tolerance, int max_iterations,
+    std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1));
 
 /// Conjugate gradients with smoothed aggregation multigrid as preconditioner (multigrid.hpp): the
 /// number of iterations hardly depends on the size of the mesh. While the pattern stays, so does
@@ -68,8 +73,6 @@ std::unique_ptr<LinearSolver> make_saddle_point_solver(double tolerance, int max
 /// its age has cost add up to the price of that. With the terms of a nodal pressure it is flexible
 /// GMRES on the mixed system (mixed_multigrid.hpp), whose iterations do not depend on ν either.
 /// @param tolerance  on |r| / |b|
-/// @param pool       shared with others who compute at other times; the answer has the same bits
-///                   with any number of threads
 std::unique_ptr<LinearSolver> make_multigrid(
     double tolerance, int max_iterations,
     std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1));

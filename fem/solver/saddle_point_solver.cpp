@@ -2,6 +2,7 @@
 #include <cassert>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "fem/solver/linear_solver.hpp"
@@ -26,17 +27,10 @@ class SaddlePointMatrix {
 
   void take_pattern(const BlockMatrix& K, std::span<const PressureTerm> terms) {
     pattern_id_ = K.pattern_id();
-    matrix_ = {.begin = {0}, .row = {}, .value = {}};
+    matrix_ = {};
+    append_pattern(K, matrix_);
     signs_.assign(3 * static_cast<std::size_t>(K.num_blocks()), 1);
-    for (int i = 0; i < K.num_blocks(); ++i) {
-      for (int column = 0; column < 3; ++column) {
-        for (int s = K.row_begin()[i]; K.column()[s] < i; ++s) {
-          for (int q = 0; q < 3; ++q) matrix_.row.push_back(3 * K.column()[s] + q);
-        }
-        for (int q = 0; q <= column; ++q) matrix_.row.push_back(3 * i + q);
-        end_column();
-      }
-    }
+    groups_ = groups_of_three(K.num_blocks());
     patterns_.clear();
     for (const PressureTerm& term : terms) {
       patterns_.emplace_back(*term.G);
@@ -47,7 +41,8 @@ class SaddlePointMatrix {
           for (int q = 0; q < 3; ++q) matrix_.row.push_back(3 * entry.node + q);
         }
         for (int k = C.begin[c]; k < C.begin[c + 1]; ++k) matrix_.row.push_back(offset + C.row[k]);
-        end_column();
+        matrix_.end_column();
+        groups_.push_back(groups_.back() + 1);
       }
       signs_.insert(signs_.end(), static_cast<std::size_t>(C.size()), -1);
     }
@@ -55,16 +50,7 @@ class SaddlePointMatrix {
   }
 
   void take_values(const BlockMatrix& K, std::span<const PressureTerm> terms) {
-    double* value = matrix_.value.data();
-    for (int i = 0; i < K.num_blocks(); ++i) {
-      for (int p = 0; p < 3; ++p) {
-        int s = K.row_begin()[i];
-        for (; K.column()[s] < i; ++s) {
-          for (int q = 0; q < 3; ++q) *value++ = K.block(s)(p, q);
-        }
-        for (int q = 0; q <= p; ++q) *value++ = K.block(s)(p, q);
-      }
-    }
+    double* value = copy_values(K, matrix_.value.data());
     for (std::size_t t = 0; t < terms.size(); ++t) {
       const SymmetricMatrix& C = terms[t].pressure->compliance();
       for (int c = 0; c < C.size(); ++c) {
@@ -79,6 +65,8 @@ class SaddlePointMatrix {
 
   const SymmetricMatrix& matrix() const { return matrix_; }
   const std::vector<int>& signs() const { return signs_; }
+  /// Nodes and pressures, of each unknown.
+  const std::vector<int>& groups() const { return groups_; }
 
  private:
   struct Entry {
@@ -100,12 +88,10 @@ class SaddlePointMatrix {
     std::vector<std::vector<Entry>> of_pressure;
   };
 
-  void end_column() { matrix_.begin.push_back(static_cast<int>(matrix_.row.size())); }
-
   std::uint64_t pattern_id_ = 0;
   std::vector<Pattern> patterns_;
-  SymmetricMatrix matrix_{.begin = {0}, .row = {}, .value = {}};
-  std::vector<int> signs_;
+  SymmetricMatrix matrix_;
+  std::vector<int> signs_, groups_;
 };
 
 /// y = A x, from the lower half of A.
@@ -126,8 +112,8 @@ void multiply_mirrored(const BlockMatrix& A, const Eigen::VectorXd& x, Eigen::Ve
 
 class SaddlePointSolver final : public LinearSolver {
  public:
-  SaddlePointSolver(double tolerance, int max_iterations)
-      : tolerance_(tolerance), max_iterations_(max_iterations) {}
+  SaddlePointSolver(double tolerance, int max_iterations, std::shared_ptr<ThreadPool> pool)
+      : tolerance_(tolerance), max_iterations_(max_iterations), factor_(std::move(pool)) {}
 
   using LinearSolver::prepare;
   FactorStatus prepare(const BlockMatrix& A, const Positions& x) override {
@@ -142,7 +128,7 @@ class SaddlePointSolver final : public LinearSolver {
     assert(plain.num_blocks() == A.num_blocks());
     if (!analyzed_ || !saddle_.has_pattern_of(plain, part.terms)) {
       saddle_.take_pattern(plain, part.terms);
-      factor_.analyze(saddle_.matrix(), saddle_.signs());
+      factor_.analyze(saddle_.matrix(), saddle_.signs(), saddle_.groups());
       analyzed_ = true;
     }
     saddle_.take_values(plain, part.terms);
@@ -191,14 +177,15 @@ FactorStatus LinearSolver::prepare_with_pressure(const BlockMatrix&, const Posit
   throw std::logic_error("this linear solver has no way to add the terms of a nodal pressure");
 }
 
-std::unique_ptr<LinearSolver> make_saddle_point_solver(double tolerance, int max_iterations) {
+std::unique_ptr<LinearSolver> make_saddle_point_solver(double tolerance, int max_iterations,
+                                                       std::shared_ptr<ThreadPool> pool) {
   if (!(tolerance > 0) || max_iterations < 1) {
     std::ostringstream message;
     message << "saddle point solver: tolerance is " << tolerance << ", must be positive; at most "
             << max_iterations << " iterations, must be at least 1";
     throw std::invalid_argument(message.str());
   }
-  return std::make_unique<SaddlePointSolver>(tolerance, max_iterations);
+  return std::make_unique<SaddlePointSolver>(tolerance, max_iterations, std::move(pool));
 }
 
 }  // namespace articular::fem

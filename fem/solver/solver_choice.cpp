@@ -119,9 +119,9 @@ std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, dou
   std::unique_ptr<LinearSolver> solver;
   switch (choice.kind) {
     case SolverKind::Cholesky:
-      return make_cholesky();
+      return make_cholesky(std::move(pool));
     case SolverKind::SaddlePoint:
-      solver = make_saddle_point_solver(tolerance, max_iterations);
+      solver = make_saddle_point_solver(tolerance, max_iterations, std::move(pool));
       break;
     case SolverKind::ConjugateGradients:
       solver = make_conjugate_gradients(tolerance, max_iterations);

@@ -3,12 +3,13 @@
 #include <cblas.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
+#include <utility>
 
 #include "fem/sparse/cholmod_handles.hpp"
+#include "fem/sparse/supernodes.hpp"
 
 namespace articular::fem {
 namespace {
@@ -18,6 +19,9 @@ constexpr int kSmallBlock = 24;
 
 // Supernodes up to this many columns are solved by plain loops: a call of BLAS would cost more.
 constexpr int kFewColumns = 6;
+
+// Columns and rows of a supernode that are one task.
+constexpr int kPiece = 96;
 
 /// The dense block A = L S Lᵀ in place (lower half, column-major, n columns of stride ld).
 bool factorize_dense(int n, double* A, int ld, const double* sign, double* work) {
@@ -55,184 +59,238 @@ bool factorize_dense(int n, double* A, int ld, const double* sign, double* work)
   return factorize_dense(n2, A22, ld, sign + n1, work);
 }
 
-}  // namespace
-
-void SymmetricMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
-  assert(x.size() == size() && &x != &y);
-  y.setZero(x.size());
-  for (int j = 0; j < size(); ++j) {
-    double sum = 0;
-    for (int k = begin[j]; k < begin[j + 1]; ++k) {
-      if (row[k] == j) {
-        sum += value[k] * x[j];
-      } else {
-        sum += value[k] * x[row[k]];
-        y[row[k]] += value[k] * x[j];
-      }
-    }
-    y[j] += sum;
+/// Rows `first` and on of L below a dense block, from those of A: A21 = L21 S1 L11ᵀ.
+void factorize_below(int n, int num_rows, const double* L11, double* A21, int ld,
+                     const double* sign) {
+  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, num_rows, n, 1, L11,
+              ld, A21, ld);
+  for (int j = 0; j < n; ++j) {
+    if (sign[j] > 0) continue;
+    double* column = A21 + std::ptrdiff_t{j} * ld;
+    for (int i = 0; i < num_rows; ++i) column[i] = -column[i];
   }
 }
 
-/// Supernode s: columns [first_column[s], first_column[s+1]) of the ordered matrix, which have the
-/// rows row[row_begin[s] .. row_begin[s+1]) in common, its own columns first. Its dense block
-/// starts at value[value_begin[s]], column-major.
-struct SignedCholesky::Factor {
-  std::vector<int> order, inverse_order;  // ordered -> given, given -> ordered
-  std::vector<int> first_column, row_begin, row;
-  std::vector<int> supernode;  // of each column
-  std::vector<std::ptrdiff_t> value_begin;
-  std::vector<std::ptrdiff_t> target;  // of the entries of A among the values
-  std::vector<double> value, sign;     // sign: ordered
-  // Work of factorize(): descendants waiting for their next supernode, rows, products.
-  std::vector<int> head, next, progress, local_row;
-  std::vector<double> product, scaled;
-  mutable Eigen::VectorXd ordered, below;  // work of solve()
-
-  int num_supernodes() const { return static_cast<int>(first_column.size()) - 1; }
-  int num_columns(int s) const { return first_column[s + 1] - first_column[s]; }
-  int num_rows(int s) const { return row_begin[s + 1] - row_begin[s]; }
-
-  void take_symbolic(const cholmod_factor& L);
-  void find_targets(const SymmetricMatrix& A);
-  void allocate_work();
-  void subtract_descendant(int d, int s);
-  bool factorize_supernode(int s);
-  void solve_forward(int s, Eigen::VectorXd& y) const;
-  void solve_backward(int s, Eigen::VectorXd& y) const;
+/// Rows of a supernode that lie next to each other in another.
+struct Run {
+  int begin, end;  // rows of the one
+  int place;       // row of the other that `begin` is
 };
 
-SignedCholesky::SignedCholesky() { use_one_blas_thread(); }
+/// Of one thread.
+struct Scratch {
+  std::vector<int> local_row;           // of the ordered rows in the supernode at hand
+  std::vector<double> product, scaled;  // of a descendant
+  std::vector<Run> runs;
+  Eigen::VectorXd below;
+};
+
+int pieces_of(int size) { return (size + kPiece - 1) / kPiece; }
+
+}  // namespace
+
+struct SignedCholesky::Factor {
+  Supernodes nodes;
+  std::vector<double> value, sign;        // sign: ordered
+  std::vector<char> is_positive;          // all signs of a supernode are +
+  std::vector<int> head, next, progress;  // descendants that wait for their next supernode
+  mutable std::vector<Scratch> scratch;   // by worker
+  mutable Eigen::VectorXd ordered;        // work of solve(): the unknowns, the rows above subtrees
+
+  void allocate_work(int num_threads);
+  void start(const SymmetricMatrix& A, int s, int from, int to);
+  void locate_rows(int s, Scratch& work) const;
+  void subtract(int d, int first, int last, int s, Scratch& work);
+  int rows_before(int d, int first, int column) const;
+  void enqueue(int d, int end);
+  bool factorize_subtree(const SymmetricMatrix& A, const Supernodes::Subtree& subtree,
+                         Scratch& work);
+  bool factorize_top(const SymmetricMatrix& A, int s, ThreadPool& pool);
+  void solve_forward(int s, std::span<const int> rows, Eigen::VectorXd& y, Scratch& work) const;
+  void solve_backward(int s, Eigen::VectorXd& y, Scratch& work) const;
+};
+
+SignedCholesky::SignedCholesky(std::shared_ptr<ThreadPool> pool) : pool_(std::move(pool)) {
+  use_one_blas_thread();
+}
 SignedCholesky::~SignedCholesky() = default;
 SignedCholesky::SignedCholesky(SignedCholesky&&) noexcept = default;
 SignedCholesky& SignedCholesky::operator=(SignedCholesky&&) noexcept = default;
 
-void SignedCholesky::Factor::take_symbolic(const cholmod_factor& L) {
-  const auto ints = [](const void* data, std::size_t count) {
-    return std::vector<int>(static_cast<const int*>(data), static_cast<const int*>(data) + count);
-  };
-  order = ints(L.Perm, L.n);
-  inverse_order.resize(order.size());
-  for (int i = 0; i < static_cast<int>(order.size()); ++i) inverse_order[order[i]] = i;
-  first_column = ints(L.super, L.nsuper + 1);
-  row_begin = ints(L.pi, L.nsuper + 1);
-  row = ints(L.s, L.ssize);
-  supernode.resize(order.size());
-  value_begin.assign(1, 0);
-  for (int s = 0; s < num_supernodes(); ++s) {
-    std::fill(supernode.begin() + first_column[s], supernode.begin() + first_column[s + 1], s);
-    value_begin.push_back(value_begin.back() + std::ptrdiff_t{num_columns(s)} * num_rows(s));
-  }
-}
-
-void SignedCholesky::Factor::find_targets(const SymmetricMatrix& A) {
-  target.clear();
-  target.reserve(A.row.size());
-  for (int j = 0; j < A.size(); ++j) {
-    for (int k = A.begin[j]; k < A.begin[j + 1]; ++k) {
-      const auto [low, high] = std::minmax({inverse_order[j], inverse_order[A.row[k]]});
-      const int s = supernode[low];
-      const auto begin = row.begin() + row_begin[s], end = row.begin() + row_begin[s + 1];
-      const auto found = std::lower_bound(begin, end, high);
-      assert(found != end && *found == high);
-      target.push_back(value_begin[s] + std::ptrdiff_t{low - first_column[s]} * num_rows(s) +
-                       (found - begin));
-    }
-  }
-}
-
-void SignedCholesky::Factor::allocate_work() {
-  value.resize(static_cast<std::size_t>(value_begin.back()));
-  head.resize(static_cast<std::size_t>(num_supernodes()));
+void SignedCholesky::Factor::allocate_work(int num_threads) {
+  value.resize(static_cast<std::size_t>(nodes.value_begin.back()));
+  head.resize(static_cast<std::size_t>(nodes.count()));
   next.resize(head.size());
   progress.resize(head.size());
-  local_row.resize(order.size());
   std::size_t largest_product = 0, largest_scaled = 0;
   int most_rows = 0;
-  for (int s = 0; s < num_supernodes(); ++s) {
-    const auto rows = static_cast<std::size_t>(num_rows(s)),
-               columns = static_cast<std::size_t>(num_columns(s));
+  for (int s = 0; s < nodes.count(); ++s) {
+    const auto rows = static_cast<std::size_t>(nodes.num_rows(s)),
+               columns = static_cast<std::size_t>(nodes.num_columns(s));
     // Rows that one ancestor takes at a time are its columns.
     std::size_t group = 0;
-    for (int k = row_begin[s] + num_columns(s); k < row_begin[s + 1]; ++k) {
-      group = supernode[row[k]] == supernode[row[k - 1]] ? group + 1 : 1;
+    for (int k = nodes.row_begin[s] + nodes.num_columns(s); k < nodes.row_begin[s + 1]; ++k) {
+      group = nodes.of_column[nodes.row[k]] == nodes.of_column[nodes.row[k - 1]] ? group + 1 : 1;
       largest_product = std::max(largest_product, group * rows);
       largest_scaled = std::max(largest_scaled, group * columns);
     }
     largest_scaled = std::max(largest_scaled, columns * columns);  // of factorize_dense
-    most_rows = std::max(most_rows, num_rows(s));
+    most_rows = std::max(most_rows, nodes.num_rows(s));
   }
-  product.resize(largest_product);
-  scaled.resize(largest_scaled);
-  ordered.resize(static_cast<Eigen::Index>(order.size()));
-  below.resize(most_rows);
+  scratch.resize(static_cast<std::size_t>(num_threads));
+  for (Scratch& work : scratch) {
+    work.local_row.resize(nodes.order.size());
+    work.product.resize(largest_product);
+    work.scaled.resize(largest_scaled);
+    work.below.resize(most_rows);
+  }
+  ordered.resize(nodes.size() + nodes.num_above);
 }
 
-void SignedCholesky::analyze(const SymmetricMatrix& A, std::span<const int> signs) {
+void SignedCholesky::analyze(const SymmetricMatrix& A, std::span<const int> signs,
+                             std::span<const int> group) {
   assert(signs.size() == static_cast<std::size_t>(A.size()));
   factor_ = std::make_unique<Factor>();
-  CholmodCommon common;
-  const auto n = static_cast<std::size_t>(A.size());
-  cholmod_sparse view{};
-  view.nrow = view.ncol = n;
-  view.nzmax = A.row.size();
-  view.p = const_cast<int*>(A.begin.data());
-  view.i = const_cast<int*>(A.row.data());
-  view.stype = 1;
-  view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_PATTERN;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = view.packed = 1;
-  common->nmethods = 1;
-  common->method[0].ordering = CHOLMOD_NESDIS;  // as in cholesky.cpp
-  common->supernodal = CHOLMOD_SUPERNODAL;
-  const OneThread one_thread;
-  CholmodHandle<cholmod_factor> L(cholmod_analyze(&view, common.get()), CholmodFree{common.get()});
-  common.check();
-  factor_->take_symbolic(*L);
-  factor_->find_targets(A);
-  factor_->allocate_work();
-  for (const int given : factor_->order) factor_->sign.push_back(signs[given]);
+  Factor& L = *factor_;
+  L.nodes = find_supernodes(A, group);
+  L.allocate_work(pool_->num_threads());
+  for (const int given : L.nodes.order) L.sign.push_back(signs[given]);
+  for (int s = 0; s < L.nodes.count(); ++s)
+    L.is_positive.push_back(std::all_of(L.sign.begin() + L.nodes.first_column[s],
+                                        L.sign.begin() + L.nodes.first_column[s + 1],
+                                        [](double sign) { return sign > 0; }));
 }
 
-/// Block of s −= L_d S_d L_dᵀ, the rows of d from its progress on.
-void SignedCholesky::Factor::subtract_descendant(int d, int s) {
-  const int columns = num_columns(d), ld = num_rows(d), first = progress[d];
-  const int* rows = row.data() + row_begin[d];
-  int last = first;
-  while (last < ld && rows[last] < first_column[s + 1]) ++last;
+/// Columns from .. to of a supernode become those of A.
+void SignedCholesky::Factor::start(const SymmetricMatrix& A, int s, int from, int to) {
+  const int ld = nodes.num_rows(s);
+  double* block = value.data() + nodes.value_begin[s];
+  std::fill(block + std::ptrdiff_t{from} * ld, block + std::ptrdiff_t{to} * ld, 0.0);
+  const auto entries =
+      std::span(nodes.entry)
+          .subspan(static_cast<std::size_t>(nodes.entry_begin[s]),
+                   static_cast<std::size_t>(nodes.entry_begin[s + 1] - nodes.entry_begin[s]));
+  auto entry = std::lower_bound(entries.begin(), entries.end(), from * ld,
+                                [](const auto& e, int place) { return e.place < place; });
+  for (; entry != entries.end() && entry->place < to * ld; ++entry)
+    block[entry->place] += A.value[entry->k];
+}
+
+void SignedCholesky::Factor::locate_rows(int s, Scratch& work) const {
+  for (int i = 0; i < nodes.num_rows(s); ++i) work.local_row[nodes.row[nodes.row_begin[s] + i]] = i;
+}
+
+/// The first row of d, from `first` on, that is not before a column.
+int SignedCholesky::Factor::rows_before(int d, int first, int column) const {
+  const int* rows = nodes.row.data() + nodes.row_begin[d];
+  return static_cast<int>(std::lower_bound(rows + first, rows + nodes.num_rows(d), column) - rows);
+}
+
+/// Block of s −= L_d S_d L_dᵀ, columns that are the rows first .. last of d.
+void SignedCholesky::Factor::subtract(int d, int first, int last, int s, Scratch& work) {
+  if (first == last) return;
+  const int columns = nodes.num_columns(d), ld = nodes.num_rows(d), ld_s = nodes.num_rows(s);
+  const int* rows = nodes.row.data() + nodes.row_begin[d];
   const int m = ld - first, n = last - first;
-  const double* L = value.data() + value_begin[d] + first;
-  for (int k = 0; k < columns; ++k) {
-    const double sign_k = sign[first_column[d] + k];
-    for (int j = 0; j < n; ++j) {
-      scaled[static_cast<std::size_t>(k) * n + j] = sign_k * L[std::ptrdiff_t{k} * ld + j];
+  const double* L = value.data() + nodes.value_begin[d] + first;
+  const double* right = L;
+  int ld_right = ld;
+  if (is_positive[d] == 0) {
+    const double* signs = sign.data() + nodes.first_column[d];
+    for (int k = 0; k < columns; ++k)
+      for (int j = 0; j < n; ++j)
+        work.scaled[static_cast<std::size_t>(k) * n + j] = signs[k] * L[std::ptrdiff_t{k} * ld + j];
+    right = work.scaled.data();
+    ld_right = n;
+  }
+  double* block = value.data() + nodes.value_begin[s];
+  const auto column_of = [&](int row) {
+    return block + std::ptrdiff_t{row - nodes.first_column[s]} * ld_s;
+  };
+  const int place = work.local_row[rows[first]];
+  if (work.local_row[rows[ld - 1]] - place == m - 1) {  // rows and columns lie next to each other
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, m, n, columns, -1, L, ld, right, ld_right,
+                1, column_of(rows[first]) + place, ld_s);
+    return;
+  }
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, m, n, columns, 1, L, ld, right, ld_right, 0,
+              work.product.data(), m);
+  work.runs.clear();
+  for (int i = 0; i < m; ++i) {
+    const int at = work.local_row[rows[first + i]];
+    if (i == 0 || at != work.runs.back().place + i - work.runs.back().begin)
+      work.runs.push_back({i, i, at});
+    work.runs.back().end = i + 1;
+  }
+  for (int j = 0; j < n; ++j) {
+    double* column = column_of(rows[first + j]);
+    const double* from = work.product.data() + std::ptrdiff_t{j} * m;
+    for (const Run& run : work.runs) {
+      double* to = column + run.place;
+      const double* part = from + run.begin;
+      for (int i = 0; i < run.end - run.begin; ++i) to[i] -= part[i];
     }
   }
-  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, m, n, columns, 1, L, ld, scaled.data(), n, 0,
-              product.data(), m);
-  double* block = value.data() + value_begin[s];
-  for (int j = 0; j < n; ++j) {
-    double* column = block + std::ptrdiff_t{rows[first + j] - first_column[s]} * num_rows(s);
-    const double* from = product.data() + std::ptrdiff_t{j} * m;
-    for (int i = j; i < m; ++i) column[local_row[rows[first + i]]] -= from[i];
-  }
-  progress[d] = last;
 }
 
-bool SignedCholesky::Factor::factorize_supernode(int s) {
-  const int n = num_columns(s), ld = num_rows(s);
-  double* block = value.data() + value_begin[s];
-  const double* sign_s = sign.data() + first_column[s];
-  if (!factorize_dense(n, block, ld, sign_s, scaled.data())) return false;
-  if (ld == n) return true;
-  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, ld - n, n, 1, block,
-              ld, block + n, ld);
-  for (int j = 0; j < n; ++j) {
-    if (sign_s[j] > 0) continue;
-    double* column = block + std::ptrdiff_t{j} * ld;
-    for (int i = n; i < ld; ++i) column[i] = -column[i];
+/// A supernode waits in the list of the one that holds its next row, if that is before `end`.
+void SignedCholesky::Factor::enqueue(int d, int end) {
+  if (progress[d] == nodes.num_rows(d)) return;
+  const int target = nodes.of_column[nodes.row[nodes.row_begin[d] + progress[d]]];
+  if (target >= end) return;
+  next[d] = head[target];
+  head[target] = d;
+}
+
+bool SignedCholesky::Factor::factorize_subtree(const SymmetricMatrix& A,
+                                               const Supernodes::Subtree& subtree, Scratch& work) {
+  for (int s = subtree.begin; s < subtree.end; ++s) {
+    const int n = nodes.num_columns(s), ld = nodes.num_rows(s);
+    start(A, s, 0, n);
+    locate_rows(s, work);
+    for (int d = std::exchange(head[s], -1), following; d >= 0; d = following) {
+      following = next[d];
+      const int first =
+          std::exchange(progress[d], rows_before(d, progress[d], nodes.first_column[s + 1]));
+      subtract(d, first, progress[d], s, work);
+      enqueue(d, subtree.end);
+    }
+    double* block = value.data() + nodes.value_begin[s];
+    const double* signs = sign.data() + nodes.first_column[s];
+    if (!factorize_dense(n, block, ld, signs, work.scaled.data())) return false;
+    if (ld > n) factorize_below(n, ld - n, block, block + n, ld, signs);
+    progress[s] = n;
+    enqueue(s, subtree.end);
   }
+  return true;
+}
+
+/// The same by pieces of the columns, and of the rows below.
+bool SignedCholesky::Factor::factorize_top(const SymmetricMatrix& A, int s, ThreadPool& pool) {
+  const int n = nodes.num_columns(s), ld = nodes.num_rows(s), column = nodes.first_column[s];
+  double* block = value.data() + nodes.value_begin[s];
+  const double* signs = sign.data() + column;
+  pool.run(pieces_of(n), [&](int piece, int worker) {
+    Scratch& work = scratch[static_cast<std::size_t>(worker)];
+    const int from = piece * kPiece, to = std::min(from + kPiece, n);
+    start(A, s, from, to);
+    locate_rows(s, work);
+    for (int d = head[s]; d >= 0; d = next[d])
+      subtract(d, rows_before(d, progress[d], column + from),
+               rows_before(d, progress[d], column + to), s, work);
+  });
+  for (int d = std::exchange(head[s], -1), following; d >= 0; d = following) {
+    following = next[d];
+    progress[d] = rows_before(d, progress[d], nodes.first_column[s + 1]);
+    enqueue(d, nodes.count());
+  }
+  if (!factorize_dense(n, block, ld, signs, scratch[0].scaled.data())) return false;
+  pool.run(pieces_of(ld - n), [&](int piece, int) {
+    const int from = n + piece * kPiece;
+    factorize_below(n, std::min(kPiece, ld - from), block, block + from, ld, signs);
+  });
+  progress[s] = n;
+  enqueue(s, nodes.count());
   return true;
 }
 
@@ -241,39 +299,30 @@ bool SignedCholesky::Factor::factorize_supernode(int s) {
 //
 // [Ng 1993] Ng, Peyton. Block sparse Cholesky algorithms. SIAM J. Sci. Comput. 14:1034.
 bool SignedCholesky::factorize(const SymmetricMatrix& A) {
-  assert(factor_ && A.value.size() == factor_->target.size());
+  assert(factor_ && A.value.size() == factor_->nodes.entry.size());
   Factor& L = *factor_;
-  const OneThread one_thread;
-  std::fill(L.value.begin(), L.value.end(), 0.0);
-  for (std::size_t k = 0; k < A.value.size(); ++k) L.value[L.target[k]] += A.value[k];
+  const Supernodes& nodes = L.nodes;
   std::fill(L.head.begin(), L.head.end(), -1);
-  // A supernode waits in the list of the one that holds its next row.
-  const auto enqueue = [&](int d) {
-    if (L.progress[d] == L.num_rows(d)) return;
-    int& head = L.head[L.supernode[L.row[L.row_begin[d] + L.progress[d]]]];
-    L.next[d] = head;
-    head = d;
-  };
-  for (int s = 0; s < L.num_supernodes(); ++s) {
-    for (int i = 0; i < L.num_rows(s); ++i) L.local_row[L.row[L.row_begin[s] + i]] = i;
-    for (int d = L.head[s], following; d >= 0; d = following) {
-      following = L.next[d];
-      L.subtract_descendant(d, s);
-      enqueue(d);
-    }
-    if (!L.factorize_supernode(s)) return false;
-    L.progress[s] = L.num_columns(s);
-    enqueue(s);
-  }
-  return true;
+  std::atomic<bool> is_definite = true;
+  pool_->run(static_cast<int>(nodes.subtrees.size()), [&](int k, int worker) {
+    if (is_definite && !L.factorize_subtree(A, nodes.subtrees[static_cast<std::size_t>(k)],
+                                            L.scratch[static_cast<std::size_t>(worker)]))
+      is_definite = false;
+  });
+  if (!is_definite) return false;
+  for (const Supernodes::Subtree& subtree : nodes.subtrees)
+    for (int d = subtree.begin; d < subtree.end; ++d) L.enqueue(d, nodes.count());
+  return std::all_of(nodes.top.begin(), nodes.top.end(),
+                     [&](int s) { return L.factorize_top(A, s, *pool_); });
 }
 
 /// y ← L⁻¹ y in the columns of s, and what follows from it below.
-void SignedCholesky::Factor::solve_forward(int s, Eigen::VectorXd& y) const {
-  const int n = num_columns(s), ld = num_rows(s);
-  const double* block = value.data() + value_begin[s];
-  double* own = y.data() + first_column[s];
-  const int* rows = row.data() + row_begin[s];
+/// @param rows  of s, as they are numbered in y
+void SignedCholesky::Factor::solve_forward(int s, std::span<const int> rows, Eigen::VectorXd& y,
+                                           Scratch& work) const {
+  const int n = nodes.num_columns(s), ld = nodes.num_rows(s);
+  const double* block = value.data() + nodes.value_begin[s];
+  double* own = y.data() + nodes.first_column[s];
   if (n <= kFewColumns) {
     for (int j = 0; j < n; ++j, block += ld) {
       const double y_j = own[j] /= block[j];
@@ -283,16 +332,17 @@ void SignedCholesky::Factor::solve_forward(int s, Eigen::VectorXd& y) const {
   }
   cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, block, ld, own, 1);
   if (ld == n) return;
-  cblas_dgemv(CblasColMajor, CblasNoTrans, ld - n, n, 1, block + n, ld, own, 1, 0, below.data(), 1);
-  for (int i = n; i < ld; ++i) y[rows[i]] -= below[i - n];
+  cblas_dgemv(CblasColMajor, CblasNoTrans, ld - n, n, 1, block + n, ld, own, 1, 0,
+              work.below.data(), 1);
+  for (int i = n; i < ld; ++i) y[rows[i]] -= work.below[i - n];
 }
 
 /// y ← L⁻ᵀ y in the columns of s, from what is known below.
-void SignedCholesky::Factor::solve_backward(int s, Eigen::VectorXd& y) const {
-  const int n = num_columns(s), ld = num_rows(s);
-  const double* block = value.data() + value_begin[s];
-  double* own = y.data() + first_column[s];
-  const int* rows = row.data() + row_begin[s];
+void SignedCholesky::Factor::solve_backward(int s, Eigen::VectorXd& y, Scratch& work) const {
+  const int n = nodes.num_columns(s), ld = nodes.num_rows(s);
+  const double* block = value.data() + nodes.value_begin[s];
+  double* own = y.data() + nodes.first_column[s];
+  const int* rows = nodes.row.data() + nodes.row_begin[s];
   if (n <= kFewColumns) {
     for (int j = n - 1; j >= 0; --j) {
       const double* column = block + std::ptrdiff_t{j} * ld;
@@ -303,23 +353,47 @@ void SignedCholesky::Factor::solve_backward(int s, Eigen::VectorXd& y) const {
     return;
   }
   if (ld > n) {
-    for (int i = n; i < ld; ++i) below[i - n] = y[rows[i]];
-    cblas_dgemv(CblasColMajor, CblasTrans, ld - n, n, -1, block + n, ld, below.data(), 1, 1, own,
-                1);
+    for (int i = n; i < ld; ++i) work.below[i - n] = y[rows[i]];
+    cblas_dgemv(CblasColMajor, CblasTrans, ld - n, n, -1, block + n, ld, work.below.data(), 1, 1,
+                own, 1);
   }
   cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, block, ld, own, 1);
 }
 
 void SignedCholesky::solve(Eigen::VectorXd& x) const {
-  assert(factor_ && x.size() == static_cast<Eigen::Index>(factor_->order.size()));
+  assert(factor_ && x.size() == factor_->nodes.size());
   const Factor& L = *factor_;
-  const OneThread one_thread;
+  const Supernodes& nodes = L.nodes;
+  const int n = nodes.size(), num_subtrees = static_cast<int>(nodes.subtrees.size());
   Eigen::VectorXd& y = L.ordered;
-  for (Eigen::Index i = 0; i < y.size(); ++i) y[i] = x[L.order[i]];
-  for (int s = 0; s < L.num_supernodes(); ++s) L.solve_forward(s, y);
-  for (Eigen::Index i = 0; i < y.size(); ++i) y[i] *= L.sign[i];
-  for (int s = L.num_supernodes() - 1; s >= 0; --s) L.solve_backward(s, y);
-  for (Eigen::Index i = 0; i < y.size(); ++i) x[L.order[i]] = y[i];
+  for (int i = 0; i < n; ++i) y[i] = x[nodes.order[i]];
+  y.tail(nodes.num_above).setZero();
+  const auto rows = [&](const std::vector<int>& of, int s) {
+    return std::span(of).subspan(static_cast<std::size_t>(nodes.row_begin[s]),
+                                 static_cast<std::size_t>(nodes.num_rows(s)));
+  };
+  pool_->run(num_subtrees, [&](int k, int worker) {
+    const auto [begin, end, above] = nodes.subtrees[static_cast<std::size_t>(k)];
+    for (int s = begin; s < end; ++s)
+      L.solve_forward(s, rows(nodes.forward_row, s), y,
+                      L.scratch[static_cast<std::size_t>(worker)]);
+  });
+  for (const auto& [begin, end, above] : nodes.subtrees) {
+    const auto of_root =
+        rows(nodes.row, end - 1).subspan(static_cast<std::size_t>(nodes.num_columns(end - 1)));
+    for (std::size_t i = 0; i < of_root.size(); ++i)
+      y[of_root[i]] += y[n + above + static_cast<int>(i)];
+  }
+  for (const int s : nodes.top) L.solve_forward(s, rows(nodes.row, s), y, L.scratch[0]);
+  for (int i = 0; i < n; ++i) y[i] *= L.sign[static_cast<std::size_t>(i)];
+  for (auto s = nodes.top.rbegin(); s != nodes.top.rend(); ++s)
+    L.solve_backward(*s, y, L.scratch[0]);
+  pool_->run(num_subtrees, [&](int k, int worker) {
+    const auto [begin, end, above] = nodes.subtrees[static_cast<std::size_t>(k)];
+    for (int s = end - 1; s >= begin; --s)
+      L.solve_backward(s, y, L.scratch[static_cast<std::size_t>(worker)]);
+  });
+  for (int i = 0; i < n; ++i) x[nodes.order[i]] = y[i];
 }
 
 std::size_t SignedCholesky::num_nonzeros() const { return factor_ ? factor_->value.size() : 0; }

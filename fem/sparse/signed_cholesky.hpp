@@ -3,37 +3,33 @@
 #include <Eigen/Core>
 #include <memory>
 #include <span>
-#include <vector>
+
+#include "fem/sparse/symmetric_matrix.hpp"
+#include "parallel/thread_pool.hpp"
 
 namespace articular::fem {
-
-/// A symmetric matrix of numbers: the upper half in compressed columns, rows ascending in each.
-struct SymmetricMatrix {
-  std::vector<int> begin;  // size() + 1
-  std::vector<int> row;    // ≤ its column
-  std::vector<double> value;
-
-  int size() const { return static_cast<int>(begin.size()) - 1; }
-  /// y = A x
-  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
-};
 
 /// L S Lᵀ of a sparse symmetric matrix, S = diag(±1) with signs known before. Such a factorization
 /// exists in every order of the unknowns where the matrix is quasi-definite [Vanderbei 1995], that
 /// is [K G; Gᵀ −A] with positive definite K and A: pivots need no search, and the fill-reducing
 /// order and the dense blocks (BLAS) of a Cholesky factorization serve. With all signs + it is one.
 ///
+/// Subtrees of the elimination tree are factored and solved side by side, then what lies above them
+/// by pieces of its columns; the answer has the same bits with any number of threads.
+///
 /// [Vanderbei 1995] Vanderbei. Symmetric quasidefinite matrices. SIAM J. Optim. 5:100.
 class SignedCholesky {
  public:
-  SignedCholesky();
+  explicit SignedCholesky(std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1));
   ~SignedCholesky();
   SignedCholesky(SignedCholesky&&) noexcept;
   SignedCholesky& operator=(SignedCholesky&&) noexcept;
 
   /// Orders the unknowns and finds the pattern of L.
   /// @param signs  +1 or −1, one an unknown
-  void analyze(const SymmetricMatrix& A, std::span<const int> signs);
+  /// @param group  see find_supernodes()
+  void analyze(const SymmetricMatrix& A, std::span<const int> signs,
+               std::span<const int> group = {});
   /// For values in the pattern of analyze().
   /// @return false where a pivot has the wrong sign or is not finite: not quasi-definite
   [[nodiscard]] bool factorize(const SymmetricMatrix& A);
@@ -45,6 +41,7 @@ class SignedCholesky {
  private:
   struct Factor;
   std::unique_ptr<Factor> factor_;
+  std::shared_ptr<ThreadPool> pool_;
 };
 
 }  // namespace articular::fem

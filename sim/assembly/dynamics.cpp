@@ -27,7 +27,7 @@ Dynamics::Dynamics(const Model& model)
 
 void Dynamics::set_candidates(std::span<const CandidateList> candidates) {
   candidates_ = candidates;
-  matrix_.couple(candidates);
+  matrix_.set_candidates(candidates);
 }
 
 void Dynamics::forget() {

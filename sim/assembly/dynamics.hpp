@@ -45,7 +45,7 @@ class Dynamics {
   Dynamics(const Dynamics&) = delete;
   Dynamics& operator=(const Dynamics&) = delete;
 
-  /// The candidates for the coming step; their couplings enter the pattern.
+  /// The candidates for the coming step, which are referred to.
   void set_candidates(std::span<const CandidateList> candidates);
   /// Drops what depends on the past: couplings of earlier candidates, multipliers and duals.
   void forget();

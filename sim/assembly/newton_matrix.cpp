@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "fem/element/smoothed_elasticity.hpp"
-#include "sim/contact/contact_stencils.hpp"
 #include "sim/loads/surface_load.hpp"
 #include "sim/model/held_blocks.hpp"
 
@@ -116,10 +115,11 @@ Stencils NewtonMatrix::base_stencils(bool smoothing) const {
   return base;
 }
 
-void NewtonMatrix::couple(std::span<const CandidateList> candidates) {
-  const std::size_t known = contacts_.blocks.size();
-  append_missing_stencils(model_, candidates, smoothed_ ? plain_ : A_, contacts_);
-  if (contacts_.blocks.size() > known) build_pattern();
+void NewtonMatrix::couple_contacts(const Moment& now) {
+  const fem::BlockMatrix& common = smoothed_ ? plain_ : A_;
+  if (!lacks_stencils(model_, now.contact.pair_states(), common, blocks_of_groups_)) return;
+  append_missing_stencils(model_, candidates_, common, contacts_);
+  build_pattern();
 }
 
 void NewtonMatrix::forget() {
@@ -291,6 +291,7 @@ void NewtonMatrix::add_masses(const Configuration& now, const SystemScale& scale
 
 const fem::BlockMatrix& NewtonMatrix::assemble(const Moment& now, const SystemScale& scale,
                                                fem::Tangent tangent) {
+  couple_contacts(now);
   fem::BlockMatrix& common = smoothed_ ? plain_ : A_;
   common.set_zero();
   for (std::size_t t = 0; t < tissues_.size(); ++t) add_tissue(t, now, scale, tangent, common);

@@ -6,6 +6,7 @@
 
 #include "fem/solver/linear_solver.hpp"
 #include "sim/assembly/moment.hpp"
+#include "sim/contact/contact_stencils.hpp"
 #include "sim/contact/contact_stiffness.hpp"
 #include "sim/model/system_matrix.hpp"
 
@@ -17,8 +18,9 @@ class NewtonMatrix {
  public:
   explicit NewtonMatrix(const Model& model);
 
-  /// Candidates of the coming step: their couplings enter the pattern, and stay in it.
-  void couple(std::span<const CandidateList> candidates);
+  /// Candidates of the coming step: their couplings enter the pattern as soon as one is needed that
+  /// is not in it, and stay in it. They are referred to.
+  void set_candidates(std::span<const CandidateList> candidates) { candidates_ = candidates; }
   /// Drops the couplings of all candidates so far.
   void forget();
   std::uint64_t pattern_id() const { return A_.pattern_id(); }
@@ -53,6 +55,7 @@ class NewtonMatrix {
   };
   bool adds_directly(const Tissue& tissue) const;
   Stencils base_stencils(bool smoothing) const;
+  void couple_contacts(const Moment& now);
   void build_pattern();
   void make_pressure_gradient(std::size_t t);
   void set_pressure_gradient(std::size_t t, const Moment& now);
@@ -72,6 +75,8 @@ class NewtonMatrix {
   bool for_multigrid_ = false;  // what the plain matrix is for
   std::vector<TissueWork> tissues_;
   ContactStiffness contact_;
+  std::span<const CandidateList> candidates_;
+  BlocksOfGroups blocks_of_groups_;
   Stencils base_, plain_base_, contacts_;
   fem::BlockMatrix A_;
   fem::BlockMatrix plain_;          // with smoothed tissues: couplings of the elements alone

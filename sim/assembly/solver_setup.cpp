@@ -4,7 +4,7 @@ namespace articular::sim {
 namespace {
 
 /// Iterations stop here: Newton's iteration corrects the rest.
-constexpr double kLinearTolerance = 1e-6;
+constexpr double kLinearTolerance = 1e-3;
 constexpr int kMostLinearIterations = 2000;
 
 }  // namespace

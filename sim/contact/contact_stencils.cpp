@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "sim/contact/contact_pair_state.hpp"
-
 namespace articular::sim {
 namespace {
 
@@ -43,6 +41,40 @@ void append_missing_pairs(const Model& model, const CandidateList& list, const C
   }
 }
 
+bool is_averaged(const ContactModel& contact) { return contact.averaged || contact.law.acts(); }
+
+bool lacks_pair(const Model& model, const ContactPairState& pair_state, const fem::BlockMatrix& A) {
+  const ContactSides side = sides_of(model, pair_state);
+  std::vector<int> of_triangle, of_face;
+  for (const ContactPairState::Patch& entry : pair_state.patches()) {
+    if (!carries(pair_state, entry.triangle, side.triangles.groups)) continue;
+    find_blocks(model, side.triangles, entry.triangle, of_triangle);
+    find_blocks(model, side.faces, entry.face, of_face);
+    if (lacks(A, of_triangle, of_face)) return true;
+  }
+  return false;
+}
+
+bool lacks_average(const Model& model, const ContactPairState& pair_state,
+                   const fem::BlockMatrix& A, BlocksOfGroups& blocks) {
+  const ContactSides side = sides_of(model, pair_state);
+  if (blocks.size() < side.triangles.group_node.size())
+    blocks.resize(side.triangles.group_node.size());
+  const auto of_group = [&](int a) -> std::vector<int>& {
+    return blocks[static_cast<std::size_t>(a)];
+  };
+  for (const int a : pair_state.groups) of_group(a).clear();
+  for (const ContactPairState::Patch& entry : pair_state.patches())
+    for (const int a : side.triangles.groups.col(entry.triangle))
+      if (pair_state.pressure[a] > 0)
+        for (const NodeRef* node : nodes_of(side.triangles, side.faces, entry.triangle, entry.face))
+          append_blocks(model, *node, of_group(a));
+  return std::any_of(pair_state.groups.begin(), pair_state.groups.end(), [&](int a) {
+    sort_unique(of_group(a));
+    return lacks(A, of_group(a), of_group(a));
+  });
+}
+
 /// An average couples all that its group meets.
 void append_missing_averages(const Model& model, const CandidateList& list,
                              const Collider& triangles, const Collider& faces,
@@ -63,13 +95,20 @@ void append_missing_averages(const Model& model, const CandidateList& list,
 
 }  // namespace
 
+bool lacks_stencils(const Model& model, std::span<const ContactPairState* const> pair_states,
+                    const fem::BlockMatrix& A, BlocksOfGroups& blocks) {
+  return std::any_of(pair_states.begin(), pair_states.end(), [&](const ContactPairState* state) {
+    return is_averaged(state->pair) ? lacks_average(model, *state, A, blocks)
+                                    : lacks_pair(model, *state, A);
+  });
+}
+
 void append_missing_stencils(const Model& model, std::span<const CandidateList> candidates,
                              const fem::BlockMatrix& A, Stencils& stencils) {
   for (const CandidateList& list : candidates) {
     const ContactModel contact = model.contacts[list.contact];
     const ContactSides side = sides_of(model, contact);
-    const auto append =
-        contact.averaged || contact.law.acts() ? append_missing_averages : append_missing_pairs;
+    const auto append = is_averaged(contact) ? append_missing_averages : append_missing_pairs;
     append(model, list, side.triangles, side.faces, A, stencils);
   }
 }

@@ -29,6 +29,9 @@ bool is_under(const Vec3& x, const FaceBounds& face, double depth) {
   return face.normal.dot(face.corners.col(0) - x) > (1 - kRounding) * depth;
 }
 
+/// What moves less past each other, from such a depth, does not cross [m].
+double least_motion(double reach, double depth) { return kLeastOfReach * reach - depth; }
+
 bool look_apart(const Vec3& n, const Vec3& m) { return n.dot(m) < -kFacingNone; }
 
 /// A node of a surface, or the middle of an edge or face.
@@ -76,15 +79,34 @@ struct Moved {
   Mat3 face_to(int face) const { return to(Eigen::all, collider->surface.faces.col(face)); }
 };
 
+/// The way of a face [m].
+Box box_of_face(const Moved& surface, int face) {
+  Box box;
+  for (const int i : surface.collider->surface.faces.col(face))
+    box.extend(Vec3(surface.from.col(i))).extend(Vec3(surface.to.col(i)));
+  return box;
+}
+
+/// Of the nodes of those faces that come into a region.
+BodySweep sweep_within(const Moved& surface, const Box& region) {
+  BodySweep sweep;
+  for (int f = 0; f < surface.collider->surface.faces.cols(); ++f) {
+    if (!box_of_face(surface, f).intersects(region)) continue;
+    for (const int i : surface.collider->surface.faces.col(f))
+      sweep.add(surface.from.col(i), surface.to.col(i));
+  }
+  return sweep;
+}
+
+Box widened(const Box& box, double by) { return {box.min().array() - by, box.max().array() + by}; }
+
 /// The faces of a surface that come into a region, in the order of their low ends along an axis.
 class FacesNear {
  public:
   FacesNear(const Moved& surface, const Box& region) {
     region.sizes().maxCoeff(&axis_);
     for (int f = 0; f < surface.collider->surface.faces.cols(); ++f) {
-      Box box;
-      for (const int i : surface.collider->surface.faces.col(f))
-        box.extend(Vec3(surface.from.col(i))).extend(Vec3(surface.to.col(i)));
+      const Box box = box_of_face(surface, f);
       if (box.intersects(region)) entries_.push_back({f, box});
     }
     std::sort(entries_.begin(), entries_.end(), [&](const Entry& p, const Entry& q) {
@@ -128,9 +150,10 @@ class Passing {
       : body_(body),
         through_(through),
         reach_(reach),
+        least_motion_(least_motion(reach, depth)),
         known_(
             std::max(reach, through.encloses ? depth : std::min(depth, through.collider->reach))),
-        region_(widened(body.sweep.way.intersection(through.sweep.way))),
+        region_(widened(body.sweep.way.intersection(through.sweep.way), known_)),
         faces_near_(through, region_) {}
 
   void find(std::optional<Crossing>& deepest) {
@@ -140,10 +163,10 @@ class Passing {
       Box way;
       way.extend(from_).extend(to_);
       if (!way.intersects(region_)) continue;
-      faces_near_.find(widened(way), candidates_);
+      faces_near_.find(widened(way, known_), candidates_);
       std::erase_if(candidates_,
                     [&](int index) { return is_tied(point, faces_near_.face(index)); });
-      if (candidates_.empty()) continue;
+      if (most_relative_motion() < least_motion_) continue;
       const std::optional<Crossing> crossing = crossing_of(point);
       if (crossing && !(deepest && deepest->depth >= crossing->depth)) deepest = crossing;
     }
@@ -160,16 +183,23 @@ class Passing {
     int face;
   };
 
-  Box widened(const Box& box) const {
-    return {box.min().array() - known_, box.max().array() + known_};
-  }
-
   bool is_itself() const { return &body_ == &through_; }
 
   bool is_tied(const SurfacePoint& point, int face) const {
     return std::any_of(point.faces.begin(), point.faces.end(), [&](int own) {
       return are_tied(*body_.collider, own, *through_.collider, face);
     });
+  }
+
+  /// Of the point past the corners of the faces on its way [m].
+  double most_relative_motion() const {
+    double most = 0;
+    for (const int index : candidates_) {
+      const int face = faces_near_.face(index);
+      const Mat3 motion = through_.face_to(face) - through_.face_from(face);
+      most = std::max(most, (motion.colwise() - (to_ - from_)).colwise().squaredNorm().maxCoeff());
+    }
+    return std::sqrt(most);
   }
 
   std::optional<Crossing> crossing_of(const SurfacePoint& point) {
@@ -264,9 +294,10 @@ class Passing {
   }
 
   const Moved &body_, &through_;
-  double reach_;  // [m]
-  double known_;  // [m] no point lies deeper at the start without having lost its side
-  Box region_;    // both come into it
+  double reach_;         // [m]
+  double least_motion_;  // [m]
+  double known_;         // [m] no point lies deeper at the start without having lost its side
+  Box region_;           // both come into it
   FacesNear faces_near_;
   Vec3 from_ = Vec3::Zero(), to_ = Vec3::Zero();  // the point
   std::vector<int> candidates_, among_;
@@ -296,11 +327,18 @@ class CrossingSearch::Search {
       const ContactModel contact = model_.contacts[id];
       Moved &a = moved_of(contact.a), &b = moved_of(contact.b);
       const double of_a = reach(a, b, contact), of_b = reach(b, a, contact), depth = depths.of(id);
-      if (most_relative_motion(a.sweep, b.sweep) + depth < kLeastOfReach * std::min(of_a, of_b))
-        continue;
+      const double least = least_motion(std::min(of_a, of_b), depth);
+      if (most_relative_motion(a.sweep, b.sweep) < least) continue;
+      // What swings is slow where it touches.
+      const Box region =
+          widened(a.sweep.way.intersection(b.sweep.way), std::max({of_a, of_b, depth}));
+      const BodySweep part_of_a = sweep_within(a, region), part_of_b = sweep_within(b, region);
+      if (part_of_a.way.isEmpty() || part_of_b.way.isEmpty()) continue;
+      const double motion = most_relative_motion(part_of_a, part_of_b);
+      if (motion < least) continue;
       ++pairs;
-      look(a, b, of_a, depth, deepest);
-      if (&a != &b) look(b, a, of_b, depth, deepest);
+      if (motion >= least_motion(of_a, depth)) look(a, b, of_a, depth, deepest);
+      if (&a != &b && motion >= least_motion(of_b, depth)) look(b, a, of_b, depth, deepest);
     }
     return deepest;
   }

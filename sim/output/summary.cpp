@@ -135,6 +135,7 @@ std::string summary_json(const Scenario& scenario, const Model& model, const Sta
         {"collision_update", phases.collision_update},
         {"collision_traversal", phases.collision_traversal},
         {"collision_narrow", phases.collision_narrow},
+        {"crossings", phases.crossings},
         {"elastic_force", phases.elastic_force},
         {"contact_force", phases.contact_force},
         {"assembly", phases.assembly},

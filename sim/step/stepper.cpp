@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/base/stopwatch.hpp"
 #include "sim/loads/gravity.hpp"
 #include "sim/loads/surface_load.hpp"
 #include "sim/model/carried_tissue.hpp"
@@ -186,6 +187,7 @@ bool Stepper::is_finite() const { return y_.allFinite() && dynamics_->now().forc
 /// and an equilibrium without it.
 bool Stepper::crosses(State& state) {
   if (!crossings_) return false;
+  const Stopwatch watch(crossing_seconds_);
   crossing_ = crossings_->find(start_, dynamics_->now().configuration, depths_before_);
   if (!crossing_) return false;
   ++state.counts.rejected_motion;
@@ -420,6 +422,7 @@ PhaseTimes Stepper::times() {
     times.collision_update = search_->counts().update_seconds;
     times.collision_traversal = search_->counts().traversal_seconds;
     times.collision_narrow = search_->counts().narrow_seconds;
+    times.crossings = crossing_seconds_;
   }
   times.elastic_force = dynamics_->times().elastic_force;
   times.contact_force = dynamics_->times().contact_force;

@@ -26,7 +26,7 @@ double numerical_loss(const State& state, const StoredEnergy& now);
 
 /// Wall time by phase [s].
 struct PhaseTimes {
-  double collision_update = 0, collision_traversal = 0, collision_narrow = 0;
+  double collision_update = 0, collision_traversal = 0, collision_narrow = 0, crossings = 0;
   double elastic_force = 0, contact_force = 0, assembly = 0, solve = 0;
 };
 
@@ -110,6 +110,7 @@ class Stepper {
   Eigen::VectorXd y_;                         // being tried
   Rejection why_ = Rejection::NoConvergence;  // the last step that was not taken
   std::optional<Crossing> crossing_;          // in that step
+  double crossing_seconds_ = 0;               // of looking for them
 
   /// What the step started from, for the prediction and the ledger.
   Configuration start_;

@@ -145,7 +145,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--threads", arguments->threads,
-          "Of element loops, multigrid and contact search; results have the same bits with "
+          "Of element loops, linear solvers and contact search; results have the same bits with "
           "any number [1]")
       ->check(CLI::Range(1, kMostThreads));
   command->add_flag("--resume", arguments->resume,

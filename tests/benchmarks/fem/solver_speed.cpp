@@ -94,7 +94,8 @@ std::vector<Candidate> candidates(int cells, const std::string& only) {
                  {}});
   all.push_back(
       {"multigrid", [] { return make_multigrid(kTolerance, kMostIterations); }, {}, {}, {}});
-  if (cells <= kMostCholeskyCells) all.push_back({"Cholesky", make_cholesky, {}, {}, {}});
+  if (cells <= kMostCholeskyCells)
+    all.push_back({"Cholesky", [] { return make_cholesky(); }, {}, {}, {}});
   if (only != "all") std::erase_if(all, [&](const Candidate& c) { return c.name != only; });
   return all;
 }
@@ -157,17 +158,23 @@ void nu_sweep(int most_cells, int runs, const std::string& only) {
 }
 
 void threads(int most_cells, int runs) {
-  std::printf("wall time of\n| tets | threads | set-up ms | solve ms |\n|---|---|---|---|\n");
+  std::printf(
+      "wall time of\n| tets | solver, threads | set-up ms | next prepare ms | solve ms |\n"
+      "|---|---|---|---|---|\n");
   for (const int cells : {16, 24, 32, 55}) {
     if (cells > most_cells) break;
     const ClampedBox box = cube(cells, 0.45);
     std::vector<Candidate> all;
     for (const int n : {1, 2}) {
-      all.push_back({n == 1 ? "1" : "2",
-                     [n] {
-                       return make_multigrid(kTolerance, kMostIterations,
-                                             std::make_shared<articular::ThreadPool>(n));
-                     },
+      const auto pool = std::make_shared<articular::ThreadPool>(n);
+      all.push_back({n == 1 ? "multigrid, 1" : "multigrid, 2",
+                     [pool] { return make_multigrid(kTolerance, kMostIterations, pool); },
+                     {},
+                     {},
+                     {}});
+      if (cells > kMostCholeskyCells) continue;
+      all.push_back({n == 1 ? "Cholesky, 1" : "Cholesky, 2",
+                     [pool] { return make_cholesky(pool); },
                      {},
                      {},
                      {}});
@@ -176,8 +183,8 @@ void threads(int most_cells, int runs) {
       for (Candidate& candidate : all) run(box, wall_seconds, candidate);
     }
     for (const Candidate& c : all) {
-      std::printf("| %d | %s | %.1f | %.1f |\n", 6 * cells * cells * cells, c.name,
-                  1e3 * median(c.set_up), 1e3 * median(c.solve));
+      std::printf("| %d | %s | %.1f | %.1f | %.1f |\n", 6 * cells * cells * cells, c.name,
+                  1e3 * median(c.set_up), 1e3 * median(c.refresh), 1e3 * median(c.solve));
     }
   }
 }

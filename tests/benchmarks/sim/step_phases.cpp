@@ -55,6 +55,7 @@ int measure(const std::string& file, int steps, const std::vector<std::string>& 
   print("collision_update_ms", 1e3 * times.collision_update / n);
   print("collision_traversal_ms", 1e3 * times.collision_traversal / n);
   print("collision_narrow_ms", 1e3 * times.collision_narrow / n);
+  print("crossings_ms", 1e3 * times.crossings / n);
   print("elastic_force_ms", 1e3 * times.elastic_force / n);
   print("contact_force_ms", 1e3 * times.contact_force / n);
   print("assembly_ms", 1e3 * times.assembly / n);

@@ -47,7 +47,7 @@ class LinearSolverTest : public testing::TestWithParam<NamedSolver> {
 
 INSTANTIATE_TEST_SUITE_P(
     All, LinearSolverTest,
-    testing::Values(NamedSolver{"Cholesky", make_cholesky},
+    testing::Values(NamedSolver{"Cholesky", [] { return make_cholesky(); }},
                     NamedSolver{"ConjugateGradients",
                                 [] { return make_conjugate_gradients(kTolerance, 1000); }},
                     NamedSolver{"Multigrid", [] { return make_multigrid(kTolerance, 1000); }},

@@ -11,7 +11,7 @@ namespace articular::fem::signed_cholesky_test {
 
 /// A quasi-definite matrix with the graph of an n x n x n grid, signs at random.
 struct QuasiDefinite {
-  SymmetricMatrix A{.begin = {0}, .row = {}, .value = {}};
+  SymmetricMatrix A;
   std::vector<int> signs;
 
   explicit QuasiDefinite(int n, double share_negative) {
@@ -28,7 +28,7 @@ struct QuasiDefinite {
       }
       A.row.push_back(j);
       A.value.push_back(signs[j] * 7);  // dominates the six neighbours
-      A.begin.push_back(static_cast<int>(A.row.size()));
+      A.end_column();
     }
   }
 
@@ -73,6 +73,42 @@ TEST(SignedCholesky, FollowsNewValuesOfOnePattern) {
     scaled.A.multiply(x, y);
     EXPECT_LT((y - b).norm(), 1e-13 * b.norm());
   }
+}
+
+// Large enough that what lies above the subtrees is done in pieces, and subtrees differ in depth.
+TEST(SignedCholesky, HasTheSameBitsWithAnyNumberOfThreads) {
+  for (const double share_negative : {0.0, 0.3}) {
+    const QuasiDefinite problem(18, share_negative);
+    const Eigen::VectorXd b = Random().matrix<Eigen::VectorXd>(problem.A.size(), 1);
+    Eigen::VectorXd first, y;
+    for (const int num_threads : {1, 2, 5}) {
+      SignedCholesky factor(std::make_shared<ThreadPool>(num_threads));
+      factor.analyze(problem.A, problem.signs);
+      for (int again = 0; again < 2; ++again) {
+        ASSERT_TRUE(factor.factorize(problem.A));
+        Eigen::VectorXd x = b;
+        factor.solve(x);
+        if (first.size() == 0) first = x;
+        EXPECT_EQ(x, first) << num_threads;
+      }
+    }
+    problem.A.multiply(first, y);
+    EXPECT_LT((y - b).norm(), 1e-13 * b.norm());
+  }
+}
+
+TEST(SignedCholesky, OrdersGroupsAsOne) {
+  const QuasiDefinite problem(9, 0.3);
+  std::vector<int> group;
+  for (int i = 0; i < problem.A.size(); ++i) group.push_back(i / 3);
+  SignedCholesky factor;
+  factor.analyze(problem.A, problem.signs, group);
+  ASSERT_TRUE(factor.factorize(problem.A));
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(problem.A.size());
+  Eigen::VectorXd x = b, y;
+  factor.solve(x);
+  problem.A.multiply(x, y);
+  EXPECT_LT((y - b).norm(), 1e-13 * b.norm());
 }
 
 TEST(SignedCholesky, ReportsAWrongSignAndValuesThatAreNotNumbers) {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "tests/sim/support/contact_scene.hpp"
@@ -130,14 +131,15 @@ TEST(AveragedContact, ForcesAreTheDerivativeOfTheEnergy) {
   EXPECT_LT(error_of_forces(block), 1e-6);
 }
 
-/// The largest difference between the tangent and differences of the forces, of these.
-double error_of_tangent(SunkBlock& block) {
-  Random random(3);
-  const std::vector<int> none, offsets{0};
+fem::BlockMatrix matrix_of(const SunkBlock& block, const Stencils& stencils) {
+  return {block.model.num_blocks, stencils.blocks, stencils.offsets};
+}
+
+/// The tangent of the forces, in the pattern of all candidates.
+fem::BlockMatrix tangent_of(SunkBlock& block) {
   Stencils stencils;
-  append_missing_stencils(block.model, block.search.candidates(),
-                          fem::BlockMatrix(block.model.num_blocks, none, offsets), stencils);
-  fem::BlockMatrix K(block.model.num_blocks, stencils.blocks, stencils.offsets);
+  append_missing_stencils(block.model, block.search.candidates(), matrix_of(block, {}), stencils);
+  fem::BlockMatrix K = matrix_of(block, stencils);
   K.set_zero();
   block.response.evaluate(block.at(block.y), block.search.candidates(), {});
   SystemScale scale;
@@ -146,6 +148,13 @@ double error_of_tangent(SunkBlock& block) {
   FrictionCoupling friction;
   for (const ContactPairState* direction : block.response.pair_states())
     stiffness.add(*direction, block.configuration, fem::Tangent::Consistent, scale, K, friction);
+  return K;
+}
+
+/// The largest difference between the tangent and differences of the forces, of these.
+double error_of_tangent(SunkBlock& block) {
+  Random random(3);
+  const fem::BlockMatrix K = tangent_of(block);
   double error = 0;
   for (int n = 0; n < 5; ++n) {
     const Eigen::VectorXd w = block.way(random);
@@ -162,6 +171,37 @@ double error_of_tangent(SunkBlock& block) {
 TEST(AveragedContact, TheTangentIsTheDerivativeOfTheForces) {
   SunkBlock block;
   EXPECT_LT(error_of_tangent(block), 1e-5);
+}
+
+// Just those pairs of blocks are needed that the tangent has a stiffness between.
+TEST(ContactStencils, AreLackedWhereAForceCouplesWhatThePatternDoesNot) {
+  for (const auto response : {Scenario::Response::Averaged, Scenario::Response::Pointwise}) {
+    Scenario s = SunkBlock::scenario({0.1, 0.07, 0.96});
+    s.contact_response = response;
+    SunkBlock block(s, 0.005);
+    const fem::BlockMatrix K = tangent_of(block);
+    std::vector<std::array<int, 2>> needed;
+    for (int i = 0; i < K.num_blocks(); ++i)
+      for (int slot = K.row_begin()[i]; K.column()[slot] < i; ++slot)
+        if (!K.block(slot).isZero(0)) needed.push_back({i, K.column()[slot]});
+    BlocksOfGroups blocks;
+    const auto lacks = [&](const fem::BlockMatrix& A) {
+      return lacks_stencils(block.model, block.response.pair_states(), A, blocks);
+    };
+    const auto all_but = [&](std::size_t left_out) {
+      Stencils stencils;
+      for (std::size_t k = 0; k < needed.size(); ++k) {
+        if (k == left_out) continue;
+        stencils.blocks.insert(stencils.blocks.end(), needed[k].begin(), needed[k].end());
+        stencils.close();
+      }
+      return matrix_of(block, stencils);
+    };
+    ASSERT_GT(needed.size(), 100U);
+    EXPECT_FALSE(lacks(K));
+    EXPECT_FALSE(lacks(all_but(needed.size())));
+    for (std::size_t k = 0; k < needed.size(); k += 7) EXPECT_TRUE(lacks(all_but(k))) << k;
+  }
 }
 
 // The means' areas A_a turn with the patches too, and the next face takes over but a part of what

@@ -260,6 +260,21 @@ TEST(Crossing, PairsThatMoveTooLittleAreNotLookedAt) {
   EXPECT_EQ(scene.search.pairs_looked_at(), 1);
 }
 
+// The ends of a long plate swing fast, its middle above the sheet is slow.
+TEST(Crossing, WhatIsSlowWhereItTouchesIsNotLookedAt) {
+  Scenario s = sheet_and_plate();
+  s.bodies[1] = box_body("plate", Body::Kind::Fixed, {0.2, 0.0083, kThick},
+                         {1e-4, 2e-4, 1e-3 + kThick / 2}, {60, 3, 1});
+  Scene scene(s);
+  const auto swung = [](double angle, double way) {
+    return Pose{{0, 0, -way}, rotation_matrix(Vec3(0, 0, angle))};
+  };
+  (void)scene.find("plate", swung(0.03, 0));  // its ends by 3 mm
+  EXPECT_EQ(scene.search.pairs_looked_at(), 0);
+  EXPECT_TRUE(scene.find("plate", swung(0.03, 6e-3)));
+  EXPECT_EQ(scene.search.pairs_looked_at(), 1);
+}
+
 /// A sheet held at two of its rims, and a plate that a fixed body drives down into it.
 Scenario pressed_sheet(double step, double way) {
   Scenario s = sheet_and_plate();
