@@ -59,7 +59,7 @@ bool factorize_dense(int n, double* A, int ld, const double* sign, double* work)
   return factorize_dense(n2, A22, ld, sign + n1, work);
 }
 
-/// Rows `first` and on of L below a dense block, from those of A: A21 = L21 S1 L11ᵀ.
+/// The rows of L below its dense block L11, from those of A: A21 = L21 S1 L11ᵀ.
 void factorize_below(int n, int num_rows, const double* L11, double* A21, int ld,
                      const double* sign) {
   cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, num_rows, n, 1, L11,
