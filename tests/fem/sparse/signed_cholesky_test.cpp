@@ -99,8 +99,8 @@ TEST(SignedCholesky, HasTheSameBitsWithAnyNumberOfThreads) {
 
 TEST(SignedCholesky, OrdersGroupsAsOne) {
   const QuasiDefinite problem(9, 0.3);
-  std::vector<int> group;
-  for (int i = 0; i < problem.A.size(); ++i) group.push_back(i / 3);
+  std::vector<int> group(static_cast<std::size_t>(problem.A.size()));
+  for (int i = 0; i < problem.A.size(); ++i) group[i] = i / 3;
   SignedCholesky factor;
   factor.analyze(problem.A, problem.signs, group);
   ASSERT_TRUE(factor.factorize(problem.A));
