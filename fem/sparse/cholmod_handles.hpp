@@ -11,7 +11,7 @@
 // Declared here: cblas.h may be that of another BLAS, which has no such function.
 extern "C" void openblas_set_num_threads(int num_threads);
 
-/// CHOLMOD's objects with owners; for the two sources that use it, and no other header.
+/// CHOLMOD's objects with owners, and how many threads there are; for sources, and no other header.
 namespace articular::fem {
 
 class CholmodCommon {
@@ -19,7 +19,6 @@ class CholmodCommon {
   CholmodCommon() {
     cholmod_start(&common_);
     common_.print = 0;
-    common_.quick_return_if_not_posdef = 1;
   }
   ~CholmodCommon() { cholmod_finish(&common_); }
   CholmodCommon(const CholmodCommon&) = delete;
@@ -28,9 +27,9 @@ class CholmodCommon {
   cholmod_common* get() { return &common_; }
   cholmod_common* operator->() { return &common_; }
 
-  /// Turns CHOLMOD's status into an exception, except the outcomes that a caller must expect.
+  /// Turns CHOLMOD's status into an exception.
   void check() const {
-    if (common_.status >= CHOLMOD_OK) return;  // warnings: not positive definite
+    if (common_.status >= CHOLMOD_OK) return;
     if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (common_.status == CHOLMOD_TOO_LARGE) {
       throw std::length_error("the Cholesky factor has more than 2^31 - 1 entries");
@@ -44,15 +43,13 @@ class CholmodCommon {
 
 struct CholmodFree {
   cholmod_common* common;
-  void operator()(cholmod_sparse* p) const { cholmod_free_sparse(&p, common); }
   void operator()(cholmod_factor* p) const { cholmod_free_factor(&p, common); }
-  void operator()(cholmod_dense* p) const { cholmod_free_dense(&p, common); }
 };
 template <class T>
 using CholmodHandle = std::unique_ptr<T, CholmodFree>;
 
 /// CHOLMOD asks OpenMP for four threads for its copying loops whatever it is told; on a machine
-/// with fewer free cores their spinning doubles the time of a factorization. While this lives, a
+/// with fewer free cores their spinning doubles the time. While this lives, a
 /// parallel region of the calling thread has one thread.
 class OneThread {
  public:

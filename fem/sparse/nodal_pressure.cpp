@@ -17,11 +17,10 @@ SymmetricMatrix pattern_of(const Tetrahedra& of_corner, int size) {
     }
   }
   SymmetricMatrix A;
-  A.begin.assign(1, 0);
   for (std::vector<int>& column : rows) {
     std::sort(column.begin(), column.end());
     A.row.insert(A.row.end(), column.begin(), std::unique(column.begin(), column.end()));
-    A.begin.push_back(static_cast<int>(A.row.size()));
+    A.end_column();
   }
   A.value.assign(A.row.size(), 0.0);
   return A;

@@ -43,6 +43,19 @@ struct QuasiDefinite {
   }
 };
 
+void expect_solution(const SymmetricMatrix& A, const Eigen::VectorXd& x, const Eigen::VectorXd& b) {
+  Eigen::VectorXd y;
+  A.multiply(x, y);
+  EXPECT_LT((y - b).norm(), 1e-13 * b.norm());
+}
+
+void expect_solves_for_ones(const SignedCholesky& factor, const SymmetricMatrix& A) {
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(A.size());
+  Eigen::VectorXd x = b;
+  factor.solve(x);
+  expect_solution(A, x, b);
+}
+
 TEST(SignedCholesky, AgreesWithADenseSolution) {
   for (const double share_negative : {0.0, 0.3, 1.0}) {
     const QuasiDefinite problem(8, share_negative);
@@ -50,12 +63,11 @@ TEST(SignedCholesky, AgreesWithADenseSolution) {
     SignedCholesky factor;
     factor.analyze(problem.A, problem.signs);
     ASSERT_TRUE(factor.factorize(problem.A));
-    Eigen::VectorXd x = b, y;
+    Eigen::VectorXd x = b;
     factor.solve(x);
     const Eigen::VectorXd expected = problem.dense().lu().solve(b);
     EXPECT_LT((x - expected).norm(), 1e-13 * expected.norm()) << share_negative;
-    problem.A.multiply(x, y);
-    EXPECT_LT((y - b).norm(), 1e-13 * b.norm());
+    expect_solution(problem.A, x, b);
   }
 }
 
@@ -67,11 +79,7 @@ TEST(SignedCholesky, FollowsNewValuesOfOnePattern) {
     QuasiDefinite scaled = problem;
     for (double& value : scaled.A.value) value *= scale;
     ASSERT_TRUE(factor.factorize(scaled.A));
-    const Eigen::VectorXd b = Eigen::VectorXd::Ones(scaled.A.size());
-    Eigen::VectorXd x = b, y;
-    factor.solve(x);
-    scaled.A.multiply(x, y);
-    EXPECT_LT((y - b).norm(), 1e-13 * b.norm());
+    expect_solves_for_ones(factor, scaled.A);
   }
 }
 
@@ -80,7 +88,7 @@ TEST(SignedCholesky, HasTheSameBitsWithAnyNumberOfThreads) {
   for (const double share_negative : {0.0, 0.3}) {
     const QuasiDefinite problem(18, share_negative);
     const Eigen::VectorXd b = Random().matrix<Eigen::VectorXd>(problem.A.size(), 1);
-    Eigen::VectorXd first, y;
+    Eigen::VectorXd first;
     for (const int num_threads : {1, 2, 5}) {
       SignedCholesky factor(std::make_shared<ThreadPool>(num_threads));
       factor.analyze(problem.A, problem.signs);
@@ -92,8 +100,7 @@ TEST(SignedCholesky, HasTheSameBitsWithAnyNumberOfThreads) {
         EXPECT_EQ(x, first) << num_threads;
       }
     }
-    problem.A.multiply(first, y);
-    EXPECT_LT((y - b).norm(), 1e-13 * b.norm());
+    expect_solution(problem.A, first, b);
   }
 }
 
@@ -104,11 +111,7 @@ TEST(SignedCholesky, OrdersGroupsAsOne) {
   SignedCholesky factor;
   factor.analyze(problem.A, problem.signs, group);
   ASSERT_TRUE(factor.factorize(problem.A));
-  const Eigen::VectorXd b = Eigen::VectorXd::Ones(problem.A.size());
-  Eigen::VectorXd x = b, y;
-  factor.solve(x);
-  problem.A.multiply(x, y);
-  EXPECT_LT((y - b).norm(), 1e-13 * b.norm());
+  expect_solves_for_ones(factor, problem.A);
 }
 
 TEST(SignedCholesky, ReportsAWrongSignAndValuesThatAreNotNumbers) {

@@ -29,13 +29,12 @@ std::vector<int> rows_of(const Supernodes& nodes, int s) {
   return {nodes.row.begin() + nodes.row_begin[s], nodes.row.begin() + nodes.row_begin[s + 1]};
 }
 
-struct Grid : testing::Test {
+struct SupernodesTest : testing::Test {
   const int n = 7;
   const SymmetricMatrix A = grid(n);
   const std::vector<int> group = groups_of_three(n * n * n);
   const Supernodes nodes = find_supernodes(A, group);
 };
-using SupernodesTest = Grid;
 
 TEST_F(SupernodesTest, UnknownsOfANodeStayTogether) {
   std::vector<int> sorted = nodes.order;
