@@ -85,6 +85,7 @@ class Stepper {
   bool is_finite() const;
   bool is_exhausted() const;
   bool crosses(State& state);
+  bool holds_with_contacts_of_end(const State& state, double t);
   bool try_time_step(State& state, double h);
   bool try_load_step(State& state, double h);
   SolverCounts solver_counts() const;
@@ -108,6 +109,7 @@ class Stepper {
   std::size_t first_row_ = 0;
   int iterations_ = 0;
   Eigen::VectorXd y_;                         // being tried
+  Eigen::VectorXd forces_at_end_;             // of the step that was tried
   Rejection why_ = Rejection::NoConvergence;  // the last step that was not taken
   std::optional<Crossing> crossing_;          // in that step
   double crossing_seconds_ = 0;               // of looking for them

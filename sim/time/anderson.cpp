@@ -15,7 +15,10 @@ constexpr double kDependent = 1e-10;
 
 }  // namespace
 
-void Anderson::see(const Eigen::VectorXd& w, const Eigen::VectorXd& weighted) {
+void Anderson::see(const Eigen::VectorXd& w, const Eigen::VectorXd& weighted, double residual) {
+  if (has_improved_ && residual > residual_) restart();
+  has_improved_ = false;
+  residual_ = residual;
   const double size = w.dot(weighted);
   const auto turn = [](int iteration) { return static_cast<std::size_t>(iteration % kBack); };
   if (num_seen_ > 0 && size > kLost * sizes_[turn(num_seen_ - 1)]) num_seen_ = 0;
@@ -35,7 +38,8 @@ void Anderson::see(const Eigen::VectorXd& w, const Eigen::VectorXd& weighted) {
   ++num_seen_;
 }
 
-void Anderson::improve(Eigen::VectorXd& w) const {
+void Anderson::improve(Eigen::VectorXd& w) {
+  has_improved_ = true;
   // Of the first correction not all is along the unknowns: what it has to close between positions
   // and velocities is gone from the second on.
   const int num = std::min(num_seen_ - 2, kDepth);

@@ -17,15 +17,19 @@ class Anderson {
   /// Another iteration begins.
   void restart() {
     num_seen_ = 0;
-    is_slow_ = false;
+    is_slow_ = has_improved_ = false;
   }
+  /// Starts afresh where the last correction was made better and the residual has grown: what the
+  /// iterates were says nothing of where they go now. Without that, iterations that halved their
+  /// residual ended in circles once a step was accelerated over a contact.
   /// @param w  Newton's correction of the present iterate
   /// @param weighted  M w; sizes are wᵀ M w, M positive definite
-  void see(const Eigen::VectorXd& w, const Eigen::VectorXd& weighted);
+  /// @param residual  norm of what w corrects, in any unit
+  void see(const Eigen::VectorXd& w, const Eigen::VectorXd& weighted, double residual);
   /// Corrections have hardly become smaller: improve() is worth it.
   bool is_slow() const { return is_slow_; }
   /// The correction seen last, made better.
-  void improve(Eigen::VectorXd& w) const;
+  void improve(Eigen::VectorXd& w);
   /// What the iterate was changed by in the end: part * w.
   void took(double part, const Eigen::VectorXd& w) { taken_ = part * w; }
 
@@ -34,7 +38,8 @@ class Anderson {
   static constexpr int kBack = 3;   // iterations over which corrections are to become smaller
 
   int num_seen_ = 0;  // corrections of this iteration
-  bool is_slow_ = false;
+  bool is_slow_ = false, has_improved_ = false;
+  double residual_ = 0;                       // seen last
   std::array<double, kBack> sizes_{};         // of the last corrections, in turns
   Eigen::VectorXd last_, last_weighted_;      // correction, as Newton had it
   Eigen::VectorXd taken_;                     // and as it was taken

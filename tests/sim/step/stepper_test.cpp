@@ -311,23 +311,40 @@ TEST(Stepper, AStretchedBarPullsItsDrivenAndItsFixedEndAlikeAndStoresTheWork) {
   EXPECT_NEAR(run.state.energy.motion_work, stored, 1e-3 * stored);
 }
 
-/// A rigid box at rest is pulled down by this part of the margin in a step [m]; far below, a floor.
-std::int64_t searches_done_again(double part_of_margin) {
-  const double h = 1e-3, margin = 1e-3, size = 0.02;
-  Scenario s = contact_scene(h);
-  s.bodies = {box_body("box", Body::Kind::Rigid, Vec3::Constant(size)),
-              box_body("floor", Body::Kind::Fixed, Vec3::Constant(size), {0, 0, -1})};
-  s.loads = {gravity({0, 0, -part_of_margin * margin / (h * h)})};
-  Simulation run(s, detection_margin_of(margin));
-  run.advance(h);
-  return run.state.counts.rejected_motion;
-}
+/// A rigid box at rest is pulled down by this part of the margin in a step [m]; below it, a floor.
+struct PulledBox {
+  static constexpr double kStep = 1e-3, kMargin = 1e-3, kSize = 0.02;
+
+  PulledBox(double part_of_margin, double gap)
+      : run(scene_of(part_of_margin, gap), detection_margin_of(kMargin)) {
+    run.advance(kStep);
+  }
+  static Scenario scene_of(double part_of_margin, double gap) {
+    Scenario s = contact_scene(kStep);
+    s.bodies = {box_body("box", Body::Kind::Rigid, Vec3::Constant(kSize)),
+                box_body("floor", Body::Kind::Fixed, Vec3::Constant(kSize), {0, 0, -kSize - gap})};
+    s.loads = {gravity({0, 0, -part_of_margin * kMargin / (kStep * kStep)})};
+    return s;
+  }
+
+  Simulation run;
+};
 
 // Pairs are known up to the margin, of which each of two bodies may use half.
 TEST(Stepper, ContactsAreLookedForAgainWhereABodyStraysByMoreThanHalfTheMargin) {
-  EXPECT_EQ(searches_done_again(0.45), 0);
-  EXPECT_EQ(searches_done_again(0.55), 1);
-  EXPECT_EQ(searches_done_again(0.95), 1);
+  const double far = 1;
+  const PulledBox slow(0.45, far), fast(0.55, far), faster(0.95, far);
+  EXPECT_GT(fast.run.state.counts.tree_updates, slow.run.state.counts.tree_updates);
+  EXPECT_EQ(faster.run.state.counts.tree_updates, fast.run.state.counts.tree_updates);
+}
+
+// What was not looked for and does not touch where the step ends does not cost the step.
+TEST(Stepper, AStepIsRepeatedWhereContactsThatWereNotLookedForTouch) {
+  const PulledBox free(1.5, 1), stopped(1.5, 1.1 * PulledBox::kMargin);
+  EXPECT_EQ(free.run.state.counts.rejected_motion, 0);
+  EXPECT_EQ(free.run.force_on(1).norm(), 0);
+  EXPECT_EQ(stopped.run.state.counts.rejected_motion, 1);
+  EXPECT_LT(stopped.run.force_on(1).z(), 0);
 }
 
 // v = v0 exp(−α t) of a block that mass damping alone slows down: it loses

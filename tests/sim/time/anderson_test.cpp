@@ -37,7 +37,7 @@ int iterations(const Affine& map, bool accelerate, double part = 1) {
   for (int k = 0; k < 50; ++k) {
     if ((v - map.solution).norm() < 1e-8 * map.solution.norm()) return k;
     Eigen::VectorXd w = map.correction(v);
-    anderson.see(w, mass.cwiseProduct(w));
+    anderson.see(w, mass.cwiseProduct(w), (v - map.solution).norm());
     if (accelerate && anderson.is_slow()) anderson.improve(w);
     const double taken = k < 5 ? part : 1;
     anderson.took(taken, w);
@@ -70,12 +70,28 @@ TEST(Anderson, ForgetsWhereCorrectionsGrow) {
   Anderson anderson;
   const Eigen::VectorXd small = Eigen::VectorXd::Constant(3, 1), large = 11 * small;
   for (int k = 0; k < 4; ++k) {
-    anderson.see(small, small);
+    anderson.see(small, small, 1);
     anderson.took(1, small);
   }
   EXPECT_TRUE(anderson.is_slow());
-  anderson.see(large, large);
+  anderson.see(large, large, 1);
   EXPECT_FALSE(anderson.is_slow());
+}
+
+TEST(Anderson, ForgetsWhereWhatItMadeBetterLeadsAstray) {
+  for (const double residual : {0.9, 1.1}) {
+    Anderson anderson;
+    for (int k = 0; k < 6; ++k) {
+      Eigen::VectorXd w = Eigen::Vector3d(1, 2, 3) + 0.1 * k * Eigen::Vector3d(1, -1, 1);
+      anderson.see(w, w, k < 5 ? 1 : residual);
+      if (k == 4) {
+        ASSERT_TRUE(anderson.is_slow());
+        anderson.improve(w);
+      }
+      anderson.took(1, w);
+    }
+    EXPECT_EQ(anderson.is_slow(), residual < 1);
+  }
 }
 
 }  // namespace articular::sim::anderson_test
