@@ -65,12 +65,15 @@ vtkSmartPointer<vtkPointSet> make_cells_of(const VtkXmlContent& content) {
 }
 
 template <class Writer>
-std::string to_xml(vtkPointSet& set) {
+std::string to_xml(vtkPointSet& set, Compressed compressed) {
   vtkNew<Writer> writer;
   writer->SetInputData(&set);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
+  if (compressed == Compressed::Yes)
+    writer->SetCompressorTypeToZLib();
+  else
+    writer->SetCompressorTypeToNone();
   writer->SetWriteToOutputString(true);
   writer->Write();
   return writer->GetOutputString();
@@ -167,10 +170,12 @@ vtkSmartPointer<vtkPointSet> read_vtk_file(const std::filesystem::path& file) {
   return set;
 }
 
-void write_vtk_file(const std::filesystem::path& file, vtkPointSet& set, Durable durable) {
+void write_vtk_file(const std::filesystem::path& file, vtkPointSet& set, Compressed compressed,
+                    Durable durable) {
   const QuietVtk vtk;
-  const std::string xml = set.IsA("vtkPolyData") != 0 ? to_xml<vtkXMLPolyDataWriter>(set)
-                                                      : to_xml<vtkXMLUnstructuredGridWriter>(set);
+  const std::string xml = set.IsA("vtkPolyData") != 0
+                              ? to_xml<vtkXMLPolyDataWriter>(set, compressed)
+                              : to_xml<vtkXMLUnstructuredGridWriter>(set, compressed);
   if (vtk.failed() || xml.empty())
     throw SystemError(file.string() + ": can't be written: " + vtk.message());
   write_text_file(file, xml, durable);

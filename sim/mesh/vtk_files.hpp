@@ -40,8 +40,10 @@ class QuietVtk {
 /// @throws InputError in one line when anything is wrong with the file
 vtkSmartPointer<vtkPointSet> read_vtk_file(const std::filesystem::path& file);
 
-/// A .vtu or .vtp: appended binary, zlib. @throws SystemError
-void write_vtk_file(const std::filesystem::path& file, vtkPointSet& set,
+enum class Compressed { Yes, No };
+
+/// A .vtu or .vtp: appended binary, with zlib or as it is. @throws SystemError
+void write_vtk_file(const std::filesystem::path& file, vtkPointSet& set, Compressed compressed,
                     Durable durable = Durable::Now);
 
 /// Points x / unit in double precision; cells as given, tetrahedra first.

@@ -18,7 +18,7 @@ constexpr double kRigidNode = (3 + 3 + 3) * 8.0;
 constexpr double kTriangle = 3 * 4.0 + 4;
 constexpr double kContactFace = kTriangle + 2 * 8;
 constexpr double kLine = 2 * 3 * 8.0 + 4 * 8 + 16;
-constexpr double kFile = 3e3;   // of XML about the arrays
+constexpr double kFile = 4e3;   // of XML about the arrays
 constexpr double kNumber = 15;  // characters of "-1.23456789e-05,"
 
 double bytes_of(const BodyModel& body, const Model& model, bool contact_surface) {
@@ -33,9 +33,11 @@ double bytes_of(const BodyModel& body, const Model& model, bool contact_surface)
     bytes += kRigidNode * static_cast<double>(body.X.cols()) +
              kTriangle * static_cast<double>(body.triangles.cols());
   }
-  if (contact_surface && body.collider)
-    bytes += kFile + kRigidNode * static_cast<double>(body.collider->X.cols()) +
-             kContactFace * static_cast<double>(body.collider->surface.faces.cols());
+  if (contact_surface && body.collider) {
+    const auto faces = static_cast<double>(body.collider->surface.faces.cols());
+    const double nodes = 2 + faces / 2;  // of a closed surface [Euler]
+    bytes += kFile + kRigidNode * nodes + kContactFace * faces;
+  }
   return bytes;
 }
 

@@ -6,8 +6,8 @@
 
 namespace articular::sim {
 
-/// What a run will write, estimated before it: frames as if they could not be compressed, rows with
-/// full digits.
+/// What a run will write, estimated before it: frames to a few hundredths, rows as if with full
+/// digits. What is written once (bodies that stay) is left out.
 struct OutputSize {
   double num_frames;
   double frame_bytes;  // of all bodies together
