@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace articular::sim {
 
@@ -12,7 +13,8 @@ double ContactDepths::of(ContactId contact) const {
   return found != depths_.end() && found->first == contact ? found->second : 0;
 }
 
-ContactResponse::ContactResponse(const Model& model) : model_(model) {}
+ContactResponse::ContactResponse(const Model& model)
+    : model_(model), met_(static_cast<std::size_t>(model.pool->num_threads())) {}
 
 ContactPairState& ContactResponse::pair_state_of(const CandidateList& list) {
   ContactPairState*& known = of_contact_[list.contact];
@@ -40,76 +42,19 @@ void ContactResponse::clear(ContactPairState& pair_state) const {
   pair_state.num_patches = 0;
 }
 
-void ContactResponse::evaluate(const Configuration& configuration,
-                               std::span<const CandidateList> candidates,
-                               const ContactConditions& conditions) {
-  near_.clear();
-  for (const CandidateList& list : candidates) {
-    ContactPairState& pair_state = pair_state_of(list);
-    near_.push_back(&pair_state);
-    clear(pair_state);
-    const double allowance =
-        conditions.allowances == nullptr ? 0 : conditions.allowances->of(list.contact);
-    find_patches(list, configuration, allowance, pair_state);
-    find_pressures(configuration, conditions.soft, pair_state);
-  }
-}
-
-void ContactResponse::find_pressures(const Configuration& configuration, bool soft,
-                                     ContactPairState& pair_state) {
-  ++evaluations_[Term::ContactForce];
-  const ContactModel& contact = pair_state.pair;
-  pair_state.is_soft = soft;
-  pair_state.point_stiffness = contact.averaged ? 0 : pair_state.stiffness(0);
-  const ContactSides side = sides_of(model_, pair_state);
-  for (const int group : pair_state.groups) {
-    const double area = pair_state.area[group];
-    double& measure = pair_state.measure[group];
-    measure = contact.averaged ? std::sqrt(area * side.triangles.group_area[group]) : area;
-    pair_state.depth[group] /= measure;
-    pair_state.pressure[group] = pair_state.penalty(group);
-  }
-  if (!contact.law.acts()) return;
-  find_drag(contact.law, side.triangles, side.faces, configuration, pair_state);
-  if (contact.law.friction > 0) ++evaluations_[Term::Friction];
-  if (contact.law.damping > 0) ++evaluations_[Term::ContactDamping];
-}
-
-bool ContactResponse::augment() {
-  bool any = false;
-  for (ContactPairState* const near : near_) {
-    ContactPairState& pair_state = *near;
-    const ContactModel& contact = pair_state.pair;
-    if (!contact.is_bounded) continue;
-    const bool exceeds =
-        std::any_of(pair_state.groups.begin(), pair_state.groups.end(), [&](int group) {
-          return pair_state.pressure[group] > 0 &&
-                 pair_state.depth[group] > contact.max_penetration;
-        });
-    if (!exceeds) continue;
-    pair_state.multiplier = pair_state.pressure;
-    any = true;
-  }
-  return any;
-}
-
-void ContactResponse::drop_multipliers() {
-  for (ContactPairState& pair_state : pair_states_) pair_state.multiplier.resize(0);
-}
-
-const FlatTriangle& ContactResponse::face_now(const Configuration& configuration,
-                                              const Collider& faces, int face) {
-  const auto f = static_cast<std::size_t>(face);
-  if (met_[f] != now_) {
-    met_[f] = now_;
-    faces_[f] = flat_triangle(corners_of(configuration, faces, face));
-    faces_[f].rims = faces.rims[f];
-    faces_[f].rim_height = faces.rim_height.col(face);
-  }
-  return faces_[f];
-}
-
 namespace {
+
+const FlatTriangle& face_now(const Configuration& configuration, const Collider& faces, int face,
+                             MetFaces& met) {
+  const auto f = static_cast<std::size_t>(face);
+  FlatTriangle& triangle = met.face[f];
+  if (std::exchange(met.met[f], met.now) != met.now) {
+    triangle = flat_triangle(corners_of(configuration, faces, face));
+    triangle.rims = faces.rims[f];
+    triangle.rim_height = faces.rim_height.col(face);
+  }
+  return triangle;
+}
 
 /// A triangle's patches. Where faces stand oblique to it their weights differ, and beside rims the
 /// depths: no face takes over from the next what an edge sweeps. Nor, in the tangent, at the corner
@@ -126,17 +71,14 @@ void end_at_edges(std::span<ContactPairState::Patch> patches) {
     }
 }
 
-}  // namespace
-
 /// Patches of a contact pair, and what they sum to at groups: W and (in place of g) G.
-void ContactResponse::find_patches(const CandidateList& list, const Configuration& configuration,
-                                   double allowance, ContactPairState& pair_state) {
-  const ContactSides side = sides_of(model_, pair_state);
-  pair_state.num_patches = 0;
-  ++now_;
-  if (faces_.size() < side.faces.face_area.size()) {
-    faces_.resize(side.faces.face_area.size());
-    met_.resize(side.faces.face_area.size(), 0);
+void find_patches(const Model& model, const CandidateList& list, const Configuration& configuration,
+                  double allowance, MetFaces& met, ContactPairState& pair_state) {
+  const ContactSides side = sides_of(model, pair_state);
+  ++met.now;
+  if (met.face.size() < side.faces.face_area.size()) {
+    met.face.resize(side.faces.face_area.size());
+    met.met.resize(side.faces.face_area.size(), 0);
   }
   DepthRange range = depth_range(side.triangles, side.faces, pair_state.pair.averaged);
   range.allowance = allowance;
@@ -150,7 +92,7 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
     for (; first < pairs.size() && pairs[first].triangle == triangle; ++first) {
       const int face = pairs[first].face;
       range.reach = pairs[first].reach;
-      const FlatTriangle& f = face_now(configuration, side.faces, face);
+      const FlatTriangle& f = face_now(configuration, side.faces, face, met);
       const std::optional<FacingPair> facing = facing_pair(s, f, range);
       if (!facing) continue;
       for (int nearest = 0; nearest < ContactPatch::kParts; ++nearest) {
@@ -173,6 +115,71 @@ void ContactResponse::find_patches(const CandidateList& list, const Configuratio
     }
     end_at_edges({pair_state.stored.data() + first_patch, pair_state.num_patches - first_patch});
   }
+}
+
+}  // namespace
+
+void ContactResponse::evaluate(const Configuration& configuration,
+                               std::span<const CandidateList> candidates,
+                               const ContactConditions& conditions) {
+  near_.clear();
+  for (const CandidateList& list : candidates) near_.push_back(&pair_state_of(list));
+  model_.pool->run(static_cast<int>(candidates.size()), [&](int k, int worker) {
+    const CandidateList& list = candidates[static_cast<std::size_t>(k)];
+    ContactPairState& pair_state = *near_[static_cast<std::size_t>(k)];
+    clear(pair_state);
+    const double allowance =
+        conditions.allowances == nullptr ? 0 : conditions.allowances->of(list.contact);
+    find_patches(model_, list, configuration, allowance, met_[static_cast<std::size_t>(worker)],
+                 pair_state);
+    find_pressures(configuration, conditions.soft, pair_state);
+  });
+  for (const ContactPairState* pair_state : near_) count(pair_state->pair);
+}
+
+void ContactResponse::count(const ContactModel& contact) {
+  ++evaluations_[Term::ContactForce];
+  if (contact.law.friction > 0) ++evaluations_[Term::Friction];
+  if (contact.law.damping > 0) ++evaluations_[Term::ContactDamping];
+}
+
+void ContactResponse::find_pressures(const Configuration& configuration, bool soft,
+                                     ContactPairState& pair_state) const {
+  const ContactModel& contact = pair_state.pair;
+  pair_state.is_soft = soft;
+  pair_state.point_stiffness = contact.averaged ? 0 : pair_state.stiffness(0);
+  const ContactSides side = sides_of(model_, pair_state);
+  for (const int group : pair_state.groups) {
+    const double area = pair_state.area[group];
+    double& measure = pair_state.measure[group];
+    measure = contact.averaged ? std::sqrt(area * side.triangles.group_area[group]) : area;
+    pair_state.depth[group] /= measure;
+    pair_state.pressure[group] = pair_state.penalty(group);
+  }
+  if (contact.law.acts())
+    find_drag(contact.law, side.triangles, side.faces, configuration, pair_state);
+}
+
+bool ContactResponse::augment() {
+  bool any = false;
+  for (ContactPairState* const near : near_) {
+    ContactPairState& pair_state = *near;
+    const ContactModel& contact = pair_state.pair;
+    if (!contact.is_bounded) continue;
+    const bool exceeds =
+        std::any_of(pair_state.groups.begin(), pair_state.groups.end(), [&](int group) {
+          return pair_state.pressure[group] > 0 &&
+                 pair_state.depth[group] > contact.max_penetration;
+        });
+    if (!exceeds) continue;
+    pair_state.multiplier = pair_state.pressure;
+    any = true;
+  }
+  return any;
+}
+
+void ContactResponse::drop_multipliers() {
+  for (ContactPairState& pair_state : pair_states_) pair_state.multiplier.resize(0);
 }
 
 void ContactResponse::add_force(const Configuration& configuration, Eigen::VectorXd& f) {

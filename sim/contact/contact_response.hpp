@@ -50,6 +50,13 @@ struct ContactConditions {
   const ContactDepths* allowances = nullptr;  // that contacts may have; none: 0
 };
 
+/// Faces of one body where they are now, each computed when it is met first.
+struct MetFaces {
+  std::vector<FlatTriangle> face;
+  std::vector<int> met;  // by face: when it was computed last
+  int now = 0;
+};
+
 class ContactResponse {
  public:
   explicit ContactResponse(const Model& model);
@@ -102,10 +109,9 @@ class ContactResponse {
   ContactPairState& pair_state_of(const CandidateList& list);
   /// Sets what belongs to the last configuration to nothing.
   void clear(ContactPairState& pair_state) const;
-  void find_patches(const CandidateList& list, const Configuration& configuration, double allowance,
-                    ContactPairState& pair_state);
-  void find_pressures(const Configuration& configuration, bool soft, ContactPairState& pair_state);
-  const FlatTriangle& face_now(const Configuration& configuration, const Collider& faces, int face);
+  void count(const ContactModel& contact);
+  void find_pressures(const Configuration& configuration, bool soft,
+                      ContactPairState& pair_state) const;
 
   const Model& model_;
   std::deque<ContactPairState> pair_states_;  // all that have had candidates so far
@@ -114,11 +120,7 @@ class ContactResponse {
 
   std::vector<double> force_on_bodies_;
   EvaluationCounts evaluations_;
-
-  // Scratch of find_patches: the faces met so far.
-  std::vector<FlatTriangle> faces_;
-  std::vector<int> met_;  // by face: when it was computed last
-  int now_ = 0;
+  std::vector<MetFaces> met_;  // by worker
 };
 
 }  // namespace articular::sim
