@@ -56,9 +56,10 @@ WeightedPoint point_of_rigid_body(const Anchor& anchor, const BodyModel& body,
   if (body.triangles.cols() > 0 && body.X.cols() > 0) {
     const Vec3 x = anchor.point - rigid.rest.p;
     const double size = (body.X.rowwise().maxCoeff() - body.X.rowwise().minCoeff()).norm();
-    const double distance = TriangleTree(body.X, body.triangles).distance(x);
-    if (distance > kBesideBone * size && winding_number(body.X, body.triangles, x) < 0.5)
-      refuse_far(anchor, body.name, distance, kBesideBone * size, "a tenth of its size");
+    const double to_node = std::sqrt((body.X.colwise() - x).colwise().squaredNorm().minCoeff());
+    if (to_node > kBesideBone * size && winding_number(body.X, body.triangles, x) < 0.5)
+      refuse_far(anchor, body.name, TriangleTree(body.X, body.triangles).distance(x),
+                 kBesideBone * size, "a tenth of its size");
   }
   return {{{rigid.block, body.rigid, anchor.point - rigid.rest.p}}, {1}};
 }
