@@ -74,7 +74,7 @@ TEST_F(SystemFailure, AClosedStreamIsNotTakenForAFileOfResults) {
 
 TEST_F(SystemFailure, AFileThatMayNotGrowIsASystemErrorAndResumed) {
   run_program(folder_, "run scene.toml --quiet --out whole");
-  // In blocks of 512 bytes: nothing, no frame, no checkpoint.
+  // In blocks of 512 bytes: nothing; neither a summary nor a frame; no frame.
   for (const std::string blocks : {"0", "3", "7"}) {
     // Through a pipe: the messages' own file may not grow either.
     expect_one_line(
