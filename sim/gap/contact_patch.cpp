@@ -32,17 +32,13 @@ struct Cuts {
 
 /// The polygon's edges inside the triangle, in units of its area.
 void find_edges(const TrianglePolygon& polygon, const Cuts& cuts, ContactPatch& patch) {
-  using At = PatchEdge::End::At;
-  std::array<PatchEdge::End, TrianglePolygon::kMaxCorners> of_side;
+  using End = PatchEdge::End;
+  std::array<int, TrianglePolygon::kMaxCorners> number;     // of the edge, by side; -1: none
   std::array<int, TrianglePolygon::kMaxCuts> first_corner;  // of the side, by edge
   for (int k = 0; k < polygon.count; ++k) {
     const int side = polygon.side[static_cast<std::size_t>(k)];
-    PatchEdge::End& end = of_side[static_cast<std::size_t>(k)];
-    if (side < 0) {
-      end = {At::Side, -1 - side};
-      continue;
-    }
-    if (patch.num_edges == std::ssize(patch.edge)) continue;
+    number[static_cast<std::size_t>(k)] = -1;
+    if (side < 0 || patch.num_edges == std::ssize(patch.edge)) continue;
     const Cut& cut = cuts.all()[static_cast<std::size_t>(side)];
     // 1/|∇χ| is the distance of a point from the edge by its χ: of the corner farthest off.
     Eigen::Index far = 0;
@@ -58,14 +54,20 @@ void find_edges(const TrianglePolygon& polygon, const Cuts& cuts, ContactPatch& 
     edge.b = polygon.corner[static_cast<std::size_t>(after)];
     const Vec3 along = edge.b - edge.a, off = Vec3::Unit(far) - edge.a;
     edge.length = 2 * std::abs(along[1] * off[2] - along[2] * off[1]) / level;
-    end = {At::Edge, patch.num_edges};
+    number[static_cast<std::size_t>(k)] = patch.num_edges;
     first_corner[static_cast<std::size_t>(patch.num_edges++)] = k;
   }
+  const auto end_at = [&](int k) -> End {
+    const int side = polygon.side[static_cast<std::size_t>(k)];
+    if (side < 0) return {End::At::Side, -1 - side};
+    const int edge = number[static_cast<std::size_t>(k)];
+    return edge < 0 ? End{} : End{End::At::Edge, edge};
+  };
   for (int k = 0; k < patch.num_edges; ++k) {
     PatchEdge& edge = patch.edge[static_cast<std::size_t>(k)];
     const int corner = first_corner[static_cast<std::size_t>(k)];
-    edge.before = of_side[static_cast<std::size_t>(corner == 0 ? polygon.count - 1 : corner - 1)];
-    edge.after = of_side[static_cast<std::size_t>(corner + 1 == polygon.count ? 0 : corner + 1)];
+    edge.before = end_at(corner == 0 ? polygon.count - 1 : corner - 1);
+    edge.after = end_at(corner + 1 == polygon.count ? 0 : corner + 1);
   }
 }
 
