@@ -15,10 +15,9 @@ constexpr double kDependent = 1e-10;
 
 }  // namespace
 
-void Anderson::see(const Eigen::VectorXd& w, const Eigen::VectorXd& weighted, double residual) {
-  if (has_improved_ && residual > residual_) restart();
+void Anderson::see(const Eigen::VectorXd& w, const Eigen::VectorXd& weighted, bool has_grown) {
+  if (has_improved_ && has_grown) restart();
   has_improved_ = false;
-  residual_ = residual;
   const double size = w.dot(weighted);
   const auto turn = [](int iteration) { return static_cast<std::size_t>(iteration % kBack); };
   if (num_seen_ > 0 && size > kLost * sizes_[turn(num_seen_ - 1)]) num_seen_ = 0;

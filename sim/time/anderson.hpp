@@ -24,8 +24,8 @@ class Anderson {
   /// residual ended in circles once a step was accelerated over a contact.
   /// @param w  Newton's correction of the present iterate
   /// @param weighted  M w; sizes are wᵀ M w, M positive definite
-  /// @param residual  norm of what w corrects, in any unit
-  void see(const Eigen::VectorXd& w, const Eigen::VectorXd& weighted, double residual);
+  /// @param has_grown  the residual that w corrects, since the correction before
+  void see(const Eigen::VectorXd& w, const Eigen::VectorXd& weighted, bool has_grown);
   /// Corrections have hardly become smaller: improve() is worth it.
   bool is_slow() const { return is_slow_; }
   /// The correction seen last, made better.
@@ -39,7 +39,6 @@ class Anderson {
 
   int num_seen_ = 0;  // corrections of this iteration
   bool is_slow_ = false, has_improved_ = false;
-  double residual_ = 0;                       // seen last
   std::array<double, kBack> sizes_{};         // of the last corrections, in turns
   Eigen::VectorXd last_, last_weighted_;      // correction, as Newton had it
   Eigen::VectorXd taken_;                     // and as it was taken

@@ -154,7 +154,7 @@ bool NewtonSystem::accelerate(double gamma) {
     return false;
   }
   dynamics_.multiply_mass(w_, mass_rhs_);
-  anderson_.see(w_, mass_rhs_, residual_);
+  anderson_.see(w_, mass_rhs_, residual_ > last_residual_);
   if (!anderson_.is_slow()) return false;
   if (is_at_end(gamma)) return false;  // by Newton's own correction
   anderson_.improve(w_);
