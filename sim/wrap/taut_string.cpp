@@ -1,0 +1,162 @@
+#include "sim/wrap/taut_string.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace articular::sim {
+namespace {
+
+constexpr double kLow = kEnd, kHigh = 1 - kEnd;
+constexpr int kMostIterations = 100;
+/// ∂L/∂t by the length of the edge. Below the first Newton's method converges fast, the second is
+/// round-off.
+constexpr double kNear = 1e-6, kRoundOff = 1e-15;
+
+/// Points, directions and length for the parameters t. @return the length
+double lay(const std::vector<double>& t, StringShape& s) {
+  const std::size_t n = s.a.size();
+  s.length = 0;
+  for (std::size_t i = 0; i < n; ++i) s.P[i + 1] = s.a[i] + t[i] * s.e[i];
+  for (std::size_t i = 0; i <= n; ++i) {
+    const Vec3 d = s.P[i + 1] - s.P[i];
+    s.l[i] = d.norm();
+    s.u[i] = s.l[i] > 0 ? Vec3(d / s.l[i]) : Vec3::Zero();
+    s.length += s.l[i];
+  }
+  return s.length;
+}
+
+/// ∂L/∂t_i = e_i·(u_i−1 − u_i). @return the largest of those that a bound does not hold, by edges
+double find_gradient(StringShape& s) {
+  double largest = 0;
+  for (std::size_t i = 0; i < s.a.size(); ++i) {
+    s.g[i] = s.e[i].dot(s.u[i] - s.u[i + 1]);
+    s.fixed[i] = (s.t[i] <= kLow && s.g[i] > 0) || (s.t[i] >= kHigh && s.g[i] < 0);
+    const double length = s.e[i].norm();
+    if (s.fixed[i] == 0 && length > 0) largest = std::max(largest, std::abs(s.g[i]) / length);
+  }
+  return largest;
+}
+
+/// ∂²|d|/∂t_i∂t_j of one segment, by e_i·(I − u uᵀ) e_j / l.
+double bend(const Vec3& e, const Vec3& f, const Vec3& u, double l) {
+  return l > 0 ? (e.dot(f) - e.dot(u) * f.dot(u)) / l : 0;
+}
+
+/// H step = −g over what is not fixed, H tridiagonal.
+void solve(StringShape& s) {
+  const std::size_t n = s.a.size();
+  constexpr double kRegular = 1e-14;  // of the diagonal: an edge along the string
+  for (std::size_t i = 0; i < n; ++i) {
+    if (s.fixed[i] != 0) {
+      s.diagonal[i] = 1;
+      s.beside[i] = s.step[i] = 0;
+      continue;
+    }
+    s.diagonal[i] =
+        bend(s.e[i], s.e[i], s.u[i], s.l[i]) + bend(s.e[i], s.e[i], s.u[i + 1], s.l[i + 1]);
+    s.diagonal[i] +=
+        kRegular * s.e[i].squaredNorm() * (1 / s.length + (s.l[i] > 0 ? 1 / s.l[i] : 0));
+    s.beside[i] =
+        i + 1 < n && s.fixed[i + 1] == 0 ? -bend(s.e[i], s.e[i + 1], s.u[i + 1], s.l[i + 1]) : 0;
+    s.step[i] = -s.g[i];
+  }
+  for (std::size_t i = 1; i < n; ++i) {
+    const double factor = s.beside[i - 1] / s.diagonal[i - 1];
+    s.diagonal[i] -= factor * s.beside[i - 1];
+    if (!(s.diagonal[i] > 0)) s.diagonal[i] = s.e[i].squaredNorm() / s.length;
+    s.step[i] -= factor * s.step[i - 1];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    if (i + 1 < n) s.step[i] -= s.beside[i] * s.step[i + 1];
+    s.step[i] /= s.diagonal[i];
+  }
+}
+
+/// The step, without what a bound would cut off at once.
+void find_step(StringShape& s) {
+  constexpr int kMostTimes = 8;
+  for (int k = 0; k < kMostTimes; ++k) {
+    solve(s);
+    bool all_within = true;
+    for (std::size_t i = 0; i < s.a.size(); ++i) {
+      const bool outward = (s.t[i] <= kLow && s.step[i] < 0) || (s.t[i] >= kHigh && s.step[i] > 0);
+      if (s.fixed[i] != 0 || !outward) continue;
+      s.fixed[i] = 1;
+      all_within = false;
+    }
+    if (all_within) return;
+  }
+}
+
+/// Along the step, cut off at the bounds, until L falls [Bertsekas 1982, eq. 12].
+bool advance(StringShape& s, bool near) {
+  constexpr double kArmijo = 1e-4, kSlack = 1e-15;
+  const double start = s.length;
+  for (double part = 1; part > 1e-9; part *= 0.5) {
+    double expected = 0;
+    for (std::size_t i = 0; i < s.t.size(); ++i) {
+      s.tried[i] = std::clamp(s.t[i] + part * s.step[i], kLow, kHigh);
+      expected += s.g[i] * (s.tried[i] - s.t[i]);
+    }
+    const double length = lay(s.tried, s);
+    if (near || length <= start + kArmijo * std::min(expected, 0.0) + kSlack * start) {
+      std::swap(s.t, s.tried);
+      return true;
+    }
+  }
+  lay(s.t, s);
+  return false;
+}
+
+}  // namespace
+
+int node_at_end(const WrapSurface& surface, const EdgeCrossing& crossing) {
+  const WrapEdge& edge = surface.edges[static_cast<std::size_t>(crossing.edge)];
+  if (crossing.t <= kLow) return edge.node[0];
+  return crossing.t >= kHigh ? edge.node[1] : -1;
+}
+
+void turn_round(std::vector<EdgeCrossing>& crossings) {
+  std::reverse(crossings.begin(), crossings.end());
+  for (EdgeCrossing& crossing : crossings) crossing.forward = !crossing.forward;
+}
+
+void pull_taut(std::span<const PlacedSurface> surfaces, const Vec3& from, const Vec3& to,
+               std::vector<EdgeCrossing>& crossings, StringShape& s) {
+  const std::size_t n = crossings.size();
+  for (auto* list : {&s.a, &s.e}) list->resize(n);
+  for (auto* list : {&s.t, &s.g, &s.diagonal, &s.beside, &s.step, &s.tried}) list->resize(n);
+  s.fixed.resize(n);
+  s.P.resize(n + 2);
+  s.u.resize(n + 1);
+  s.l.resize(n + 1);
+  s.P.front() = from;
+  s.P.back() = to;
+  for (std::size_t i = 0; i < n; ++i) {
+    const PlacedSurface& surface = surfaces[static_cast<std::size_t>(crossings[i].surface)];
+    const WrapEdge& edge = surface.surface->edges[static_cast<std::size_t>(crossings[i].edge)];
+    s.a[i] = surface.at(edge.node[0]);
+    s.e[i] = surface.at(edge.node[1]) - s.a[i];
+    s.t[i] = std::clamp(crossings[i].t, kLow, kHigh);
+  }
+  lay(s.t, s);
+  double last = find_gradient(s);
+  for (int k = 0; k < kMostIterations && last > kRoundOff; ++k) {
+    ++s.iterations;
+    const bool near = last < kNear;
+    find_step(s);
+    if (!advance(s, near)) {
+      find_gradient(s);
+      break;
+    }
+    const double now = find_gradient(s);
+    // Near the end round-off is reached where the gradient no longer falls.
+    if (near && now >= 0.5 * last) break;
+    last = now;
+  }
+  for (std::size_t i = 0; i < n; ++i) crossings[i].t = s.t[i];
+}
+
+}  // namespace articular::sim
