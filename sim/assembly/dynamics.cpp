@@ -14,7 +14,11 @@
 namespace articular::sim {
 
 Dynamics::Dynamics(const Model& model)
-    : model_(model), contact_(model), matrix_(model), moment_(model, contact_) {
+    : model_(model),
+      contact_(model),
+      matrix_(model),
+      moment_(model, contact_),
+      wraps_(initial_wraps(model)) {
   moment_.forces.resize(3 * model.num_blocks);
   moment_.rigid_forces.resize(static_cast<std::size_t>(model.layout.num_rigid));
   moment_.held_forces.resize(3, static_cast<Eigen::Index>(model.held_blocks.size()));
@@ -75,6 +79,7 @@ const Moment& Dynamics::evaluate(const double* y, double t, const Conditions& co
   moment_.largest_force = 0;
   find_elastic_forces(y, conditions);
   moment_.lines.assign(model_.lines.size(), {});
+  find_paths();
   if (!conditions.unloaded) {
     add_loads();
     add_lines();
@@ -168,12 +173,30 @@ void Dynamics::add_loads() {
   }
 }
 
+void Dynamics::set_wraps(const WrapHistory& wraps) { wraps_ = wraps; }
+
+void Dynamics::find_paths() {
+  moment_.paths.resize(model_.lines.size());
+  const std::span<const std::vector<EdgeCrossing>> history(wraps_);
+  std::size_t k = 0;
+  for (std::size_t l = 0; l < model_.lines.size(); ++l) {
+    const Line& line = model_.lines[l];
+    const std::size_t count = line.wrap.strings.size();
+    if (count > 0)
+      find_path(model_, line, moment_.configuration, history.subspan(k, count), moment_.paths[l]);
+    k += count;
+  }
+}
+
 void Dynamics::add_lines() {
   for (std::size_t l = 0; l < model_.lines.size(); ++l) {
     ++evaluations_[model_.lines[l].muscle >= 0 ? Term::LineMuscle : Term::Ligament];
-    moment_.lines[l] = line_state(model_, model_.lines[l], moment_.configuration);
-    add_line_force(model_.lines[l], moment_.configuration, moment_.lines[l].tension,
-                   moment_.forces);
+    const std::span<const WeightedPoint> path = path_of(moment_, l);
+    moment_.lines[l] = line_state(model_, model_.lines[l], path, moment_.configuration);
+    // No path was found: the step is to be shorter.
+    if (!moment_.paths[l].found)
+      moment_.lines[l].tension = std::numeric_limits<double>::quiet_NaN();
+    add_line_force(path, moment_.configuration, moment_.lines[l].tension, moment_.forces);
     note_force(moment_.lines[l].tension);
   }
 }

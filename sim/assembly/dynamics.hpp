@@ -50,6 +50,9 @@ class Dynamics {
   /// Drops what depends on the past: couplings of earlier candidates, multipliers and duals.
   void forget();
 
+  /// Where the paths of lines that wrap are pulled from, in all that is evaluated from now on.
+  void set_wraps(const WrapHistory& wraps);
+
   /// Reads the state y at t and computes all forces there.
   const Moment& evaluate(const double* y, double t, const Conditions& conditions = {});
   /// Of the last evaluate().
@@ -81,6 +84,7 @@ class Dynamics {
   void find_elastic_forces(const double* y, const Conditions& conditions);
   void read_internal_variables(std::size_t t, const double* y);
   void add_loads();
+  void find_paths();
   void add_lines();
   /// For Moment::largest_force.
   void note_force(double force);
@@ -90,6 +94,7 @@ class Dynamics {
   NewtonMatrix matrix_;
   Moment moment_;
   std::span<const CandidateList> candidates_;
+  WrapHistory wraps_;
   Positions v_;  // at the nodes of a tissue
   DynamicsTimes times_;
   mutable EvaluationCounts evaluations_;  // but those of the matrix and of contact

@@ -4,6 +4,7 @@
 
 #include "sim/contact/contact_response.hpp"
 #include "sim/lines/line_force.hpp"
+#include "sim/lines/line_path.hpp"
 #include "sim/model/constrained_rigid_body.hpp"
 
 namespace articular::sim {
@@ -27,6 +28,7 @@ struct Moment {
   Configuration configuration;
   std::vector<TissueMoment> tissues;
   std::vector<LineState> lines;
+  std::vector<LinePath> paths;  // of lines that wrap; those of others are empty
   /// Block forces [N]: 3 entries a block, those on fixed and driven bodies included, without the
   /// inertia of what they carry; of held bodies the part along their free freedoms.
   Eigen::VectorXd forces;
@@ -39,6 +41,11 @@ struct Moment {
   bool begins_step = false;
   double step_start = 0;  // of the step that it is in [s]
 };
+
+/// The points of a line now.
+inline std::span<const WeightedPoint> path_of(const Moment& now, std::size_t line) {
+  return now.paths[line].strings.empty() ? now.model.lines[line].path : now.paths[line].points;
+}
 
 /// Of a tissue's fibres, in [0, 1]; 0 where no muscle activates them.
 double activation_of(const Tissue& tissue, const Configuration& now);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fem/element/smoothed_elasticity.hpp"
+#include "sim/lines/wrapped_stiffness.hpp"
 #include "sim/loads/surface_load.hpp"
 #include "sim/model/held_blocks.hpp"
 
@@ -111,7 +112,11 @@ Stencils NewtonMatrix::base_stencils(bool smoothing) const {
     base.blocks.insert(base.blocks.end(), {block, block + 1});
     base.close();
   }
-  for (const Line& line : model_.lines) append_stencil(model_, line, base);
+  for (const Line& line : model_.lines)
+    if (line.wrap.strings.empty())
+      append_stencil(model_, line, base);
+    else
+      append_wrapped_stencil(model_, line, base);
   return base;
 }
 
@@ -297,7 +302,11 @@ const fem::BlockMatrix& NewtonMatrix::assemble(const Moment& now, const SystemSc
   for (std::size_t t = 0; t < tissues_.size(); ++t) add_tissue(t, now, scale, tangent, common);
   add_masses(now.configuration, scale, common);
   for (std::size_t l = 0; l < model_.lines.size(); ++l)
-    add_line_stiffness(model_, model_.lines[l], now.configuration, now.lines[l], scale, common);
+    if (model_.lines[l].wrap.strings.empty())
+      add_line_stiffness(model_, model_.lines[l], now.configuration, now.lines[l], scale, common);
+    else
+      add_wrapped_stiffness(model_, model_.lines[l], now.paths[l], now.configuration, now.lines[l],
+                            scale, tangent == fem::Tangent::Projected, common);
   if (tangent == fem::Tangent::Consistent)  // a pressure's is not positive semidefinite
     for (const SurfaceLoadModel& load : model_.surface_loads)
       add_surface_stiffness(model_, load, now.configuration, scale.stiffness, common);

@@ -15,6 +15,7 @@
 #include "sim/build/make_supports.hpp"
 #include "sim/build/make_surface_loads.hpp"
 #include "sim/build/make_tissue.hpp"
+#include "sim/build/make_wraps.hpp"
 #include "sim/build/memory_need.hpp"
 #include "sim/build/region.hpp"
 #include "sim/build/unit_doubts.hpp"
@@ -325,7 +326,8 @@ class Builder {
     return free_start_;
   }
 
-  Line make_line(const std::string& name, const std::vector<Anchor>& path, const Location& where) {
+  Line make_line(const std::string& name, const std::vector<Anchor>& path,
+                 const std::vector<std::string>& wrap, const Location& where) {
     Line line;
     line.name = name;
     for (const Anchor& anchor : path) line.path.push_back(resolve(anchor));
@@ -333,6 +335,12 @@ class Builder {
       line.start_length += (start_position(line.path[i]) - start_position(line.path[i - 1])).norm();
     if (!(line.start_length > 0))
       throw InputError(where, fmt::format("`{}` has no length: its points coincide", name));
+    if (wrap.empty()) return line;
+    std::vector<int> bodies;
+    for (const std::string& body : wrap) bodies.push_back(body_index(body));
+    std::vector<Vec3> points;
+    for (const WeightedPoint& point : line.path) points.push_back(start_position(point));
+    make_wrap(wrap, bodies, points, where, model_, line);
     return line;
   }
 
@@ -351,7 +359,7 @@ class Builder {
   }
 
   void make_line_muscle(const Muscle& muscle) {
-    Line line = make_line(muscle.name, muscle.path, muscle.where);
+    Line line = make_line(muscle.name, muscle.path, muscle.wrap, muscle.where);
     line.muscle = static_cast<int>(model_.muscles.size());
     MuscleModel m{muscle, muscle.optimal_length.value_or(line.start_length),
                   static_cast<int>(model_.lines.size())};
@@ -368,7 +376,7 @@ class Builder {
   }
 
   void make_ligament(const Ligament& ligament) {
-    Line line = make_line(ligament.name, ligament.path, ligament.where);
+    Line line = make_line(ligament.name, ligament.path, ligament.wrap, ligament.where);
     line.ligament = static_cast<int>(model_.ligaments.size());
     double slack = line.start_length;
     if (ligament.slack_length)

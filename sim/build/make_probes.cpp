@@ -50,13 +50,26 @@ struct Resolver {
     return observed;
   }
 
-  Observed operator()(const LineProbe& named) const {
+  int line_called(const std::string& name) const {
     const auto line = std::find_if(model.lines.begin(), model.lines.end(),
-                                   [&](const Line& l) { return l.name == named.line; });
-    const auto index = static_cast<int>(line - model.lines.begin());
-    if (line->muscle >= 0) return ObservedMuscle{index, line->muscle};
-    return ObservedLigament{index, line->ligament};
+                                   [&](const Line& l) { return l.name == name; });
+    return static_cast<int>(line - model.lines.begin());
   }
+
+  Observed operator()(const LineProbe& named) const {
+    const int index = line_called(named.line);
+    const Line& line = model.lines[static_cast<std::size_t>(index)];
+    if (line.muscle >= 0) return ObservedMuscle{index, line.muscle};
+    return ObservedLigament{index, line.ligament};
+  }
+
+  Observed operator()(const MomentArmProbe& arm) const {
+    const int rigid = body(arm.body).rigid;
+    const Pose& rest = model.rigid_bodies[static_cast<std::size_t>(rigid)].rest;
+    return ObservedMomentArm{line_called(arm.line), {rigid, arm.point - rest.p, arm.axis}};
+  }
+
+  Observed operator()(const WrapProbe& wrap) const { return ObservedWrap{line_called(wrap.line)}; }
 
   Observed operator()(const EnergyProbe&) const { return ObservedEnergy{}; }
 

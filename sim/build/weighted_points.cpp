@@ -6,10 +6,10 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "sim/build/region.hpp"
 #include "sim/mesh/triangle_tree.hpp"
+#include "sim/mesh/winding_number.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
@@ -35,19 +35,6 @@ void refuse_far(const Anchor& anchor, const std::string& body, double distance, 
                    fmt::format("the point ({:.3f} {:.3f} {:.3f}) mm lies {:.3g} mm from `{}`: "
                                "expected one in it, or within {} ({:.3g} mm) of its surface",
                                mm.x(), mm.y(), mm.z(), 1e3 * distance, body, what, 1e3 * most));
-}
-
-/// How often a closed surface goes round x: about 1 inside, 0 outside [Van Oosterom and Strackee
-/// 1983, IEEE Trans. Biomed. Eng. 30, for the solid angle of a triangle].
-double winding_number(const Positions& X, const Triangles& triangles, const Vec3& x) {
-  double angle = 0;
-  for (const auto& triangle : triangles.colwise()) {
-    const Vec3 a = X.col(triangle[0]) - x, b = X.col(triangle[1]) - x, c = X.col(triangle[2]) - x;
-    const double na = a.norm(), nb = b.norm(), nc = c.norm();
-    angle += 2 * std::atan2(a.dot(b.cross(c)),
-                            na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
-  }
-  return angle / (4 * std::numbers::pi);
 }
 
 /// Moves with the body wherever it lies.

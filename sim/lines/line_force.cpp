@@ -13,8 +13,9 @@ struct Segment {
   double length = 0;
 };
 
-Segment segment(const Line& line, std::size_t i, const Configuration& configuration) {
-  const Vec3 d = configuration.position(line.path[i + 1]) - configuration.position(line.path[i]);
+Segment segment(std::span<const WeightedPoint> path, std::size_t i,
+                const Configuration& configuration) {
+  const Vec3 d = configuration.position(path[i + 1]) - configuration.position(path[i]);
   const double length = d.norm();
   return {length > 0 ? Vec3(d / length) : Vec3::Zero(), length};
 }
@@ -60,13 +61,14 @@ void ligament_tension(const LigamentModel& ligament, LineState& s) {
 
 }  // namespace
 
-LineState line_state(const Model& model, const Line& line, const Configuration& configuration) {
+LineState line_state(const Model& model, const Line& line, std::span<const WeightedPoint> path,
+                     const Configuration& configuration) {
   LineState s;
-  for (std::size_t i = 0; i + 1 < line.path.size(); ++i) {
-    const Segment part = segment(line, i, configuration);
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Segment part = segment(path, i, configuration);
     s.length += part.length;
-    s.rate += part.direction.dot(configuration.velocity(line.path[i + 1]) -
-                                 configuration.velocity(line.path[i]));
+    s.rate +=
+        part.direction.dot(configuration.velocity(path[i + 1]) - configuration.velocity(path[i]));
   }
   if (line.muscle >= 0)
     muscle_tension(model.muscles[static_cast<std::size_t>(line.muscle)],
@@ -76,13 +78,29 @@ LineState line_state(const Model& model, const Line& line, const Configuration& 
   return s;
 }
 
-void add_line_force(const Line& line, const Configuration& configuration, double tension,
-                    Eigen::VectorXd& f) {
-  for (std::size_t i = 0; i + 1 < line.path.size(); ++i) {
-    const Vec3 pull = tension * segment(line, i, configuration).direction;
-    add_force(configuration, line.path[i], pull, f);
-    add_force(configuration, line.path[i + 1], -pull, f);
+void add_line_force(std::span<const WeightedPoint> path, const Configuration& configuration,
+                    double tension, Eigen::VectorXd& f) {
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Vec3 pull = tension * segment(path, i, configuration).direction;
+    add_force(configuration, path[i], pull, f);
+    add_force(configuration, path[i + 1], -pull, f);
   }
+}
+
+Vec3 moment_of_line(std::span<const WeightedPoint> path, const Configuration& configuration,
+                    int rigid, const Vec3& about) {
+  Vec3 moment = Vec3::Zero();
+  const auto pull = [&](const WeightedPoint& point, const Vec3& force) {
+    for (std::size_t k = 0; k < point.nodes.size(); ++k)
+      if (point.nodes[k].rigid == rigid)
+        moment += point.weights[k] * (configuration.position(point.nodes[k]) - about).cross(force);
+  };
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Vec3 direction = segment(path, i, configuration).direction;
+    pull(path[i], direction);
+    pull(path[i + 1], -direction);
+  }
+  return moment;
 }
 
 void add_line_stiffness(const Model& model, const Line& line, const Configuration& configuration,
@@ -90,7 +108,7 @@ void add_line_stiffness(const Model& model, const Line& line, const Configuratio
   // l = Σ |P_i+1 − P_i|: ∂l/∂P_i = u_i−1 − u_i, and the Hessian couples the ends of each segment.
   const std::size_t n = line.path.size();
   std::vector<Segment> parts;
-  for (std::size_t i = 0; i + 1 < n; ++i) parts.push_back(segment(line, i, configuration));
+  for (std::size_t i = 0; i + 1 < n; ++i) parts.push_back(segment(line.path, i, configuration));
   const auto gradient = [&](std::size_t i) {
     Vec3 g = Vec3::Zero();
     if (i > 0) g += parts[i - 1].direction;

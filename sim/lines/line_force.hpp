@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "sim/model/configuration.hpp"
 #include "sim/model/system_matrix.hpp"
 
@@ -17,13 +19,19 @@ struct LineState {
   double tension_per_activation = 0;  // [N]
 };
 
-LineState line_state(const Model& model, const Line& line, const Configuration& configuration);
+/// @param path  its points now: those of Line::path, and of a line that wraps those between them
+LineState line_state(const Model& model, const Line& line, std::span<const WeightedPoint> path,
+                     const Configuration& configuration);
 
-/// f += the line's pull on its points.
-void add_line_force(const Line& line, const Configuration& configuration, double tension,
-                    Eigen::VectorXd& f);
+/// f += a line's pull on its points.
+void add_line_force(std::span<const WeightedPoint> path, const Configuration& configuration,
+                    double tension, Eigen::VectorXd& f);
 
-/// A += the line's part of stiffness and damping.
+/// Moment of a tension of 1 N in a line on a rigid body about a point [m].
+Vec3 moment_of_line(std::span<const WeightedPoint> path, const Configuration& configuration,
+                    int rigid, const Vec3& about);
+
+/// A += the part of stiffness and damping of a line that does not wrap.
 void add_line_stiffness(const Model& model, const Line& line, const Configuration& configuration,
                         const LineState& state, const SystemScale& scale, fem::BlockMatrix& A);
 

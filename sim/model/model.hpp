@@ -21,6 +21,7 @@
 #include "sim/model/mass_properties.hpp"
 #include "sim/model/tissue_elements.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "sim/wrap/wrapped_path.hpp"
 
 /// The scene made ready to compute: immutable, holding only what the scene requires. How it is
 /// moved on is said by StepSettings, what is written of it by the scenario.
@@ -132,12 +133,29 @@ struct WeightedPoint {
   std::vector<double> weights;  // sum 1
 };
 
+/// The surface of a rigid body that lines wrap around.
+struct WrapBody {
+  int rigid = 0;  // index into Model::rigid_bodies
+  Positions X;    // in the rigid body's frame [m]
+  WrapSurface surface;
+  BoxTree tree;
+  double size = 0;  // [m]
+};
+
+/// What a line wraps around, and how at the start: a taut string between each two points of its
+/// path, whose places are those of the points.
+struct LineWrap {
+  std::vector<int> bodies;  // indices into Model::wrap_bodies: the strings' surfaces
+  std::vector<WrappedString> strings;
+};
+
 struct Line {
   std::string name;
   std::vector<WeightedPoint> path;
   double start_length = 0;  // [m]
   int muscle = -1;          // index into Model::muscles
   int ligament = -1;        // index into Model::ligaments
+  LineWrap wrap = {};       // empty: straight from point to point
 };
 
 struct MuscleModel {
@@ -186,6 +204,13 @@ struct ObservedContact {
   std::vector<char> faces;  // of that body's collider: those that count; empty: all
 };
 
+/// About which a line's moment arm is taken: it goes with a rigid body.
+struct LineAxis {
+  int rigid = 0;                   // index into Model::rigid_bodies
+  Vec3 point = Vec3::Zero();       // in the rigid body's frame [m]
+  Vec3 direction = Vec3::UnitX();  // unit vector, in that frame
+};
+
 struct ObservedMuscle {
   int line = 0;    // index into Model::lines
   int muscle = 0;  // index into Model::muscles
@@ -194,6 +219,15 @@ struct ObservedMuscle {
 struct ObservedLigament {
   int line = 0;      // index into Model::lines
   int ligament = 0;  // index into Model::ligaments
+};
+
+struct ObservedMomentArm {
+  int line = 0;  // index into Model::lines
+  LineAxis axis;
+};
+
+struct ObservedWrap {
+  int line = 0;  // index into Model::lines
 };
 
 struct ObservedEnergy {};
@@ -221,9 +255,10 @@ struct ObservedJoint {
   bool is_right = true;
 };
 
-using Observed = std::variant<ObservedPoint, ObservedAngle, ObservedContact, ObservedMuscle,
-                              ObservedLigament, ObservedEnergy, ObservedReaction, ObservedSupport,
-                              ObservedAttachment, ObservedShare, ObservedJoint>;
+using Observed =
+    std::variant<ObservedPoint, ObservedAngle, ObservedContact, ObservedMuscle, ObservedLigament,
+                 ObservedMomentArm, ObservedWrap, ObservedEnergy, ObservedReaction, ObservedSupport,
+                 ObservedAttachment, ObservedShare, ObservedJoint>;
 
 struct ProbeModel {
   std::string name;
@@ -254,6 +289,7 @@ struct Model {
   std::vector<Tissue> tissues;
   std::vector<RigidBody>
       rigid_bodies;  // rigid ones first: rigid body r < layout.num_rigid is unknown
+  std::vector<WrapBody> wrap_bodies;
   std::vector<Line> lines;
   std::vector<MuscleModel> muscles;
   std::vector<LigamentModel> ligaments;

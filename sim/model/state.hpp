@@ -7,6 +7,7 @@
 
 #include "sim/base/evaluation_counters.hpp"
 #include "sim/model/contact_pairs.hpp"
+#include "sim/wrap/taut_string.hpp"
 
 namespace articular::sim {
 
@@ -76,6 +77,10 @@ struct RunExtrema {
   double gravity_high = -std::numeric_limits<double>::infinity();
 };
 
+/// The edges that lines cross, of each string of each line that wraps in the order of the model:
+/// where the next path is pulled from.
+using WrapHistory = std::vector<std::vector<EdgeCrossing>>;
+
 /// All that changes: a copy of it at a checkpoint is a restart point.
 struct State {
   double t = 0;                // [s]
@@ -84,6 +89,7 @@ struct State {
   double next_margin = 0;      // [m] of the next detection
   double max_penetration = 0;  // [m] largest so far
   int frames = 0;              // written
+  WrapHistory wraps;
   EnergyLedger energy;
   Counts counts;
   OverlapResolution overlap_resolution;

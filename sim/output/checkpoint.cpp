@@ -13,7 +13,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 9\n";
+constexpr char kMagic[] = "articular checkpoint 10\n";
 
 constexpr const char *kNewest = "state.bin", *kBefore = "previous.bin";
 
@@ -67,6 +67,14 @@ void each_of_overlap(Overlap& overlap, const Visit& visit) {
   visit(overlap.contact);
   visit(overlap.before);
   visit(overlap.after);
+}
+
+template <class AnyCrossing, class Visit>
+void each_of_crossing(AnyCrossing& crossing, const Visit& visit) {
+  visit(crossing.surface);
+  visit(crossing.edge);
+  visit(crossing.forward);
+  visit(crossing.t);
 }
 
 template <class Extrema, class Visit>
@@ -128,6 +136,15 @@ Checkpoint parsed(const std::string& bytes, const std::string& fingerprint,
   for (std::size_t k = 0; k < num_overlaps; ++k)
     each_of_overlap(checkpoint.state.overlap_resolution.overlaps.emplace_back(), get_member);
   reader.get_vector(checkpoint.state.y);
+  std::size_t num_strings = 0;
+  reader.get(num_strings);
+  for (std::size_t k = 0; k < num_strings; ++k) {
+    std::vector<EdgeCrossing>& string = checkpoint.state.wraps.emplace_back();
+    std::size_t num_crossings = 0;
+    reader.get(num_crossings);
+    for (std::size_t i = 0; i < num_crossings; ++i)
+      each_of_crossing(string.emplace_back(), get_member);
+  }
   return checkpoint;
 }
 
@@ -143,6 +160,11 @@ void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& che
   put(overlaps.size(), bytes);
   for (const ResolvedOverlap& overlap : overlaps) each_of_overlap(overlap, put_member);
   put_vector(checkpoint.state.y, bytes);
+  put(checkpoint.state.wraps.size(), bytes);
+  for (const std::vector<EdgeCrossing>& string : checkpoint.state.wraps) {
+    put(string.size(), bytes);
+    for (const EdgeCrossing& crossing : string) each_of_crossing(crossing, put_member);
+  }
   put(hash_bytes(bytes), bytes);
   std::error_code error;
   // Not made anew: a checkpoint without the files that it refers to.

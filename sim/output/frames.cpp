@@ -119,9 +119,11 @@ void write_lines(const Model& model, const Stepper& stepper, int index, double t
   for (Eigen::Index l = 0; l < count; ++l) {
     const Line& line = model.lines[static_cast<std::size_t>(l)];
     const LineState& state = stepper.now().lines[static_cast<std::size_t>(l)];
-    Positions path(3, static_cast<Eigen::Index>(line.path.size()));
-    for (std::size_t i = 0; i < line.path.size(); ++i)
-      path.col(static_cast<Eigen::Index>(i)) = now.position(line.path[i]);
+    const std::span<const WeightedPoint> points =
+        path_of(stepper.now(), static_cast<std::size_t>(l));
+    Positions path(3, static_cast<Eigen::Index>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      path.col(static_cast<Eigen::Index>(i)) = now.position(points[i]);
     frame.names.push_back(line.name);
     frame.paths.push_back(std::move(path));
     if (line.muscle >= 0) activation(0, l) = now.activation[line.muscle];

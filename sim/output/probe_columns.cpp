@@ -197,6 +197,50 @@ void list(const LigamentReading& ligament, Columns& columns) {
   columns.number("strain", "-", ligament.strain);
 }
 
+struct MomentArm {
+  double arm = 0;  // [m]
+};
+
+/// The moment that a tension of 1 N puts on the body, about the axis.
+MomentArm measure(const ObservedMomentArm& observed, const Now& now) {
+  const LineAxis& axis = observed.axis;
+  const Pose& pose = now.pose(axis.rigid);
+  const Vec3 point = pose.p + pose.R * axis.point;
+  return {(pose.R * axis.direction)
+              .dot(moment_of_line(path_of(now.moment(), static_cast<std::size_t>(observed.line)),
+                                  now.configuration(), axis.rigid, point))};
+}
+
+void list(const MomentArm& arm, Columns& columns) { columns.length("moment_arm", arm.arm); }
+
+struct WrapReading {
+  int edges = 0;
+  double length = 0;               // [m]
+  std::optional<Vec3> begin, end;  // [m]
+};
+
+WrapReading measure(const ObservedWrap& wrap, const Now& now) {
+  const auto l = static_cast<std::size_t>(wrap.line);
+  const LinePath& path = now.moment().paths[l];
+  WrapReading reading;
+  reading.length = contact_length(path);
+  for (std::size_t k = 0; k < path.strings.size(); ++k) {
+    const std::size_t count = path.strings[k].crossings.size();
+    if (count == 0) continue;
+    reading.edges += static_cast<int>(count);
+    if (!reading.begin) reading.begin = path.works[k].shape.P[1];
+    reading.end = path.works[k].shape.P[count];
+  }
+  return reading;
+}
+
+void list(const WrapReading& wrap, Columns& columns) {
+  columns.number("edges", "-", wrap.edges);
+  columns.length("contact_length", wrap.length);
+  columns.place("begin", wrap.begin);
+  columns.place("end", wrap.end);
+}
+
 struct Energies {
   StoredEnergy stored;
   EnergyLedger ledger;

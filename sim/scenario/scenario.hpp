@@ -216,9 +216,10 @@ struct Anchor {
 
 struct Muscle {
   std::string name;
-  std::string tissue;        // whose fibres it activates; empty: a line, for which the rest is
-  std::vector<Anchor> path;  // from origin to insertion, via points between; at least 2
-  double max_force = 0;      // [N], isometric, at full activation
+  std::string tissue;             // whose fibres it activates; empty: a line, for which the rest is
+  std::vector<Anchor> path;       // from origin to insertion, via points between; at least 2
+  std::vector<std::string> wrap;  // fixed or rigid bodies that it wraps around
+  double max_force = 0;           // [N], isometric, at full activation
   std::optional<double> optimal_length;  // [m]; default: length of the path at the start
   double max_length_ratio =
       1.3;  // length at which the passive force reaches its maximum / optimal length
@@ -235,7 +236,8 @@ struct Muscle {
 struct Ligament {
   enum class Law { Linear, Blankevoort };
   std::string name;
-  std::vector<Anchor> path;  // at least 2
+  std::vector<Anchor> path;       // at least 2
+  std::vector<std::string> wrap;  // fixed or rigid bodies that it wraps around
   Law law = Law::Linear;
   double stiffness = 0;      // Linear: [N/m]; Blankevoort: [N] per unit strain
   double toe_strain = 0.03;  // Blankevoort's eps_l
@@ -325,6 +327,19 @@ struct LineProbe {
   std::string line;
 };
 
+/// Moment arm of a muscle or ligament about an axis that goes with a fixed or rigid body.
+struct MomentArmProbe {
+  std::string line;
+  std::string body;
+  Vec3 point = Vec3::Zero();  // [m], of the axis, world at the start
+  Vec3 axis = Vec3::UnitX();  // unit vector, world at the start
+};
+
+/// Where a muscle or ligament lies on the bodies that it wraps around.
+struct WrapProbe {
+  std::string line;
+};
+
 /// The energies of the whole scene.
 struct EnergyProbe {};
 
@@ -358,8 +373,8 @@ struct JointProbe {
 
 struct Probe {
   std::string name;
-  std::variant<PointProbe, AngleProbe, ContactProbe, LineProbe, EnergyProbe, ReactionProbe,
-               SupportProbe, AttachmentProbe, ShareProbe, JointProbe>
+  std::variant<PointProbe, AngleProbe, ContactProbe, LineProbe, MomentArmProbe, WrapProbe,
+               EnergyProbe, ReactionProbe, SupportProbe, AttachmentProbe, ShareProbe, JointProbe>
       what;
   Location where = {};
 };

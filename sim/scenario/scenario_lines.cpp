@@ -37,6 +37,23 @@ std::vector<Anchor> read_path(const TableReader& line, const Context& context) {
   return path;
 }
 
+/// Bodies that a line wraps around.
+std::vector<std::string> read_wrap(const Node& node, const Context& context) {
+  std::vector<std::string> names;
+  for (const Node& element : read_list(node, "the names of bodies such as [\"femur\"]")) {
+    const Body& body = read_body_reference(element, context);
+    if (body.kind == Body::Kind::Tissue)
+      fail(element,
+           fmt::format("lines wrap around fixed and rigid bodies, body `{}` is tissue", body.name));
+    if (std::holds_alternative<std::monostate>(body.geometry))
+      fail(element, fmt::format("body `{}` has no surface", body.name));
+    if (std::find(names.begin(), names.end(), body.name) != names.end())
+      fail(element, fmt::format("body `{}` is named twice", body.name));
+    names.push_back(body.name);
+  }
+  return names;
+}
+
 /// The parameters that a muscle and a table of muscles share.
 void read_dynamics(const TableReader& table, Muscle& muscle) {
   table.may("passive_fraction", muscle.passive_fraction, as_number(kNotNegative));
@@ -58,7 +75,7 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
   muscle.name = read_name(table.at("name")) + side_suffix(table, context.side);
   table.exactly_one({"path", "tissue"});
   if (const Node* tissue = table.find("tissue")) {
-    table.refuse({"max_force", "optimal_length", "max_length_ratio", "tendon_ratio",
+    table.refuse({"wrap", "max_force", "optimal_length", "max_length_ratio", "tendon_ratio",
                   "passive_fraction", "max_velocity", "force_length"},
                  "the muscle is made of a tissue's fibres, whose material says how they pull");
     const Body& body = read_body_reference(*tissue, context);
@@ -70,6 +87,7 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
     return muscle;
   }
   muscle.path = read_path(table, context);
+  table.may("wrap", muscle.wrap, [&](const Node& n) { return read_wrap(n, context); });
   muscle.max_force = read_quantity(table.at("max_force"), kForce, kPositive);
   table.may("optimal_length", muscle.optimal_length, as_quantity(kLength, kPositive));
   table.may("max_length_ratio", muscle.max_length_ratio, as_number(kMoreThanOne));
@@ -193,6 +211,7 @@ Ligament read_ligament(const TableReader& table, const Context& context) {
   ligament.where = table.node().where;
   ligament.name = read_name(table.at("name")) + side_suffix(table, context.side);
   ligament.path = read_path(table, context);
+  table.may("wrap", ligament.wrap, [&](const Node& n) { return read_wrap(n, context); });
   table.exactly_one({"stiffness", "stiffness_per_strain"});
   table.may("stiffness", ligament.stiffness, as_quantity(kStiffness, kPositive));
   if (table.find("stiffness_per_strain") != nullptr) {
@@ -209,10 +228,11 @@ Ligament read_ligament(const TableReader& table, const Context& context) {
 }
 
 void append_muscles(const Node& node, const Context& context, std::vector<Muscle>& muscles) {
-  const TableReader table(node, label(node, "muscle"),
-                          {"name", "mirror", "tissue", "path", "max_force", "optimal_length",
-                           "max_length_ratio", "tendon_ratio", "passive_fraction", "max_velocity",
-                           "force_length", "activation_time", "deactivation_time", "excitation"});
+  const TableReader table(
+      node, label(node, "muscle"),
+      {"name", "mirror", "tissue", "path", "wrap", "max_force", "optimal_length",
+       "max_length_ratio", "tendon_ratio", "passive_fraction", "max_velocity", "force_length",
+       "activation_time", "deactivation_time", "excitation"});
   for (const Side side : read_sides(table)) {
     Context here = context;
     here.side = side;
@@ -226,8 +246,8 @@ void append_ligaments(const Node& node, const Context& context, const std::vecto
                       std::vector<Ligament>& ligaments) {
   const TableReader table(
       node, label(node, "ligament"),
-      {"name", "mirror", "path", "stiffness", "stiffness_per_strain", "toe_strain", "damping",
-       "slack_length", "slack_extension", "reference_strain"});
+      {"name", "mirror", "path", "wrap", "stiffness", "stiffness_per_strain", "toe_strain",
+       "damping", "slack_length", "slack_extension", "reference_strain"});
   for (const Side side : read_sides(table)) {
     Context here = context;
     here.side = side;

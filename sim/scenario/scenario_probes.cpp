@@ -11,6 +11,7 @@ using Names = std::vector<std::string>;
 /// What probes may name, besides bodies.
 struct Named {
   Names lines;     // muscles and ligaments
+  Names wrapping;  // those that wrap around bodies
   Names supports;  // those with a name
 };
 
@@ -111,6 +112,29 @@ Target read_line(const TableReader& table, const Context& context, const Named& 
   return LineProbe{read_line_reference(table.at("line"), context, named.lines)};
 }
 
+Target read_moment_arm(const TableReader& table, const Context& context, const Named& named) {
+  keep_only(table, {"line", "body", "point", "axis"});
+  table.refuse({"mirror"}, "an axis is a direction, which is not mirrored");
+  MomentArmProbe arm;
+  arm.line = read_line_reference(table.at("line"), context, named.lines);
+  const Body& body = read_body_reference(table.at("body"), context);
+  if (body.kind == Body::Kind::Tissue)
+    fail(table.at("body"),
+         fmt::format("expected a fixed or rigid body, body `{}` is tissue", body.name));
+  arm.body = body.name;
+  arm.point = read_vector(table.at("point"), kLength);
+  arm.axis = read_direction(table.at("axis"));
+  return arm;
+}
+
+Target read_wrap(const TableReader& table, const Context& context, const Named& named) {
+  keep_only(table, {"line"});
+  WrapProbe wrap{read_line_reference(table.at("line"), context, named.lines)};
+  if (std::find(named.wrapping.begin(), named.wrapping.end(), wrap.line) == named.wrapping.end())
+    fail(table.at("line"), fmt::format("`{}` has no `wrap`", wrap.line));
+  return wrap;
+}
+
 Target read_energy(const TableReader& table, const Context&, const Named&) {
   keep_only(table, {});
   return EnergyProbe{};
@@ -166,6 +190,8 @@ Probe read_probe(const TableReader& table, const Context& context, const Named& 
                          {"angle", read_angle},
                          {"contact", read_contact},
                          {"line", read_line},
+                         {"moment_arm", read_moment_arm},
+                         {"wrap", read_wrap},
                          {"energy", read_energy},
                          {"reaction", read_reaction},
                          {"attachment", read_attachment},
@@ -223,6 +249,10 @@ std::vector<Probe> read_probes(const TableReader& document, const Context& conte
   for (const Muscle& muscle : read_so_far.muscles)
     if (muscle.tissue.empty()) named.lines.push_back(muscle.name);
   for (const Ligament& ligament : read_so_far.ligaments) named.lines.push_back(ligament.name);
+  for (const Muscle& muscle : read_so_far.muscles)
+    if (!muscle.wrap.empty()) named.wrapping.push_back(muscle.name);
+  for (const Ligament& ligament : read_so_far.ligaments)
+    if (!ligament.wrap.empty()) named.wrapping.push_back(ligament.name);
   for (const Support& support : read_so_far.supports)
     if (!support.name.empty()) named.supports.push_back(support.name);
   std::vector<Probe> probes;

@@ -69,6 +69,7 @@ State Stepper::initial() {
   state.y = initial_state(model_);
   state.next_step = settings_.step;
   state.next_margin = model_.detection_margin;
+  state.wraps = initial_wraps(model_);
   restart(state);
   state.energy.start = stored_energy().total();
   note_extrema(dynamics_->now(), state);
@@ -87,6 +88,7 @@ void Stepper::restart(const State& state) {
   dynamics_->forget();
   if (integrator_) integrator_->restart(state.next_step);
   if (equilibrium_) equilibrium_->restart();
+  dynamics_->set_wraps(state.wraps);
   Configuration now;
   read_state(model_, state.y.data(), state.t, now);
   find_contacts(now, state.next_margin);
@@ -177,6 +179,8 @@ bool Stepper::is_exhausted() const {
 bool Stepper::try_step(State& state, double h) {
   if (!(integrator_ ? try_time_step(state, h) : try_load_step(state, h))) return false;
   account(state);
+  keep_wraps(dynamics_->now().paths, state.wraps);
+  dynamics_->set_wraps(state.wraps);
   return true;
 }
 

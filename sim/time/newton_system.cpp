@@ -18,7 +18,8 @@ constexpr double kSlowFall = 0.1;
 Eigen::Quaterniond quaternion(const double* q) { return {q[0], q[1], q[2], q[3]}; }
 
 /// How much longer a line gets when the blocks move by `shift` (rigid bodies: p, rotation vector).
-double lengthening(const Line& line, const Configuration& now, const Eigen::VectorXd& shift) {
+double lengthening(std::span<const WeightedPoint> path, const Configuration& now,
+                   const Eigen::VectorXd& shift) {
   const auto move = [&](const WeightedPoint& point) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t k = 0; k < point.nodes.size(); ++k) {
@@ -30,10 +31,10 @@ double lengthening(const Line& line, const Configuration& now, const Eigen::Vect
     return sum;
   };
   double sum = 0;
-  for (std::size_t i = 0; i + 1 < line.path.size(); ++i) {
-    const Vec3 d = now.position(line.path[i + 1]) - now.position(line.path[i]);
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Vec3 d = now.position(path[i + 1]) - now.position(path[i]);
     if (const double length = d.norm(); length > 0)
-      sum += d.dot(move(line.path[i + 1]) - move(line.path[i])) / length;
+      sum += d.dot(move(path[i + 1]) - move(path[i])) / length;
   }
   return sum;
 }
@@ -211,15 +212,16 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     const int index = model_.muscles[static_cast<std::size_t>(m)].line;
     const auto line = static_cast<std::size_t>(index);
     if (x[i] != 0 && index >= 0)
-      add_line_force(model_.lines[line], dynamics_.now().configuration,
+      add_line_force(path_of(dynamics_.now(), line), dynamics_.now().configuration,
                      dynamics_.now().lines[line].tension_per_activation * x[i], pull_);
   }
   // D b_x: dampers depend on δv = w − b_x/γ.
   const Configuration& now = dynamics_.now().configuration;
   for (std::size_t l = 0; l < model_.lines.size(); ++l)
     if (const double viscosity = dynamics_.now().lines[l].viscosity; viscosity != 0)
-      add_line_force(model_.lines[l], now,
-                     -viscosity / gamma * lengthening(model_.lines[l], now, shift_), pull_);
+      add_line_force(path_of(dynamics_.now(), l), now,
+                     -viscosity / gamma * lengthening(path_of(dynamics_.now(), l), now, shift_),
+                     pull_);
   damping_.add_product(dynamics_.now(), shift_, 1 / gamma, pull_);
   dynamics_.now().contact.add_damping_product(now, shift_, 1 / gamma, pull_);
   relaxation_.add_known_force(dynamics_.now(), b, gamma, pull_);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/wrap/lift_off.hpp"
+
 namespace articular::sim {
 namespace {
 

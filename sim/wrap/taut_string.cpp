@@ -8,7 +8,7 @@ namespace articular::sim {
 namespace {
 
 constexpr double kLow = kEnd, kHigh = 1 - kEnd;
-constexpr int kMostIterations = 100;
+constexpr int kMostIterations = 300;
 /// ∂L/∂t by the length of the edge. Below the first Newton's method converges fast, the second is
 /// round-off.
 constexpr double kNear = 1e-6, kRoundOff = 1e-15;
@@ -74,10 +74,9 @@ void solve(StringShape& s) {
   }
 }
 
-/// The step, without what a bound would cut off at once.
+/// The step, without what a bound would cut off at once. What is left leads downhill for a while.
 void find_step(StringShape& s) {
-  constexpr int kMostTimes = 8;
-  for (int k = 0; k < kMostTimes; ++k) {
+  for (std::size_t k = 0; k <= s.a.size(); ++k) {
     solve(s);
     bool all_within = true;
     for (std::size_t i = 0; i < s.a.size(); ++i) {
@@ -90,14 +89,43 @@ void find_step(StringShape& s) {
   }
 }
 
-/// Along the step, cut off at the bounds, until L falls [Bertsekas 1982, eq. 12].
+/// At a bound, or clear of it.
+double within_bounds(double t) {
+  constexpr double kAtBound = 1e-3 * kEnd;
+  if (t < kLow + kAtBound) return kLow;
+  return t > kHigh - kAtBound ? kHigh : t;
+}
+
+/// A step leaves a part of the way to the bound, until that is short: L is like a cone around a
+/// node, and Newton's method leaves its tip in small steps only.
+double advanced(double t, double step) {
+  constexpr double kLeft = 0.1;
+  const double low = t - kLow > kEnd ? kLow + kLeft * (t - kLow) : kLow;
+  const double high = kHigh - t > kEnd ? kHigh - kLeft * (kHigh - t) : kHigh;
+  return within_bounds(std::clamp(t + step, low, high));
+}
+
+/// The part of the step that brings the first crossing to its bound.
+double first_bound(const StringShape& s) {
+  double part = 1;
+  for (std::size_t i = 0; i < s.t.size(); ++i)
+    if (s.step[i] != 0)
+      part = std::min(part, ((s.step[i] < 0 ? kLow : kHigh) - s.t[i]) / s.step[i]);
+  return part;
+}
+
+/// Along the step, cut off at the bounds, until L falls [Bertsekas 1982, eq. 12]. Around a node the
+/// step may be so long that nothing cut off helps: then up to the first bound, where that crossing
+/// stays.
 bool advance(StringShape& s, bool near) {
-  constexpr double kArmijo = 1e-4, kSlack = 1e-15;
-  const double start = s.length;
-  for (double part = 1; part > 1e-9; part *= 0.5) {
+  constexpr double kArmijo = 1e-4, kSlack = 1e-15, kShortest = 1e-15;
+  const double start = s.length, bound = first_bound(s);
+  for (double part = 1, next = 0; part > kShortest; part = next) {
+    next = 0.5 * part;
+    if (part > bound && next < bound) next = bound;
     double expected = 0;
     for (std::size_t i = 0; i < s.t.size(); ++i) {
-      s.tried[i] = std::clamp(s.t[i] + part * s.step[i], kLow, kHigh);
+      s.tried[i] = advanced(s.t[i], part * s.step[i]);
       expected += s.g[i] * (s.tried[i] - s.t[i]);
     }
     const double length = lay(s.tried, s);
@@ -139,7 +167,7 @@ void pull_taut(std::span<const PlacedSurface> surfaces, const Vec3& from, const 
     const WrapEdge& edge = surface.surface->edges[static_cast<std::size_t>(crossings[i].edge)];
     s.a[i] = surface.at(edge.node[0]);
     s.e[i] = surface.at(edge.node[1]) - s.a[i];
-    s.t[i] = std::clamp(crossings[i].t, kLow, kHigh);
+    s.t[i] = within_bounds(crossings[i].t);
   }
   lay(s.t, s);
   double last = find_gradient(s);

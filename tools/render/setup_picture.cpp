@@ -13,6 +13,7 @@
 
 #include "sim/base/error.hpp"
 #include "sim/build/build_model.hpp"
+#include "sim/lines/line_path.hpp"
 #include "sim/mesh/vtk_files.hpp"
 #include "sim/model/configuration.hpp"
 #include "tools/render/picture.hpp"
@@ -43,8 +44,9 @@ vtkSmartPointer<vtkPointSet> lines_of(const sim::Model& model, const sim::Config
   vtkNew<vtkDoubleArray> kind;
   kind->SetName("kind");
   for (const sim::Line& line : model.lines) {
-    paths->InsertNextCell(static_cast<int>(line.path.size()));
-    for (const sim::WeightedPoint& point : line.path) {
+    const std::vector<sim::WeightedPoint> path = sim::path_from_start(model, line, now);
+    paths->InsertNextCell(static_cast<int>(path.size()));
+    for (const sim::WeightedPoint& point : path) {
       const Vec3 x = now.position(point) / unit;
       paths->InsertCellPoint(points->InsertNextPoint(x.data()));
     }

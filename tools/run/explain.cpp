@@ -119,7 +119,7 @@ Json left_out(const sim::Model& model) {
     items.push_back("forces: the scene has none");
   if (model.gravity.empty()) items.push_back("gravity: the scene has none");
   items.push_back("fluid flow in cartilage (poroelasticity)");
-  items.push_back("wrapping of muscles over bone (straight between via points)");
+  items.push_back("wrapping of muscles over tissue (over bone with `wrap`)");
   items.push_back("deformation of bone");
   return items;
 }

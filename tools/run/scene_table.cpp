@@ -166,13 +166,30 @@ Vec3 direction(const sim::Line& line, const sim::Configuration& now) {
   return (now.position(line.path.back()) - now.position(line.path.front())).normalized();
 }
 
+/// Bodies that a line touches at the start.
+std::string wraps_of(const sim::Line& line, const sim::Model& model, const sim::LinePath& path) {
+  std::string text;
+  for (std::size_t k = 0; k < line.wrap.bodies.size(); ++k) {
+    std::size_t edges = 0;
+    for (const sim::WrappedString& string : path.strings)
+      for (const sim::EdgeCrossing& crossing : string.crossings)
+        edges += crossing.surface == static_cast<int>(k) ? 1 : 0;
+    const int rigid = model.wrap_bodies[static_cast<std::size_t>(line.wrap.bodies[k])].rigid;
+    const int body = model.rigid_bodies[static_cast<std::size_t>(rigid)].body;
+    text += fmt::format(", {} `{}`", edges > 0 ? "around" : "free of",
+                        model.bodies[static_cast<std::size_t>(body)].name);
+  }
+  return text;
+}
+
 std::string line_row(const sim::Line& line, const sim::Moment& start, const std::string& rest) {
   const Vec3 d = direction(line, start.configuration).unaryExpr([](double value) {
     return rounded(value, 0.01);
   });
   const auto l = static_cast<std::size_t>(&line - start.model.lines.data());
-  return fmt::format("  {:<28} {:>8.2f}  ({:5.2f} {:5.2f} {:5.2f})  {:>9.4g}  {}\n", line.name,
-                     1e3 * line.start_length, d.x(), d.y(), d.z(), start.lines[l].tension, rest);
+  return fmt::format("  {:<28} {:>8.2f}  ({:5.2f} {:5.2f} {:5.2f})  {:>9.4g}  {}{}\n", line.name,
+                     1e3 * line.start_length, d.x(), d.y(), d.z(), start.lines[l].tension, rest,
+                     wraps_of(line, start.model, start.paths[l]));
 }
 
 std::string line_head(const std::string& what, const std::string& rest) {

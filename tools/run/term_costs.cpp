@@ -14,6 +14,7 @@
 #include "sim/assembly/dynamics.hpp"
 #include "sim/assembly/solver_setup.hpp"
 #include "sim/contact/contact_search.hpp"
+#include "sim/lines/line_path.hpp"
 #include "sim/model/held_blocks.hpp"
 #include "sim/time/explicit_limit.hpp"
 
@@ -198,12 +199,16 @@ class Measurement {
     if (lines.empty()) return;
     Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * model_.num_blocks);
     const double seconds = seconds_of([&] {
-      for (const sim::Line* line : lines)
-        sim::add_line_force(*line, now_, sim::line_state(model_, *line, now_).tension, f);
+      for (const sim::Line* line : lines) add_line(*line, f);
     });
     costs_.terms.push_back(
         {fmt::format("{} {}", lines.size(), muscles ? "muscle lines" : "ligaments"), 0, seconds,
          0});
+  }
+
+  void add_line(const sim::Line& line, Eigen::VectorXd& f) const {
+    const std::vector<sim::WeightedPoint> path = sim::path_from_start(model_, line, now_);
+    sim::add_line_force(path, now_, sim::line_state(model_, line, path, now_).tension, f);
   }
 
   void measure_contact(sim::Dynamics& dynamics) {

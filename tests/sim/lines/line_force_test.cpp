@@ -35,7 +35,7 @@ LineState muscle_at(const Model& model, double stretch, double rate) {
   const auto mass = static_cast<std::size_t>(model.bodies[1].rigid);
   configuration.poses[mass].p.z() -= stretch;
   configuration.velocities[mass].linear.z() = -rate;
-  return line_state(model, model.lines[0], configuration);
+  return line_state(model, model.lines[0], model.lines[0].path, configuration);
 }
 
 TEST(LineState, AMusclesTensionIsItsActiveAndItsPassiveForce) {

@@ -63,6 +63,7 @@ State some_state() {
   s.counts.deep_pairs = 13;
   s.overlap_resolution = {{{1, 0.2, 0.3}, {2, 0.4, 0.5}}, 3, 0.6};
   s.extrema = {0.1, 2, 3, 0.4, 0.5, 6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2};
+  s.wraps = {{{0, 7, true, 0.25}, {1, 8, false, 0.75}}, {}, {{2, 9, true, 1.0 / 3}}};
   return s;
 }
 
@@ -73,6 +74,17 @@ TEST(Checkpoint, KeepsEveryNumberOfAState) {
   const Checkpoint again = read_checkpoint(folder.path(), "scene", {}).value();
   EXPECT_EQ(again.history, whole.history);
   EXPECT_EQ(again.series, whole.series);
+  ASSERT_EQ(again.state.wraps.size(), whole.state.wraps.size());
+  for (std::size_t k = 0; k < whole.state.wraps.size(); ++k) {
+    ASSERT_EQ(again.state.wraps[k].size(), whole.state.wraps[k].size());
+    for (std::size_t i = 0; i < whole.state.wraps[k].size(); ++i) {
+      const EdgeCrossing &a = again.state.wraps[k][i], &b = whole.state.wraps[k][i];
+      EXPECT_EQ(a.surface, b.surface);
+      EXPECT_EQ(a.edge, b.edge);
+      EXPECT_EQ(a.forward, b.forward);
+      EXPECT_EQ(a.t, b.t);
+    }
+  }
   EXPECT_EQ(again.convergence, whole.convergence);
   const State &given = whole.state, &read = again.state;
   EXPECT_EQ(read.t, given.t);

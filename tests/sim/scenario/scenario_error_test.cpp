@@ -402,6 +402,18 @@ INSTANTIATE_TEST_SUITE_P(
                 path("@[{ body = \"skull\", point = \"0 0 1 m\" }, { body = \"mandible\", point = "
                      "\"0 0 1 m\" }]"),
                 "`path`: the path of muscle `temporalis` has no length"},
+        Mistake{"WrapAroundNothing", muscle("wrap = [@\"skul\"]\n"),
+                "`wrap[0]`: no body is called `skul`; did you mean `skull`?"},
+        Mistake{"WrapTwice", muscle("wrap = [\"skull\", @\"skull\"]\n"),
+                "`wrap[1]`: body `skull` is named twice"},
+        Mistake{
+            "WrapAroundTissue",
+            tissue("density = \"1 g/cm^3\"\nmaterial = { law = \"linear\", " + kElastic + " }\n") +
+                muscle("wrap = [@\"extra\"]\n").substr(kStart.size()),
+            "`wrap[0]`: lines wrap around fixed and rigid bodies, body `extra` is tissue"},
+        Mistake{"WrapProbeOfAStraightLine",
+                muscle("[[probe]]\nname = \"p\"\nkind = \"wrap\"\nline = @\"temporalis\"\n"),
+                "`line`: `temporalis` has no `wrap`"},
         Mistake{"RadiusOnBone",
                 path("[{ body = \"skull\", point = \"0 0 0 m\", radius = @\"1 mm\" }, { body = "
                      "\"mandible\", point = \"0 0 1 m\" }]"),

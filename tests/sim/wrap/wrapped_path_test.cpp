@@ -218,6 +218,27 @@ TEST(WrappedPath, LengthAndDirectionHaveNoJumpWhereContactsComeAndGo) {
   EXPECT_LT(fine.second, 1e-3 * coarse.second);
 }
 
+// It passes hundreds of nodes, and is never left behind at one of them.
+TEST(WrappedPath, SlidesSidewaysOverABallAsItsGreatCircleDoes) {
+  const double R = 0.02;
+  const Shape ball = ellipsoid(32, Vec3::Constant(R));
+  const Vec3 p(-0.05, 0.001, 0.01);
+  Wrapped w;
+  w.string.from.x = p;
+  for (int k = 0; k <= 400; ++k) {
+    const double s = k / 400.0;
+    const Vec3 q(0.05, 0.002 + 0.02 * s, 0.005 + 0.005 * std::sin(6 * s));
+    w.string.to.x = q;
+    rewrap({ball.placed()}, w);
+    EXPECT_TRUE(w.found);
+    const double turn = std::acos(p.normalized().dot(q.normalized()));
+    const double arc = turn - std::acos(R / p.norm()) - std::acos(R / q.norm());
+    const double exact =
+        std::sqrt(p.squaredNorm() - R * R) + std::sqrt(q.squaredNorm() - R * R) + R * arc;
+    EXPECT_NEAR(w.length(), exact, 6e-6);
+  }
+}
+
 TEST(WrappedPath, OverACubesEdgeItUnfolds) {
   const Shape cube = ellipsoid(1, Vec3::Constant(std::sqrt(3.0)));  // half edges of 1
   // On the top and on a side, in both faces: unfolded they lie in one plane.
