@@ -120,9 +120,8 @@ double first_bound(const StringShape& s) {
 bool advance(StringShape& s, bool near) {
   constexpr double kArmijo = 1e-4, kSlack = 1e-15, kShortest = 1e-15;
   const double start = s.length, bound = first_bound(s);
-  for (double part = 1, next = 0; part > kShortest; part = next) {
-    next = 0.5 * part;
-    if (part > bound && next < bound) next = bound;
+  double part = 1;
+  while (part > kShortest) {
     double expected = 0;
     for (std::size_t i = 0; i < s.t.size(); ++i) {
       s.tried[i] = advanced(s.t[i], part * s.step[i]);
@@ -133,6 +132,8 @@ bool advance(StringShape& s, bool near) {
       std::swap(s.t, s.tried);
       return true;
     }
+    const bool passes_bound = part > bound && 0.5 * part < bound;
+    part = passes_bound ? bound : 0.5 * part;
   }
   lay(s.t, s);
   return false;
