@@ -16,7 +16,7 @@ struct RunOptions {
   /// Called after every iteration of a static load step, and of overlap resolution (t = 0); true
   /// stops the run: a load step may take minutes.
   IterationWatch after_iteration;
-  /// Asked within each step of an analysis in time; true stops the run at the end of the last one.
+  /// Asked within each step, many times; true stops the run at the end of the last one.
   std::function<bool()> is_to_stop;
   /// Called at the end with each warning that the run itself has given cause for, if any.
   std::function<void(const std::string&)> warn;

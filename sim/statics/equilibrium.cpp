@@ -76,6 +76,7 @@ class Equilibrium::Solver {
   SolverCounts counts;
   double seconds = 0;
   IterationWatch watch;
+  std::function<bool()> is_to_stop;
 
  private:
   static int residual(N_Vector u, N_Vector r, void* data);
@@ -91,6 +92,10 @@ class Equilibrium::Solver {
   bool is_finite() const { return std::isfinite(dynamics_.now().largest_force) && r_.allFinite(); }
   [[nodiscard]] bool balance_within_bounds();
   void move(const Eigen::VectorXd& u, Eigen::VectorXd& y) const;
+  /// @throws Interruption
+  void stop_if_asked() const {
+    if (is_to_stop && is_to_stop()) throw Interruption();
+  }
   /// r at u; kept, as KINSOL asks again for what the line search has seen.
   const Eigen::VectorXd& residual_at(const Eigen::VectorXd& u);
   bool prepare(fem::Tangent tangent);
@@ -172,6 +177,7 @@ void Equilibrium::Solver::move(const Eigen::VectorXd& u, Eigen::VectorXd& y) con
 
 const Eigen::VectorXd& Equilibrium::Solver::residual_at(const Eigen::VectorXd& u) {
   if (known_ && u == u_) return r_;
+  stop_if_asked();
   ++counts.force_evaluations;
   u_ = u;
   move(u, y_);
@@ -206,7 +212,9 @@ const Eigen::VectorXd& Equilibrium::Solver::searched_residual(double part) {
 }
 
 bool Equilibrium::Solver::prepare(fem::Tangent tangent) {
+  stop_if_asked();
   const NewtonEquations equations = dynamics_.assemble({damping_, 0, 1}, tangent, taken_);
+  stop_if_asked();
   const Stopwatch watch(seconds);
   ++counts.factorizations;
   tangent_ = tangent;
@@ -215,6 +223,7 @@ bool Equilibrium::Solver::prepare(fem::Tangent tangent) {
 }
 
 bool Equilibrium::Solver::solve_linear() {
+  stop_if_asked();
   const Stopwatch watch(seconds);
   correction_.setZero(rhs_.size());
   const fem::SolveReport report = linear_->solve(rhs_, correction_);
@@ -460,6 +469,9 @@ bool Equilibrium::respond(const Eigen::VectorXd& f, Eigen::VectorXd& x) {
   return solver_->respond(f, x);
 }
 void Equilibrium::set_watch(IterationWatch watch) { solver_->watch = std::move(watch); }
+void Equilibrium::set_stop(std::function<bool()> is_to_stop) {
+  solver_->is_to_stop = std::move(is_to_stop);
+}
 void Equilibrium::restart() { solver_->restart(); }
 double Equilibrium::residual() const { return solver_->residual(); }
 bool Equilibrium::is_balanced(double part) const { return solver_->is_balanced(part); }

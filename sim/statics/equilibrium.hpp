@@ -60,6 +60,9 @@ class Equilibrium {
   /// @param f  block forces [N]  @param[out] x  of the unknown blocks [m, rad]
   [[nodiscard]] bool respond(const Eigen::VectorXd& f, Eigen::VectorXd& x);
   void set_watch(IterationWatch watch);
+  /// Asked before each evaluation, assembly, factorization and solution, any of which may take
+  /// long: where the answer is true, an Interruption is thrown, and y is as before.
+  void set_stop(std::function<bool()> is_to_stop);
   /// Drops what the linear solver knows of earlier ones.
   void restart();
 

@@ -80,8 +80,9 @@ void Stepper::set_watch(IterationWatch watch) {
   if (equilibrium_) equilibrium_->set_watch(std::move(watch));
 }
 
-void Stepper::set_stop(std::function<bool()> is_to_stop) {
-  if (integrator_) integrator_->set_stop(std::move(is_to_stop));
+void Stepper::set_stop(const std::function<bool()>& is_to_stop) {
+  if (integrator_) integrator_->set_stop(is_to_stop);
+  if (equilibrium_) equilibrium_->set_stop(is_to_stop);
 }
 
 void Stepper::restart(const State& state) {

@@ -55,8 +55,9 @@ class Stepper {
   /// Of a static analysis: told of each iteration, see Equilibrium. step() then throws Interruption
   /// where it asks to stop: the state is as before, but for counts; go on with restart().
   void set_watch(IterationWatch watch);
-  /// Of an analysis in time: asked at each evaluation of the rate; likewise.
-  void set_stop(std::function<bool()> is_to_stop);
+  /// Asked within a step, at each evaluation of forces, and in a static analysis before each
+  /// assembly, factorization and solution too; likewise.
+  void set_stop(const std::function<bool()>& is_to_stop);
 
   /// A restart point: drops everything that a run resumed from `state` would not have.
   void restart(const State& state);

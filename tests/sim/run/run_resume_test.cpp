@@ -276,6 +276,33 @@ TEST_F(RunTest, ALoadStepIsInterruptedAfterAnyOfItsIterations) {
   }
 }
 
+// Between the parts of an iteration too, as one of a large scene takes long.
+TEST_F(RunTest, ALoadStepIsInterruptedWhereverItAsks) {
+  const Scenario pressed = read_scenario(folder_.file("pressed.toml", kPressed));
+  const Model model = build_model(pressed);
+  const auto run_to = [&](int last_question, const std::string& name, bool resume) {
+    RunOptions options;
+    options.directory = out(name);
+    options.resume = resume;
+    int asked = 0, iterations = 0;
+    options.is_to_stop = [&] { return ++asked == last_question; };
+    options.after_iteration = [&](double, const NewtonIteration&) { return ++iterations < 0; };
+    const RunOutcome outcome = run(pressed, model, options);
+    // Forces, assembly, factorization and solution of each.
+    EXPECT_GE(asked, 4 * iterations);
+    return outcome;
+  };
+  EXPECT_EQ(run_to(-1, "whole", false), RunOutcome::Finished);
+  for (const int question : {1, 2, 3, 4, 5, 31}) {
+    const std::string name = "parts" + std::to_string(question);
+    EXPECT_EQ(run_to(question, name, false), RunOutcome::Interrupted) << question;
+    EXPECT_NE(content(out(name) / "summary.json").find("\"interrupted\""), std::string::npos);
+    EXPECT_EQ(run_to(-1, name, true), RunOutcome::Finished);
+    EXPECT_EQ(content(out(name) / "history.csv"), content(out("whole") / "history.csv"));
+    EXPECT_EQ(content(out(name) / "convergence.csv"), content(out("whole") / "convergence.csv"));
+  }
+}
+
 // In the middle of a step of time, which may take long too: likewise.
 TEST_F(RunTest, AStepIsInterruptedAtAnyOfItsEvaluations) {
   for (const std::string scheme : {"implicit-euler", "tr-bdf2", "explicit"}) {
