@@ -14,7 +14,7 @@
 namespace articular::tools {
 namespace {
 
-constexpr long kPatience = 700'000'000;  // [ns]; the end takes time too, of one second in all
+constexpr long kPatience = 600'000'000;  // [ns]; the end takes time too, of one second in all
 
 std::atomic<bool> asked = false, heard = false;
 static_assert(std::atomic<bool>::is_always_lock_free);  // else a signal handler may not touch it

@@ -11,7 +11,7 @@ inline constexpr int kInterruptedExitCode = 130;
 void end_at_interruption();
 
 /// From here on the first one asks for the end, for commands that end their work in order. Where
-/// nobody looks whether it was asked for within 0.7 s, as in a long factorization, or a second one
+/// nobody looks whether it was asked for within 0.6 s, as in a long factorization, or a second one
 /// comes, the program ends at once all the same.
 void listen_for_interruption();
 

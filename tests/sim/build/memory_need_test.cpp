@@ -59,6 +59,7 @@ TEST(MemoryNeed, IsNoMoreThanAModelTakesAndNoLessThanHalf) {
     const double before = in_use();
     const Model model = build_model(s);
     const double taken = in_use() - before;
+    if (taken == 0) GTEST_SKIP() << "a sanitizer's allocator does not tell how much is in use";
     const double need = memory_need(s, {num_shape_tetrahedra(s.bodies[0])}).model;
     EXPECT_LT(need, 1.1 * taken);
     EXPECT_GT(need, 0.5 * taken);
