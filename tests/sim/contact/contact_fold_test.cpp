@@ -67,7 +67,7 @@ TEST(SelfContact, ASoftUFallsOntoTheFloorAndOntoItselfAndRests) {
   s.loads = {gravity({0, 0, -9.81})};
   Simulation run(s);
   double most_kinetic = 0, least_ratio = 1;
-  run.advance(2, [&] {
+  run.advance(1, [&] {
     most_kinetic = std::max(most_kinetic, kinetic_energy(run));
     least_ratio = std::min(least_ratio, least_volume_ratio(run));
   });
