@@ -61,8 +61,8 @@ StringEnd end_at(const std::vector<std::string>& names, const Vec3& x, const Wei
   return end;
 }
 
-}  // namespace
-
+/// The surface of a rigid or fixed body, made the first time that a line wraps around it.
+/// @return its index into Model::wrap_bodies
 int wrap_body(int body, Model& model) {
   const BodyModel& given = model.bodies[static_cast<std::size_t>(body)];
   for (std::size_t k = 0; k < model.wrap_bodies.size(); ++k)
@@ -71,11 +71,13 @@ int wrap_body(int body, Model& model) {
   wrap.rigid = given.rigid;
   wrap.X = given.X;
   wrap.surface = make_wrap_surface(given.triangles);
-  wrap.tree = BoxTree(given.X, given.triangles);
+  wrap.tree = TriangleTree(given.X, given.triangles);
   wrap.size = (given.X.rowwise().maxCoeff() - given.X.rowwise().minCoeff()).norm();
   model.wrap_bodies.push_back(std::move(wrap));
   return static_cast<int>(model.wrap_bodies.size()) - 1;
 }
+
+}  // namespace
 
 void make_wrap(const std::vector<std::string>& names, const std::vector<int>& bodies,
                const std::vector<Vec3>& points, const Location& where, Model& model, Line& line) {
@@ -83,8 +85,7 @@ void make_wrap(const std::vector<std::string>& names, const std::vector<int>& bo
   std::vector<PlacedSurface> surfaces;
   for (const int b : line.wrap.bodies) {
     const WrapBody& body = model.wrap_bodies[static_cast<std::size_t>(b)];
-    surfaces.push_back({&body.surface, &body.tree, &body.X,
-                        model.rigid_bodies[static_cast<std::size_t>(body.rigid)].rest, body.size});
+    surfaces.push_back(body.at(model.rigid_bodies[static_cast<std::size_t>(body.rigid)].rest));
   }
   std::vector<StringEnd> ends;
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -18,8 +18,7 @@ void place(const Model& model, const Line& line, const Configuration& configurat
   surfaces.clear();
   for (const int b : line.wrap.bodies) {
     const WrapBody& body = model.wrap_bodies[static_cast<std::size_t>(b)];
-    surfaces.push_back({&body.surface, &body.tree, &body.X,
-                        configuration.poses[static_cast<std::size_t>(body.rigid)], body.size});
+    surfaces.push_back(body.at(configuration.poses[static_cast<std::size_t>(body.rigid)]));
   }
 }
 

@@ -15,21 +15,39 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// A box's distance is round-off off that of a triangle in it.
 constexpr double kBelow = 1 - 1e-9;
 
-Vec3 middle(const std::array<Vec3, 3>& triangle) { return triangle[0] + triangle[1] + triangle[2]; }
+Vec3 middle(const std::array<Vec3, 3>& corners) { return corners[0] + corners[1] + corners[2]; }
+
+/// The slabs of a box, widened by a margin, cut from the segment a + s d, s in [0, 1].
+bool meets(const Eigen::AlignedBox3d& box, const Vec3& a, const Vec3& d, double margin) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 3; ++i) {
+    const double min = box.min()[i] - margin - a[i], max = box.max()[i] + margin - a[i];
+    if (d[i] == 0) {
+      if (min > 0 || max < 0) return false;
+      continue;
+    }
+    const double s0 = min / d[i], s1 = max / d[i];
+    low = std::max(low, std::min(s0, s1));
+    high = std::min(high, std::max(s0, s1));
+  }
+  return low <= high;
+}
 
 }  // namespace
 
 TriangleTree::TriangleTree(const Positions& X, const Triangles& triangles) {
-  for (const auto& triangle : triangles.colwise())
-    corners_.push_back({X.col(triangle[0]), X.col(triangle[1]), X.col(triangle[2])});
-  if (!corners_.empty()) build(0, static_cast<int>(corners_.size()));
+  for (int t = 0; t < static_cast<int>(triangles.cols()); ++t)
+    triangles_.push_back(
+        {{X.col(triangles(0, t)), X.col(triangles(1, t)), X.col(triangles(2, t))}, t});
+  if (!triangles_.empty()) build(0, static_cast<int>(triangles_.size()));
 }
 
 int TriangleTree::build(int begin, int end) {
   const auto index = static_cast<int>(boxes_.size());
   Box box;
   for (int k = begin; k < end; ++k)
-    for (const Vec3& corner : corners_[static_cast<std::size_t>(k)]) box.bounds.extend(corner);
+    for (const Vec3& corner : triangles_[static_cast<std::size_t>(k)].corners)
+      box.bounds.extend(corner);
   boxes_.push_back(box);
   if (end - begin <= kLeafSize) {
     boxes_.back().begin = begin;
@@ -39,9 +57,9 @@ int TriangleTree::build(int begin, int end) {
   Eigen::Index axis = 0;
   box.bounds.sizes().maxCoeff(&axis);
   const int half = begin + (end - begin) / 2;
-  std::nth_element(corners_.begin() + begin, corners_.begin() + half, corners_.begin() + end,
-                   [axis](const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q) {
-                     return middle(p)[axis] < middle(q)[axis];
+  std::nth_element(triangles_.begin() + begin, triangles_.begin() + half, triangles_.begin() + end,
+                   [axis](const Triangle& p, const Triangle& q) {
+                     return middle(p.corners)[axis] < middle(q.corners)[axis];
                    });
   build(begin, half);
   const int right = build(half, end);
@@ -59,7 +77,7 @@ double TriangleTree::nearest(const Vec3& x, double limit, double least) const {
     if (kBelow * from_box > std::min(limit, found)) continue;
     const Box& box = boxes_[static_cast<std::size_t>(index)];
     for (int k = box.begin; k < box.end; ++k) {
-      const std::array<Vec3, 3>& p = corners_[static_cast<std::size_t>(k)];
+      const std::array<Vec3, 3>& p = triangles_[static_cast<std::size_t>(k)].corners;
       const double distance = squared_distance(x, p[0], p[1], p[2]);
       if (distance <= limit) found = std::min(found, distance);
     }
@@ -82,5 +100,25 @@ bool TriangleTree::is_within(const Vec3& x, double distance) const {
 }
 
 double TriangleTree::distance(const Vec3& x) const { return std::sqrt(nearest(x, kInfinite, 0)); }
+
+void TriangleTree::find(const Vec3& a, const Vec3& b, double margin,
+                        std::vector<int>& found) const {
+  found.clear();
+  if (boxes_.empty()) return;
+  const Vec3 d = b - a;
+  std::array<int, 64> open{};  // deeper than any tree that fits in memory
+  std::size_t count = 0;
+  open[count++] = 0;
+  while (count > 0) {
+    const int index = open[--count];
+    const Box& box = boxes_[static_cast<std::size_t>(index)];
+    if (!meets(box.bounds, a, d, margin)) continue;
+    for (int k = box.begin; k < box.end; ++k)
+      found.push_back(triangles_[static_cast<std::size_t>(k)].index);
+    if (box.right == 0) continue;
+    open[count++] = box.right;
+    open[count++] = index + 1;
+  }
+}
 
 }  // namespace articular::sim

@@ -138,8 +138,10 @@ struct WrapBody {
   int rigid = 0;  // index into Model::rigid_bodies
   Positions X;    // in the rigid body's frame [m]
   WrapSurface surface;
-  BoxTree tree;
+  TriangleTree tree;
   double size = 0;  // [m]
+
+  PlacedSurface at(const Pose& pose) const { return {&surface, &tree, &X, pose, size}; }
 };
 
 /// What a line wraps around, and how at the start: a taut string between each two points of its

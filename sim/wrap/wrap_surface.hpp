@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sim/base/pose.hpp"
-#include "sim/wrap/box_tree.hpp"
+#include "sim/mesh/triangle_tree.hpp"
 
 namespace articular::sim {
 
@@ -30,8 +30,8 @@ WrapSurface make_wrap_surface(const Triangles& triangles);
 /// A surface where it is now.
 struct PlacedSurface {
   const WrapSurface* surface = nullptr;
-  const BoxTree* tree = nullptr;  // of X as it is now
-  const Positions* X = nullptr;   // in the frame of the pose [m]
+  const TriangleTree* tree = nullptr;  // of X
+  const Positions* X = nullptr;        // in the frame of the pose [m]
   Pose pose;
   double size = 0;  // [m] of the whole: what round-off is relative to
 

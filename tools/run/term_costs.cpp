@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "fem/element/smoothed_elasticity.hpp"
 #include "sim/assembly/dynamics.hpp"
@@ -207,8 +208,13 @@ class Measurement {
   }
 
   void add_line(const sim::Line& line, Eigen::VectorXd& f) const {
-    const std::vector<sim::WeightedPoint> path = sim::path_from_start(model_, line, now_);
-    sim::add_line_force(path, now_, sim::line_state(model_, line, path, now_).tension, f);
+    const auto add = [&](std::span<const sim::WeightedPoint> path) {
+      sim::add_line_force(path, now_, sim::line_state(model_, line, path, now_).tension, f);
+    };
+    if (line.wrap.strings.empty())
+      add(line.path);
+    else
+      add(sim::path_from_start(model_, line, now_));
   }
 
   void measure_contact(sim::Dynamics& dynamics) {

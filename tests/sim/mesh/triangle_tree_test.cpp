@@ -70,8 +70,43 @@ TEST(TriangleTree, ACornerLiesAtNoDistanceButRoundOff) {
   for (const auto& corner : cloud.X.colwise()) EXPECT_TRUE(tree.is_within(corner, 1e-15));
 }
 
+TEST(TriangleTree, FindsEveryTriangleThatASegmentMeetsAndFewBesides) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const TriangleCloud cloud = triangle_cloud(400, random);
+  const TriangleTree tree(cloud.X, cloud.triangles);
+  const auto any = [&]() -> Vec3 { return 2 * Vec3(unit(random), unit(random), 5 * unit(random)); };
+  const auto volume = [](const Vec3& x, const Vec3& y, const Vec3& z) { return x.dot(y.cross(z)); };
+  int met = 0;
+  std::size_t num_found = 0;
+  std::vector<int> found;
+  for (int k = 0; k < 1000; ++k) {
+    const Vec3 p = any();
+    Vec3 q = any();
+    if (k % 2 == 1) q.head<2>() = p.head<2>();  // along an edge of the boxes
+    const Vec3 d = q - p;
+    tree.find(p, q, 0, found);
+    num_found += found.size();
+    for (int f = 0; f < 400; ++f) {
+      const Vec3 a = cloud.X.col(cloud.triangles(0, f)), b = cloud.X.col(cloud.triangles(1, f)),
+                 c = cloud.X.col(cloud.triangles(2, f));
+      const bool same = (volume(d, a - p, b - p) > 0) == (volume(d, b - p, c - p) > 0) &&
+                        (volume(d, b - p, c - p) > 0) == (volume(d, c - p, a - p) > 0);
+      const bool between = volume(b - a, c - a, p - a) * volume(b - a, c - a, q - a) < 0;
+      if (!same || !between) continue;
+      ++met;
+      EXPECT_NE(std::find(found.begin(), found.end(), f), found.end());
+    }
+  }
+  EXPECT_GT(met, 100);
+  EXPECT_LT(num_found, 1000U * 400U / 10U);
+}
+
 TEST(TriangleTree, WithoutTrianglesEverythingIsFar) {
   const TriangleTree tree;
+  std::vector<int> found;
+  tree.find(-Vec3::Ones(), Vec3::Ones(), 1, found);
+  EXPECT_TRUE(found.empty());
   EXPECT_TRUE(std::isinf(tree.distance(Vec3::Zero())));
   EXPECT_FALSE(tree.is_within(Vec3::Zero(), 1e6));
 }

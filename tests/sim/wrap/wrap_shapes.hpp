@@ -17,7 +17,7 @@ struct Shape {
   Positions X;
   Triangles triangles;
   WrapSurface surface;
-  BoxTree tree;
+  TriangleTree tree;
   Pose pose;
 
   Shape(const Positions& X_, const Triangles& triangles_)

@@ -117,7 +117,7 @@ TEST(WrappedPath, ForceAndStiffnessAreDerivativesOfTheLength) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (double& x : ball.X.reshaped()) x += 1e-4 * uniform(random);  // no flat edges
-  ball.tree.refit(ball.X, ball.triangles);
+  ball.tree = TriangleTree(ball.X, ball.triangles);
   const Vec3 p(-0.05, 0.004, 0.006), q(0.045, 0.009, 0.002);
   Wrapped w = wrapped({ball.placed()}, p, q);
   const std::vector<EdgeCrossing>& crossings = w.string.crossings;
@@ -161,7 +161,7 @@ TEST(WrappedPath, ForceAndStiffnessAreDerivativesOfTheLength) {
     other.surface = ball.surface;
     for (std::size_t k = 0; k < nodes.size(); ++k)
       other.X.col(nodes[k]) += d.segment<3>(6 + 3 * static_cast<Eigen::Index>(k));
-    other.tree.refit(other.X, other.triangles);
+    other.tree = TriangleTree(other.X, other.triangles);
     Wrapped at;
     at.string = w.string;
     at.string.from.x = p + d.head<3>();
@@ -364,31 +364,6 @@ TEST(WrappedPath, EndsOnTheSurfaceAreJoinedByItsGeodesic) {
   const Vec3 p = w.string.from.x, q = w.string.to.x;
   const double turn = std::acos(p.head<2>().normalized().dot(q.head<2>().normalized()));
   EXPECT_NEAR(w.length(), std::hypot(0.02 * turn, q.z() - p.z()), 1e-5);
-}
-
-TEST(BoxTree, FindsEveryTriangleThatASegmentMeets) {
-  std::mt19937 random(13);
-  Shape ball = ellipsoid(5, {0.03, 0.02, 0.025});
-  for (int k = 0; k < 50; ++k) {
-    for (double& x : ball.X.reshaped()) x += 1e-4 * random_point(random, 1).x();
-    ball.tree.refit(ball.X, ball.triangles);
-    const auto [p, q] = ends_around(random, 0.03);
-    std::vector<int> found;
-    ball.tree.find(p, q, 0, found);
-    for (int f = 0; f < static_cast<int>(ball.triangles.cols()); ++f) {
-      const Vec3 a = ball.X.col(ball.triangles(0, f)), b = ball.X.col(ball.triangles(1, f)),
-                 c = ball.X.col(ball.triangles(2, f)), d = q - p;
-      const auto volume = [](const Vec3& x, const Vec3& y, const Vec3& z) {
-        return x.dot(y.cross(z));
-      };
-      const bool same = (volume(d, a - p, b - p) > 0) == (volume(d, b - p, c - p) > 0) &&
-                        (volume(d, b - p, c - p) > 0) == (volume(d, c - p, a - p) > 0);
-      const bool between = volume(b - a, c - a, p - a) * volume(b - a, c - a, q - a) < 0;
-      if (same && between) {
-        EXPECT_NE(std::find(found.begin(), found.end(), f), found.end());
-      }
-    }
-  }
 }
 
 }  // namespace
