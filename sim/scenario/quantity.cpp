@@ -93,23 +93,6 @@ constexpr std::array kNouns{
     Noun{kAcceleration.dimension, kAcceleration.noun},
 };
 
-/// "a length", or in base units "kg m^2 s^-1" where there is no word for it.
-std::string describe(const Dimension& dimension) {
-  for (const Noun& noun : kNouns)
-    if (noun.dimension == dimension) return std::string(noun.name);
-  std::string text;
-  const auto append = [&text](std::string_view base, int power) {
-    if (power == 0) return;
-    text += fmt::format("{}{}", text.empty() ? "" : " ", base);
-    if (power != 1) text += fmt::format("^{}", power);
-  };
-  append("kg", dimension.mass);
-  append("m", dimension.length);
-  append("s", dimension.time);
-  append("rad", dimension.angle);
-  return text;
-}
-
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
@@ -318,7 +301,7 @@ class UnitParser {
 
 Unit unit_of_kind(std::string_view text, const QuantityKind& kind) {
   const Unit unit = UnitParser(text).parse();
-  if (unit.dimension != kind.dimension) throw Reason(describe(unit.dimension));
+  if (unit.dimension != kind.dimension) throw Reason(noun_of(unit.dimension));
   return unit;
 }
 
@@ -358,6 +341,30 @@ double parse_unit(std::string_view text, const QuantityKind& kind) try {
   throw std::invalid_argument(fmt::format("expected the unit of {} such as {}, found {} ({})",
                                           kind.noun, in_quotes(example), in_quotes(text),
                                           reason.what()));
+}
+
+MeasuredUnit parse_any_unit(std::string_view text) try {
+  const Unit unit = UnitParser(text).parse();
+  return {unit.dimension, value({"1", 0}, unit)};
+} catch (const Reason& reason) {
+  throw std::invalid_argument(
+      fmt::format("expected a unit such as \"mm\", found {} ({})", in_quotes(text), reason.what()));
+}
+
+std::string noun_of(const Dimension& dimension) {
+  for (const Noun& noun : kNouns)
+    if (noun.dimension == dimension) return std::string(noun.name);
+  std::string text;
+  const auto append = [&text](std::string_view base, int power) {
+    if (power == 0) return;
+    text += fmt::format("{}{}", text.empty() ? "" : " ", base);
+    if (power != 1) text += fmt::format("^{}", power);
+  };
+  append("kg", dimension.mass);
+  append("m", dimension.length);
+  append("s", dimension.time);
+  append("rad", dimension.angle);
+  return text;
 }
 
 }  // namespace articular::sim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <string_view>
 
 /// Numbers with units, as scenario files write them: "15 kPa", "1.06 g/cm^3", "0 0 -9.81 m/s^2".
@@ -60,5 +61,17 @@ Eigen::Vector3d parse_vector(std::string_view text, const QuantityKind& kind);
 /// A unit alone, such as "mm": its size in SI.
 /// @throws std::invalid_argument  as parse_quantity()
 double parse_unit(std::string_view text, const QuantityKind& kind);
+
+/// A unit of whatever it measures.
+struct MeasuredUnit {
+  Dimension dimension;
+  double size = 1;  // in SI
+};
+
+/// A unit alone, such as "mm". @throws std::invalid_argument  says what was found
+MeasuredUnit parse_any_unit(std::string_view text);
+
+/// "a length", or in base units "kg m^2 s^-1" where there is no word for it.
+std::string noun_of(const Dimension& dimension);
 
 }  // namespace articular::sim

@@ -14,6 +14,7 @@
 #include "tools/anatomy/anatomy.hpp"
 #include "tools/collide/collide_command.hpp"
 #include "tools/mesh/mesh_command.hpp"
+#include "tools/plot/plot_command.hpp"
 #include "tools/process/interruption.hpp"
 #include "tools/process/standard_streams.hpp"
 #include "tools/render/render.hpp"
@@ -43,6 +44,7 @@ int run_program(int argc, char** argv) {
   app.footer(
       "Try: articular run scenarios/mandible/opening.toml --out out/opening\n"
       "     articular render out/opening\n"
+      "     articular plot out/opening\n"
       "Exit codes: 0 done, 2 bad input, 3 the simulation could not go on (results until then are\n"
       "valid), 4 the system failed (disk, display), 130 interrupted, 1 a bug in articular.");
   int exit_code = 0;
@@ -50,6 +52,7 @@ int run_program(int argc, char** argv) {
   articular::tools::add_check_command(app, exit_code);
   articular::tools::add_explain_command(app, exit_code);
   articular::tools::add_render_command(app, exit_code);
+  articular::tools::add_plot_command(app, exit_code);
   articular::tools::add_study_command(app, exit_code);
   articular::tools::add_verify_command(app, exit_code);
   articular::tools::add_collide_command(app, exit_code);

@@ -1,0 +1,91 @@
+#include "tools/plot/probe_panels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/base/error.hpp"
+#include "sim/base/message_text.hpp"
+#include "sim/scenario/name_pattern.hpp"
+
+namespace articular::tools {
+namespace {
+
+/// "a", "a.b" and "a.b.c" of "a.b.c".
+std::vector<std::string> parts_of(std::string_view name) {
+  std::vector<std::string> parts;
+  for (std::size_t dot = name.find('.'); dot != std::string_view::npos;
+       dot = name.find('.', dot + 1))
+    parts.emplace_back(name.substr(0, dot));
+  parts.emplace_back(name);
+  return parts;
+}
+
+[[noreturn]] void refuse(const std::string& word, const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const std::string& name : names)
+    for (const std::string& part : parts_of(name))
+      if (std::find(known.begin(), known.end(), part) == known.end()) known.push_back(part);
+  throw sim::InputError(
+      fmt::format("no run has a probe {}{}", sim::in_quotes(word), sim::suggestion(word, known)));
+}
+
+}  // namespace
+
+HistoryColumn history_column(std::string_view text) {
+  text = sim::trimmed(text);
+  const std::size_t at = text.rfind(" [");
+  if (at == std::string_view::npos || !text.ends_with(']')) return {std::string(text), ""};
+  return {std::string(text.substr(0, at)), std::string(text.substr(at + 2, text.size() - at - 3))};
+}
+
+bool means(std::string_view word, std::string_view column) {
+  const std::vector<std::string> parts = parts_of(column);
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const std::string& part) { return sim::fits(word, part); });
+}
+
+std::vector<std::size_t> chosen_columns(const std::vector<std::string>& names,
+                                        const std::vector<std::string>& words) {
+  std::vector<std::size_t> chosen;
+  const auto choose = [&](std::size_t i) {
+    if (std::find(chosen.begin(), chosen.end(), i) == chosen.end()) chosen.push_back(i);
+  };
+  for (const std::string& word : words) {
+    bool is_known = false;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (means(word, names[i])) {
+        choose(i);
+        is_known = true;
+      }
+    if (!is_known) refuse(word, names);
+  }
+  if (words.empty())
+    for (std::size_t i = 0; i < names.size(); ++i) choose(i);
+  return chosen;
+}
+
+std::vector<ProbePanel> probe_panels(const std::vector<HistoryColumn>& columns,
+                                     const std::vector<std::size_t>& chosen, bool join_vectors) {
+  std::vector<ProbePanel> panels;
+  const auto is_component = [&](std::size_t i, const std::string& stem, char axis) {
+    return i < chosen.size() && columns[chosen[i]].name == stem + "." + axis;
+  };
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const HistoryColumn& column = columns[chosen[i]];
+    const std::string stem = column.name.substr(0, column.name.rfind('.'));
+    const bool is_vector = join_vectors && is_component(i, stem, 'x') &&
+                           is_component(i + 1, stem, 'y') && is_component(i + 2, stem, 'z') &&
+                           columns[chosen[i + 1]].unit == column.unit &&
+                           columns[chosen[i + 2]].unit == column.unit;
+    if (is_vector) {
+      panels.push_back({stem, {chosen[i], chosen[i + 1], chosen[i + 2]}});
+      i += 2;
+    } else {
+      panels.push_back({column.name, {chosen[i]}});
+    }
+  }
+  return panels;
+}
+
+}  // namespace articular::tools
