@@ -50,7 +50,8 @@ void require(const sim::Dimension& found, const AxisUnit& expected, const std::s
 }
 
 std::string with_unit(const std::string& name, const ShownUnit& unit) {
-  return unit.text.empty() ? name : fmt::format("{} [{}]", name, unit.text);
+  if (unit.text.empty()) return name;
+  return fmt::format("{}{}[{}]", name, name.empty() ? "" : " ", unit.text);
 }
 
 /// The axis that all panels have below them. In statics the time counts the load, and is shown as
@@ -133,10 +134,6 @@ Plan make_plan(const FigureRequest& request, std::vector<std::string>& remarks) 
   if (names.empty()) throw sim::InputError("these runs have no probes to plot");
   const bool is_single = request.runs.size() == 1;
   plan.panels = probe_panels(plan.columns, chosen_columns(names, request.probes), is_single);
-  if (plan.panels.size() > kMostPanels)
-    throw sim::InputError(fmt::format(
-        "these are {} panels, and a page holds {}: choose some by the names of their probes{}",
-        plan.panels.size(), kMostPanels, sim::suggestion("", names)));
   for (std::size_t p = 0; p < plan.panels.size(); ++p) {
     const ProbePanel& panel = plan.panels[p];
     plan.units.emplace_back();
@@ -161,6 +158,50 @@ Plan make_plan(const FigureRequest& request, std::vector<std::string>& remarks) 
     }
   }
   return plan;
+}
+
+bool is_zero(const DrawnCurve& curve) {
+  for (const auto& piece : curve.pieces)
+    for (const PlotPoint& point : piece)
+      if (point.y != 0) return false;
+  return !curve.pieces.empty();
+}
+
+/// Takes out panels of which all curves stay 0, as energies of what a scene doesn't have. Where
+/// there is nothing else, nothing is taken out.
+void leave_zeros_out(Plan& plan, std::vector<std::string>& remarks) {
+  std::vector<bool> is_shown(plan.panels.size(), false);
+  for (const DrawnCurve& curve : plan.curves)
+    if (!is_zero(curve)) is_shown[curve.panel] = true;
+  if (std::count(is_shown.begin(), is_shown.end(), true) == 0) return;
+  std::vector<std::size_t> place(plan.panels.size());
+  std::vector<ProbePanel> panels;
+  std::vector<AxisUnit> units;
+  std::string left_out;
+  for (std::size_t p = 0; p < plan.panels.size(); ++p) {
+    place[p] = panels.size();
+    if (is_shown[p]) {
+      panels.push_back(plan.panels[p]);
+      units.push_back(plan.units[p]);
+    } else {
+      left_out += (left_out.empty() ? "" : ", ") + in_ticks(plan.panels[p].title);
+    }
+  }
+  std::erase_if(plan.curves, [&](const DrawnCurve& curve) { return !is_shown[curve.panel]; });
+  for (DrawnCurve& curve : plan.curves) curve.panel = place[curve.panel];
+  plan.panels = std::move(panels);
+  plan.units = std::move(units);
+  if (!left_out.empty())
+    remarks.push_back("0 in all rows, so drawn only where it is named: " + left_out);
+}
+
+void check_number(const Plan& plan) {
+  if (plan.panels.size() <= kMostPanels) return;
+  std::vector<std::string> titles;
+  for (const ProbePanel& panel : plan.panels) titles.push_back(panel.title);
+  throw sim::InputError(
+      fmt::format("these are {} panels, and a page holds {}: choose some by their names{}",
+                  plan.panels.size(), kMostPanels, sim::suggestion("", titles)));
 }
 
 void read_plan(const FigureRequest& request, const CommonX& x, Plan& plan,
@@ -290,6 +331,8 @@ ComposedFigure compose_figure(const FigureRequest& request) {
   const CommonX x = common_x(request);
   Plan plan = make_plan(request, composed.remarks);
   read_plan(request, x, plan, composed.remarks);
+  if (request.probes.empty()) leave_zeros_out(plan, composed.remarks);
+  check_number(plan);
   panels.resize(plan.panels.size());
   Extent all_x;
   for (const DrawnCurve& curve : plan.curves) {
@@ -345,9 +388,10 @@ ComposedFigure compose_figure(const FigureRequest& request) {
         shown_unit(plan.units[p], std::max(std::abs(y_range.low), std::abs(y_range.high)));
     scale(panel, x_unit.factor, y_unit.factor);
     panel.title = plan.panels[p].title;
-    panel.x = {with_unit(x.name, x_unit),
-               {x_range.low * x_unit.factor, x_range.high * x_unit.factor}};
+    panel.x = {
+        with_unit(x.name, x_unit), "", {x_range.low * x_unit.factor, x_range.high * x_unit.factor}};
     panel.y = {with_unit(last_part(panel.title), y_unit),
+               with_unit("", y_unit),
                {y_range.low * y_unit.factor, y_range.high * y_unit.factor}};
   }
 

@@ -26,7 +26,8 @@ struct FigureBand {
 };
 
 struct FigureAxis {
-  std::string label;  // "time [ms]"
+  std::string label;        // "position [mm]"
+  std::string short_label;  // "[mm]", where there is no room for more
   AxisRange range;
 };
 

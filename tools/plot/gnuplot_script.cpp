@@ -14,7 +14,8 @@ namespace {
 
 // Widths of lines in points: journals ask for 0.5 at least.
 constexpr double kCurve = 1.0, kFrame = 0.5;
-// A unit of gnuplot's line width, in points.
+// A unit of gnuplot's line width, in points. Its lengths of dashes differ by 2, and fonts in PDF
+// are by 96 dots an inch.
 constexpr double kSvgUnit = 0.75, kPdfUnit = 0.5;
 
 /// Bytes of the UTF-8 character at the start, or 0 where there is none that XML allows.
@@ -73,8 +74,8 @@ void add_terminal(Script& script, const PageLayout& page, FigureFormat format,
                svg_pixels(page.width), svg_pixels(page.height), kFontPoints * 96 / 72);
   else
     script.add(
-        "set terminal pdfcairo size {:.4f}cm,{:.4f}cm font 'Arial,{:g}' fontscale 1 noenhanced "
-        "dashlength 0.8\n",
+        "set terminal pdfcairo size {:.4f}cm,{:.4f}cm font 'Arial,{:g}' fontscale 0.75 noenhanced "
+        "dashlength 1.6\n",
         page.width / 10, page.height / 10, kFontPoints);
   script.add("set encoding utf8\nset output {}\nset multiplot\nunset key\n", gnuplot_text(file));
   script.add("set border 3 lw {:.4g} lc rgb '#000000' back\n", script.width(kFrame));
@@ -97,40 +98,42 @@ void add_legend(Script& script, const Figure& figure, const PageLayout& page) {
                  i + 1, script.across(place.left), script.up(place.middle), script.across(right),
                  script.up(place.middle), script.stroke(kCurve, line_style(entry.style)));
     script.add("set label {} {} at screen {:.6f},{:.6f} left front\n", i + 10,
-               gnuplot_text(entry.text), script.across(right + 0.4 * kEm), script.up(place.middle));
+               gnuplot_text(fitting(entry.text, page.legend_text)),
+               script.across(right + 0.4 * kEm), script.up(place.middle));
   }
 }
 
-void add_ticks(Script& script, char axis, const AxisRange& range, int most) {
-  const Ticks divided = ticks(range, most);
-  script.add("set {}range [{:.17g}:{:.17g}]\nset {}tics nomirror out scale 0.5 (", axis, range.low,
-             range.high, axis);
+void add_ticks(Script& script, char axis, const AxisRange& range, const Ticks& divided) {
+  script.add("set {}range [{:.17g}:{:.17g}]\nset {}tics nomirror out scale 0.5 offset {} (", axis,
+             range.low, range.high, axis, axis == 'x' ? "0,0.4" : "0.6,0");
   for (std::size_t i = 0; i < divided.at.size(); ++i)
     script.add("{}{} {:.17g}", i == 0 ? "" : ", ", gnuplot_text(divided.labels[i]), divided.at[i]);
   script.add(")\n");
 }
 
-void add_axes(Script& script, const FigurePanel& panel, const Rectangle& frame,
-              bool shows_x_label) {
+void add_axes(Script& script, const FigurePanel& panel, const PageLayout& page, std::size_t i) {
+  const Rectangle& frame = page.frames[i];
+  const bool shows_x_label = page.shows_x_label[i];
   script.add("set lmargin at screen {:.6f}\nset rmargin at screen {:.6f}\n",
              script.across(frame.left), script.across(frame.right));
   script.add("set bmargin at screen {:.6f}\nset tmargin at screen {:.6f}\n",
              script.up(frame.bottom), script.up(frame.top));
-  add_ticks(script, 'x', panel.x.range, most_x_ticks(frame));
-  add_ticks(script, 'y', panel.y.range, most_y_ticks(frame));
+  add_ticks(script, 'x', panel.x.range, x_ticks(panel.x.range, frame));
+  add_ticks(script, 'y', panel.y.range, y_ticks(panel.y.range, frame));
   // Placed by us: gnuplot would leave room by its own idea of the numbers' widths.
-  double widest = 0;
-  for (const std::string& number : ticks(panel.y.range, most_y_ticks(frame)).labels)
-    widest = std::max(widest, text_width(number));
-  script.add("set label 1 {} at screen {:.6f},{:.6f} left front\n", gnuplot_text(panel.title),
-             script.across(frame.left), script.up(frame.top + 0.65 * kEm));
+  const double room = frame.height() + 2 * kEm;
+  const bool is_long = text_width(panel.y.label) > room;
+  script.add("set label 1 {} at screen {:.6f},{:.6f} left front\n",
+             gnuplot_text(fitting(panel.title, page.panel_width - kEm)), script.across(frame.left),
+             script.up(frame.top + 0.7 * kEm));
   script.add("set label 2 {} at screen {:.6f},{:.6f} center rotate by 90 front\n",
-             gnuplot_text(panel.y.label), script.across(frame.left - widest - 2.6 - 0.5 * kEm),
+             gnuplot_text(is_long ? panel.y.short_label : panel.y.label),
+             script.across(frame.left - page.y_label),
              script.up(frame.bottom + 0.5 * frame.height()));
   if (shows_x_label)
     script.add("set label 3 {} at screen {:.6f},{:.6f} center front\n", gnuplot_text(panel.x.label),
                script.across(frame.left + 0.5 * frame.width()),
-               script.up(frame.bottom - 1.8 - 1.7 * kEm));
+               script.up(frame.bottom - page.x_label));
   else
     script.add("unset label 3\n");
 }
@@ -229,7 +232,7 @@ std::string gnuplot_script(const Figure& figure, const PageLayout& page, FigureF
                    figure.legend[k].kind == LegendEntry::Kind::Band ? "object" : "arrow", k + 1,
                    k + 10);
     }
-    add_axes(script, figure.panels[i], page.frames[i], page.shows_x_label[i]);
+    add_axes(script, figure.panels[i], page, i);
     add_data(script, figure.panels[i]);
     add_plot(script, figure.panels[i]);
   }

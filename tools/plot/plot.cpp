@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestName = 100;  // [bytes], of a file without its ending
-constexpr std::size_t kLongestLabel = 60;  // [bytes]
 
 FigureFormat format_of(const fs::path& file) {
   const std::string ending = file.extension().string();
@@ -116,8 +115,6 @@ int plot(const PlotOptions& options) {
     throw sim::InputError(fmt::format("--label: {} for {} runs: expected one for each",
                                       options.labels.size(), folders.size()));
   request.labels = options.labels.empty() ? folder_labels(folders) : options.labels;
-  for (std::string& label : request.labels)
-    if (label.size() > kLongestLabel) label = "…" + label.substr(label.size() - kLongestLabel);
   for (const std::string& text : options.ranges)
     request.ranges.push_back(parse_interval(text, "--range"));
   if (!options.x_range.empty()) {
