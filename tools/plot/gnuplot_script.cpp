@@ -124,7 +124,7 @@ void add_axes(Script& script, const FigurePanel& panel, const PageLayout& page, 
   const double room = frame.height() + 2 * kEm;
   const bool is_long = text_width(panel.y.label) > room;
   script.add("set label 1 {} at screen {:.6f},{:.6f} left front\n",
-             gnuplot_text(fitting(panel.title, page.panel_width - kEm)), script.across(frame.left),
+             gnuplot_text(fitting(panel.title, page.title_width)), script.across(frame.left),
              script.up(frame.top + 0.7 * kEm));
   script.add("set label 2 {} at screen {:.6f},{:.6f} center rotate by 90 front\n",
              gnuplot_text(is_long ? panel.y.short_label : panel.y.label),
@@ -172,21 +172,23 @@ void add_plot(Script& script, const FigurePanel& panel) {
   script.add("plot");
   const char* comma = " ";
   for (std::size_t i = 0; i < panel.bands.size(); ++i) {
-    script.add("{}$band{} using 1:2:3 with filledcurves fc rgb '{}' fs solid noborder", comma, i,
-               band_colour(panel.bands[i].shade));
+    script.add("{}$band{} using 1:2:3 with filledcurves fc rgb '{}' fs solid noborder title 'band'",
+               comma, i, band_colour(panel.bands[i].shade));
     comma = ", ";
   }
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const LineStyle style = line_style(panel.curves[i].style);
     if (panel.curves[i].pieces.empty()) continue;
-    script.add("{}$curve{} using 1:2 with lines {}", comma, i, script.stroke(kCurve, style));
+    script.add("{}$curve{} using 1:2 with lines {} title {}", comma, i,
+               script.stroke(kCurve, style), gnuplot_text(panel.curves[i].name));
     comma = ", ";
     if (has_lone_points(panel.curves[i]))
-      script.add(", $alone{} using 1:2 with points pt 7 ps 0.25 lc rgb '{}'", i, style.colour);
+      script.add(", $alone{} using 1:2 with points pt 7 ps 0.25 lc rgb '{}' title 'alone'", i,
+                 style.colour);
   }
   for (std::size_t i = 0; i < panel.bars.size(); ++i) {
     const LineStyle style = line_style(panel.bars[i].style);
-    script.add("{}$bar{} using 1:2:3 with yerrorbars pt 7 ps 0.25 {}", comma, i,
+    script.add("{}$bar{} using 1:2:3 with yerrorbars pt 7 ps 0.25 {} title 'error bar'", comma, i,
                script.stroke(kCurve, {style.colour, ""}));
     comma = ", ";
   }

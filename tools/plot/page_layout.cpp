@@ -20,7 +20,7 @@ constexpr double kAspect = 0.68, kLowest = 24, kHighest = 55;  // of a panel tha
 constexpr double kTickEvery = 5.5;                             // [mm], of numbers along y
 
 std::size_t columns_for(std::size_t panels, double width) {
-  const std::size_t wanted = panels == 1 ? 1 : panels == 2 || panels == 4 ? 2 : panels < 10 ? 3 : 4;
+  const std::size_t wanted = panels == 1 ? 1 : panels == 2 || panels == 4 ? 2 : 3;
   const auto most = static_cast<std::size_t>(std::max(1.0, std::floor(width / 40)));
   return std::min(wanted, most);
 }
@@ -116,7 +116,7 @@ PageLayout page_layout(const Figure& figure, const PageSize& size) {
   page.height = size.height.value_or(legend + static_cast<double>(rows) * row + label + kGap);
 
   // 3. The places.
-  page.panel_width = cell;
+  page.title_width = width + kSide;
   page.y_label = left - 0.5 * kLine;
   page.x_label = numbers + 0.5 * kLine;
   page.legend_text = std::max(0.0, grid.cell - kSampleLength - 2 * kGap);

@@ -40,14 +40,14 @@ struct PageLayout {
   double width = 0, height = 0;
   std::vector<Rectangle> frames;    // of the panels' axes
   std::vector<bool> shows_x_label;  // the lowest panel of each column
-  double panel_width = 0;           // with what stands around a frame
+  double title_width = 0;           // room for a panel's title
   double y_label = 0;               // from the middle of the label to the frame
   double x_label = 0;               // the same, below
   std::vector<PlacedEntry> legend;
   double legend_text = 0;  // room for each text
 };
 
-/// One panel takes a column of a journal, several two; up to four stand side by side.
+/// One panel takes a column of a journal, several two; up to three stand side by side.
 /// @throws sim::InputError  where the size leaves no room
 PageLayout page_layout(const Figure& figure, const PageSize& size);
 

@@ -26,8 +26,11 @@ std::vector<std::string> parts_of(std::string_view name) {
   for (const std::string& name : names)
     for (const std::string& part : parts_of(name))
       if (std::find(known.begin(), known.end(), part) == known.end()) known.push_back(part);
+  const bool is_path = word.find('/') != std::string::npos;
   throw sim::InputError(
-      fmt::format("no run has a probe {}{}", sim::in_quotes(word), sim::suggestion(word, known)));
+      is_path ? fmt::format("{} is neither a folder of a run nor a probe", sim::in_quotes(word))
+              : fmt::format("no run has a probe {}{}", sim::in_quotes(word),
+                            sim::suggestion(word, known)));
 }
 
 }  // namespace

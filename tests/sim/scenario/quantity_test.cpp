@@ -232,4 +232,12 @@ TEST(Quantity, AnyTextIsReadOrRefusedInOneLine) {
   EXPECT_GT(accepted, 100);
 }
 
+TEST(Quantity, AUnitOfAnythingHasItsDimension) {
+  EXPECT_EQ(parse_any_unit("kPa").dimension, kStress.dimension);
+  EXPECT_DOUBLE_EQ(parse_any_unit("N mm").size, 1e-3);
+  EXPECT_EQ(noun_of(parse_any_unit("mm^2").dimension), "an area");
+  EXPECT_NE(refusal([] { parse_any_unit("kpa"); }).find("did you mean `kPa`?"), std::string::npos);
+  EXPECT_NE(refusal([] { parse_any_unit(""); }).find("no unit"), std::string::npos);
+}
+
 }  // namespace articular::sim::quantity_test
