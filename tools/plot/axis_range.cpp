@@ -60,7 +60,7 @@ Ticks ticks(const AxisRange& range, int most) {
   Ticks result;
   const double first = std::ceil((range.low - slack) / step);
   for (int i = 0; i < static_cast<int>(count(step)); ++i) {
-    result.at.push_back((first + i) * step);
+    result.at.push_back(std::clamp((first + i) * step, range.low, range.high));
     result.labels.push_back(label(result.at.back(), digits));
   }
   return result;

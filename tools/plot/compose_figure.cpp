@@ -336,10 +336,7 @@ ComposedFigure compose_figure(const FigureRequest& request) {
   panels.resize(plan.panels.size());
   Extent all_x;
   for (const DrawnCurve& curve : plan.curves) {
-    const std::string& name = request.runs[curve.run].columns[curve.column].name;
-    panels[curve.panel].curves.push_back(
-        {curve.pieces, curve.style,
-         request.runs.size() == 1 ? name : name + ", " + request.labels[curve.run]});
+    panels[curve.panel].curves.push_back({curve.pieces, curve.style});
     for (const auto& piece : curve.pieces)
       for (const PlotPoint& point : piece) all_x.add(point.x);
   }

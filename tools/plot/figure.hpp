@@ -12,7 +12,6 @@ namespace articular::tools {
 struct FigureCurve {
   std::vector<std::vector<PlotPoint>> pieces;  // gaps between them
   std::size_t style = 0;                       // of line_style()
-  std::string name;                            // what SVG says where somebody points at it
 };
 
 /// The error bar of a value: from y - half to y + half.

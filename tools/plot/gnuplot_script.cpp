@@ -172,23 +172,23 @@ void add_plot(Script& script, const FigurePanel& panel) {
   script.add("plot");
   const char* comma = " ";
   for (std::size_t i = 0; i < panel.bands.size(); ++i) {
-    script.add("{}$band{} using 1:2:3 with filledcurves fc rgb '{}' fs solid noborder title 'band'",
+    script.add("{}$band{} using 1:2:3 with filledcurves fc rgb '{}' fs solid noborder notitle",
                comma, i, band_colour(panel.bands[i].shade));
     comma = ", ";
   }
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const LineStyle style = line_style(panel.curves[i].style);
     if (panel.curves[i].pieces.empty()) continue;
-    script.add("{}$curve{} using 1:2 with lines {} title {}", comma, i,
-               script.stroke(kCurve, style), gnuplot_text(panel.curves[i].name));
+    script.add("{}$curve{} using 1:2 with lines {} notitle", comma, i,
+               script.stroke(kCurve, style));
     comma = ", ";
     if (has_lone_points(panel.curves[i]))
-      script.add(", $alone{} using 1:2 with points pt 7 ps 0.25 lc rgb '{}' title 'alone'", i,
+      script.add(", $alone{} using 1:2 with points pt 7 ps 0.25 lc rgb '{}' notitle", i,
                  style.colour);
   }
   for (std::size_t i = 0; i < panel.bars.size(); ++i) {
     const LineStyle style = line_style(panel.bars[i].style);
-    script.add("{}$bar{} using 1:2:3 with yerrorbars pt 7 ps 0.25 {} title 'error bar'", comma, i,
+    script.add("{}$bar{} using 1:2:3 with yerrorbars pt 7 ps 0.25 {} notitle", comma, i,
                script.stroke(kCurve, {style.colour, ""}));
     comma = ", ";
   }

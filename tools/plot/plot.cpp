@@ -80,6 +80,7 @@ std::vector<std::string> folder_labels(const std::vector<fs::path>& folders) {
     std::error_code ignored;
     const fs::path full = fs::weakly_canonical(folder, ignored);
     whole.push_back(full.empty() ? folder : full);
+    if (!whole.back().has_filename()) whole.back() = whole.back().parent_path();  // "out/a/"
   }
   constexpr int kDeepest = 6;
   std::vector<std::string> labels;

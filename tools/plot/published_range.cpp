@@ -60,6 +60,7 @@ Interval parse_interval(const std::string& text, const std::string& option) {
   };
   std::string_view rest = range;
   const std::optional<double> low = take_number(rest);
+  rest = sim::trimmed(rest);
   if (!low || !rest.starts_with("..")) refuse("");
   rest.remove_prefix(2);
   const std::optional<double> high = take_number(rest);

@@ -97,7 +97,7 @@ Scales scales_of(const SvgPage& page, const std::string& x0, const std::string& 
 TEST_F(Plot, PointsOfACurveLieWhereTheAxesSay) {
   run("a", 2);
   const SvgPage seen = page("a ramp.force");
-  const SvgPage::Shape& curve = seen.shape("ramp.force");
+  const SvgPage::Shape& curve = seen.shapes.at(0);
   ASSERT_EQ(curve.points.size(), 101U);
   // 0.5 s are shown as 500 ms.
   const Scales at = scales_of(seen, "100", "400", "0.2", "0.8");
@@ -114,7 +114,7 @@ TEST_F(Plot, PointsOfACurveLieWhereTheAxesSay) {
 TEST_F(Plot, AgainstAnotherProbePointsLieThere) {
   run("a", 2);
   const SvgPage seen = page("a ramp.force --x tip.position.x");
-  const SvgPage::Shape& curve = seen.shape("ramp.force");
+  const SvgPage::Shape& curve = seen.shapes.at(0);
   const Scales at = scales_of(seen, "0.5", "2.0", "0.2", "0.8");
   EXPECT_NEAR(curve.points[80].x, at.x(10 * 0.16), 0.5 * kPixel);
   EXPECT_NEAR(curve.points[80].y, at.y(0.8), kPixel);
@@ -124,12 +124,12 @@ TEST_F(Plot, AgainstAnotherProbePointsLieThere) {
 TEST_F(Plot, ABlankCellIsAGap) {
   run("a", 2);
   const SvgPage seen = page("a tip");
-  const auto count = [&](const char* name) {
-    const auto& points = seen.shape(name).points;
+  const auto count = [&](std::size_t curve) {
+    const auto& points = seen.shapes.at(curve).points;
     return std::count_if(points.begin(), points.end(), [](const auto& p) { return p.begins; });
   };
-  EXPECT_EQ(count("tip.position.z"), 2);
-  EXPECT_EQ(count("tip.position.x"), 1);
+  EXPECT_EQ(count(2), 2);
+  EXPECT_EQ(count(0), 1);
   for (const char* text : {"x", "y", "z", "tip.position"}) EXPECT_NE(seen.find(text), nullptr);
 }
 
@@ -138,8 +138,7 @@ TEST_F(Plot, RunsShareAPanelAndDifferInDashes) {
   run("b", 2000, "mN");  // the same force in another unit
   run("c", 1);
   const SvgPage seen = page("a b c ramp.force --label intact --label \"it's\" --label cut");
-  const SvgPage::Shape &a = seen.shape("ramp.force, intact"), &b = seen.shape("ramp.force, it's"),
-                       &c = seen.shape("ramp.force, cut");
+  const SvgPage::Shape &a = seen.shapes.at(0), &b = seen.shapes.at(1), &c = seen.shapes.at(2);
   EXPECT_NE(a.dashes, b.dashes);
   EXPECT_NE(b.dashes, c.dashes);
   EXPECT_NEAR(a.points[70].y, b.points[70].y, 0.02);
@@ -162,7 +161,7 @@ TEST_F(Plot, ABandLiesBetweenItsEndsInAnyUnit) {
   const SvgPage seen = page("a ramp --band published.csv --range '0..1 N'");
   const Scales at = scales_of(seen, "100", "400", "0.2", "0.8");
   double least = 1e9, most = 0;
-  for (const auto& point : seen.shape("band").points) {
+  for (const auto& point : seen.shapes.at(0).points) {
     if (std::abs(point.x - at.x(500)) > kPixel) continue;
     least = std::min(least, point.y);
     most = std::max(most, point.y);
@@ -172,7 +171,7 @@ TEST_F(Plot, ABandLiesBetweenItsEndsInAnyUnit) {
   EXPECT_NE(seen.find("published"), nullptr);
   const SvgPage constant = page("a --band 'tip=1..2 mm' --x-range '0..0.4 s'");
   EXPECT_NE(constant.find("published range"), nullptr);
-  EXPECT_EQ(constant.shape("band").points.size(), 4U);
+  EXPECT_EQ(constant.shapes.at(1).points.size(), 4U);
 }
 
 TEST_F(Plot, TheLastValueHasItsErrorBar) {
@@ -184,7 +183,7 @@ TEST_F(Plot, TheLastValueHasItsErrorBar) {
   const SvgPage seen = page("a ramp --range '0..2 N'");
   const Scales at = scales_of(seen, "100", "400", "0.5", "1.5");
   double least = 1e9, most = 0;
-  for (const auto& point : seen.shape("error bar").points) {
+  for (const auto& point : seen.shapes.at(1).points) {
     least = std::min(least, point.y);
     most = std::max(most, point.y);
   }
@@ -328,7 +327,7 @@ point = "0 0 0 mm"
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   const SvgPage seen = read_svg(content(folder_ / "page.svg"));
-  const auto& points = seen.shape("centre.position.x").points;
+  const auto& points = seen.shapes.at(0).points;
   ASSERT_EQ(points.size(), 5U);
   // Free flight at 1 m/s: 2 mm in 2 ms, along a straight line.
   const Scales at = scales_of(seen, "0.5", "2.0", "0.5", "2.0");

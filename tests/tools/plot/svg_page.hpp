@@ -20,20 +20,14 @@ struct SvgPage {
     double x = 0, y = 0;
     bool begins = false;  // a new piece of the line
   };
-  struct Shape {  // of one curve, band or error bar
-    std::string title;
+  struct Shape {
     std::vector<Point> points;
     std::string dashes;
   };
   std::string width, height;  // as written, "85.00mm"
   std::vector<Text> texts;
-  std::vector<Shape> shapes;
+  std::vector<Shape> shapes;  // of each panel: bands, curves, error bars
 
-  const Shape& shape(const std::string& title) const {
-    for (const Shape& one : shapes)
-      if (one.title == title) return one;
-    throw std::out_of_range("nothing drawn is called " + title);
-  }
   const Text* find(const std::string& text) const {
     for (const Text& one : texts)
       if (one.text == text) return &one;
@@ -93,8 +87,6 @@ inline SvgPage read_svg(const std::string& svg) {
     }
     void end(const std::string& name) {
       if (name == "text") page.texts.push_back({characters, x, y});
-      if (name == "title" && !page.shapes.empty() && page.shapes.back().title.empty())
-        page.shapes.back().title = characters;
     }
   } reader;
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
