@@ -20,6 +20,7 @@ TEST(GnuplotText, IsOneLineOfUtf8ThatXmlAllows) {
   EXPECT_EQ(gnuplot_text("\xff"), "'" + unknown + "'");
   EXPECT_EQ(gnuplot_text("\xC3'"), "'" + unknown + "'''");             // a character cut short
   EXPECT_EQ(gnuplot_text("\xC0\xA7"), "'" + unknown + unknown + "'");  // a quote written too long
+  EXPECT_EQ(gnuplot_text("\xE0\x83\xA9").find('\xE0'), std::string::npos);  // an é too long
   EXPECT_EQ(gnuplot_text("\xED\xA0\x80").find('\xED'), std::string::npos);  // half of a pair
   EXPECT_EQ(gnuplot_text("\xEF\xBF\xBE").find('\xBE'), std::string::npos);  // no character
 }

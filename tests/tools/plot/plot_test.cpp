@@ -157,17 +157,18 @@ TEST_F(Plot, ARunWithoutTheProbeIsTold) {
 
 TEST_F(Plot, ABandLiesBetweenItsEndsInAnyUnit) {
   run("a", 2);
-  folder_.file("published.csv", "time [ms],low [mN],high [N]\n0,100,0.3\n500,600,0.9\n");
-  const SvgPage seen = page("a ramp --band published.csv --range '0..1 N'");
-  const Scales at = scales_of(seen, "100", "400", "0.2", "0.8");
+  folder_.file("published.csv", "time [ms],low [um],high [cm]\n0,500,0.1\n500,1000,0.2\n");
+  const SvgPage seen =
+      page("a tip.position.x --band tip.position.x=published.csv --range '0..2.5 mm'");
+  const Scales at = scales_of(seen, "100", "400", "0.5", "2.0");
   double least = 1e9, most = 0;
   for (const auto& point : seen.shapes.at(0).points) {
     if (std::abs(point.x - at.x(500)) > kPixel) continue;
     least = std::min(least, point.y);
     most = std::max(most, point.y);
   }
-  EXPECT_NEAR(most, at.y(0.6), kPixel);
-  EXPECT_NEAR(least, at.y(0.9), kPixel);
+  EXPECT_NEAR(most, at.y(1), kPixel);
+  EXPECT_NEAR(least, at.y(2), kPixel);
   EXPECT_NE(seen.find("published"), nullptr);
   const SvgPage constant = page("a --band 'tip=1..2 mm' --x-range '0..0.4 s'");
   EXPECT_NE(constant.find("published range"), nullptr);

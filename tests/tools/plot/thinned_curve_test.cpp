@@ -74,6 +74,19 @@ TEST(ThinnedCurve, ALongGapIsKeptWhereRowsAreGathered) {
   EXPECT_EQ(pieces[1].front().x, 500000);
 }
 
+// Rows lie in twos: a blank second one ends a piece, a blank first one begins another.
+TEST(ThinnedCurve, AGapAtTheEdgeOfABucketIsKept) {
+  for (const int blank : {1000, 1001}) {
+    ThinnedCurve curve;
+    for (int i = 0; i < 2 * static_cast<int>(ThinnedCurve::kMostBuckets); ++i)
+      curve.add(i, i == blank ? kNothing : 1);
+    const Pieces pieces = curve.pieces();
+    ASSERT_EQ(pieces.size(), 2U);
+    EXPECT_EQ(pieces[0].back().x, blank - 1);
+    EXPECT_EQ(pieces[1].front().x, blank + 1);
+  }
+}
+
 TEST(ThinnedCurve, WithoutValuesHasNoPieces) {
   EXPECT_TRUE(curve_of(10000, [](int) { return kNothing; }).pieces().empty());
 }
