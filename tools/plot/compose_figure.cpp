@@ -256,7 +256,7 @@ std::vector<std::size_t> panels_meant(const Plan& plan, const std::string& probe
 /// Of published ranges: one that belongs to nothing named belongs to the only panel.
 std::vector<std::size_t> panels_of_band(const Plan& plan, const std::string& probe,
                                         const AxisUnit& unit) {
-  const std::vector<std::size_t> meant = panels_meant(plan, probe, unit, "--band");
+  std::vector<std::size_t> meant = panels_meant(plan, probe, unit, "--band");
   if (probe.empty() && meant.size() > 1)
     throw sim::InputError(fmt::format("--band: {} panels show {}: say which as PROBE=...",
                                       meant.size(), sim::noun_of(unit.dimension)));

@@ -121,15 +121,17 @@ PageLayout page_layout(const Figure& figure, const PageSize& size) {
   page.x_label = numbers + 0.5 * kLine;
   page.legend_text = std::max(0.0, grid.cell - kSampleLength - 2 * kGap);
   for (std::size_t i = 0; i < n; ++i) {
-    const auto r = static_cast<double>(i / columns), c = static_cast<double>(i % columns);
+    const std::size_t row_above = i / columns;
+    const auto r = static_cast<double>(row_above), c = static_cast<double>(i % columns);
     const double top = page.height - legend - r * row - title;
     page.frames.push_back({c * cell + left, c * cell + left + width, top - height, top});
     page.shows_x_label.push_back(i + columns >= n);
   }
-  for (std::size_t i = 0; i < figure.legend.size(); ++i)
-    page.legend.push_back(
-        {left + static_cast<double>(i % grid.columns) * grid.cell,
-         page.height - kGap - (static_cast<double>(i / grid.columns) + 0.5) * kLine});
+  for (std::size_t i = 0; i < figure.legend.size(); ++i) {
+    const std::size_t line = i / grid.columns;
+    page.legend.push_back({left + static_cast<double>(i % grid.columns) * grid.cell,
+                           page.height - kGap - (static_cast<double>(line) + 0.5) * kLine});
+  }
   return page;
 }
 
