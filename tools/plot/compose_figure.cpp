@@ -318,8 +318,14 @@ Extent y_extent(const FigurePanel& panel, const AxisRange& x) {
   return y;
 }
 
-/// The last part of a probe's name, for the axis: the title above has all of it.
-std::string last_part(const std::string& title) { return title.substr(title.rfind('.') + 1); }
+/// "area" of "plate.area" and "force.z" of "plate.force.z": the title above has all of it.
+std::string short_name(const std::string& title) {
+  std::size_t dot = title.rfind('.');
+  if (dot == std::string::npos || dot == 0) return title;
+  const std::string last = title.substr(dot + 1);
+  if (last == "x" || last == "y" || last == "z") dot = title.rfind('.', dot - 1);
+  return dot == std::string::npos ? title : title.substr(dot + 1);
+}
 
 }  // namespace
 
@@ -390,7 +396,7 @@ ComposedFigure compose_figure(const FigureRequest& request) {
     panel.title = plan.panels[p].title;
     panel.x = {
         with_unit(x.name, x_unit), "", {x_range.low * x_unit.factor, x_range.high * x_unit.factor}};
-    panel.y = {with_unit(last_part(panel.title), y_unit),
+    panel.y = {with_unit(short_name(panel.title), y_unit),
                with_unit("", y_unit),
                {y_range.low * y_unit.factor, y_range.high * y_unit.factor}};
   }

@@ -90,7 +90,7 @@ void add_legend(Script& script, const Figure& figure, const PageLayout& page) {
     if (entry.kind == LegendEntry::Kind::Band)
       script.add(
           "set object {} rectangle from screen {:.6f},{:.6f} to screen {:.6f},{:.6f} front "
-          "fc rgb '{}' fs solid noborder\n",
+          "fc rgb '{}' fs transparent solid 0.7 noborder\n",
           i + 1, script.across(place.left), script.up(place.middle - 0.4 * kEm),
           script.across(right), script.up(place.middle + 0.4 * kEm), band_colour(entry.style));
     else
@@ -172,8 +172,10 @@ void add_plot(Script& script, const FigurePanel& panel) {
   script.add("plot");
   const char* comma = " ";
   for (std::size_t i = 0; i < panel.bands.size(); ++i) {
-    script.add("{}$band{} using 1:2:3 with filledcurves fc rgb '{}' fs solid noborder notitle",
-               comma, i, band_colour(panel.bands[i].shade));
+    script.add(
+        "{}$band{} using 1:2:3 with filledcurves fc rgb '{}' fs transparent solid 0.7 noborder "
+        "notitle",
+        comma, i, band_colour(panel.bands[i].shade));
     comma = ", ";
   }
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
@@ -188,8 +190,11 @@ void add_plot(Script& script, const FigurePanel& panel) {
   }
   for (std::size_t i = 0; i < panel.bars.size(); ++i) {
     const LineStyle style = line_style(panel.bars[i].style);
-    script.add("{}$bar{} using 1:2:3 with yerrorbars pt 7 ps 0.25 {} notitle", comma, i,
-               script.stroke(kCurve, {style.colour, ""}));
+    // gnuplot's own error bars have a white patch around the point, which cuts the curve.
+    script.add(
+        "{}$bar{} using 1:($2-$3):(0):(2*$3) with vectors heads size graph 0.01,90 nofilled {} "
+        "notitle, $bar{} using 1:2 with points pt 7 ps 0.25 lc rgb '{}' notitle",
+        comma, i, script.stroke(kCurve, {style.colour, ""}), i, style.colour);
     comma = ", ";
   }
   // A panel in which no run has a value is still drawn, empty.

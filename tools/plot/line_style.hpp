@@ -31,10 +31,10 @@ inline LineStyle line_style(std::size_t i) {
   return {kColours[i % kColours.size()], kDashes[(i + i / kColours.size()) % kDashes.size()]};
 }
 
-/// Light enough that all curves stand out from it.
+/// Of a band, drawn so that another one is seen through it; all curves stand out from it.
 inline std::string_view band_colour(std::size_t i) {
-  constexpr std::array kShades{std::string_view("#DDDDDD"), std::string_view("#CFE3F1"),
-                               std::string_view("#F6E3C8")};
+  constexpr std::array kShades{std::string_view("#C8C8C8"), std::string_view("#A9CDE8"),
+                               std::string_view("#F2CE9B")};
   return kShades[i % kShades.size()];
 }
 

@@ -67,7 +67,7 @@ void add_plot_command(CLI::App& app, int& exit_code) {
       ->type_name("\"LO..HI UNIT\"");
   command
       .add_option("--band", options->bands,
-                  "A published range as a grey band: two numbers, or a table with three columns, "
+                  "A published range as a shaded band: two numbers, or a table with three columns, "
                   "x, low and high, each with its unit; may be given often")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
