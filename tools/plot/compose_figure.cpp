@@ -233,17 +233,21 @@ void read_plan(const FigureRequest& request, const CommonX& x, Plan& plan,
   }
 }
 
-/// Where a panel's band or limit is meant: panels of a named probe, else all of its dimension.
+/// Where a band or a limit is meant: panels of its dimension, of those that show the named probe.
 std::vector<std::size_t> panels_meant(const Plan& plan, const std::string& probe,
                                       const AxisUnit& unit, const std::string& option) {
-  std::vector<std::size_t> meant;
+  std::vector<std::size_t> meant, others;
   for (std::size_t p = 0; p < plan.panels.size(); ++p) {
-    if (probe.empty() && plan.units[p].dimension == unit.dimension) meant.push_back(p);
-    if (probe.empty() || !means(probe, plan.columns[plan.panels[p].columns[0]].name)) continue;
-    require(unit.dimension, plan.units[p], option + " of " + in_ticks(plan.panels[p].title));
-    meant.push_back(p);
+    const std::vector<std::size_t>& columns = plan.panels[p].columns;
+    const bool is_named = std::any_of(columns.begin(), columns.end(), [&](std::size_t column) {
+      return probe.empty() || means(probe, plan.columns[column].name);
+    });
+    if (is_named) (plan.units[p].dimension == unit.dimension ? meant : others).push_back(p);
   }
   if (!meant.empty()) return meant;
+  if (!probe.empty() && !others.empty())
+    require(unit.dimension, plan.units[others.front()],
+            option + " of " + in_ticks(plan.panels[others.front()].title));
   std::vector<std::string> titles;
   for (const ProbePanel& panel : plan.panels) titles.push_back(panel.title);
   if (probe.empty())

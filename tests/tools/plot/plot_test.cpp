@@ -175,6 +175,14 @@ TEST_F(Plot, ABandLiesBetweenItsEndsInAnyUnit) {
   EXPECT_EQ(constant.shapes.at(1).points.size(), 4U);
 }
 
+TEST_F(Plot, ABandOfAComponentLiesInThePanelOfItsVector) {
+  run("a", 2);
+  const SvgPage seen = page("a tip --band 'tip.position.z=-1..0 mm'");
+  ASSERT_EQ(seen.shapes.size(), 4U);
+  EXPECT_EQ(seen.shapes.at(0).points.size(), 4U);
+  expect_refused("a tip --band 'tip.position.w=-1..0 mm'", 2, "no panel shows a probe");
+}
+
 TEST_F(Plot, TheLastValueHasItsErrorBar) {
   run("a", 2);
   folder_.file("a/error_bars.csv",
