@@ -48,6 +48,8 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
+std::string in_ticks(std::string_view name) { return "`" + one_line(name) + "`"; }
+
 std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (const char c : text.substr(0, kLongestQuote)) {
@@ -89,11 +91,11 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& names) {
   const std::string nearest = nearest_name(name, names);
-  if (!nearest.empty()) return fmt::format("; did you mean `{}`?", one_line(nearest));
+  if (!nearest.empty()) return fmt::format("; did you mean {}?", in_ticks(nearest));
   if (names.empty()) return "";
   std::string list;
   for (std::size_t i = 0; i < std::min(names.size(), kLongestList); ++i)
-    list += fmt::format("{}`{}`", i == 0 ? "" : ", ", one_line(names[i]));
+    list += (i == 0 ? "" : ", ") + in_ticks(names[i]);
   if (names.size() > kLongestList) list += ", ...";
   return (names.size() == 1 ? "; expected " : "; expected one of ") + list;
 }

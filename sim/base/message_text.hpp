@@ -16,6 +16,9 @@ std::string in_quotes(std::string_view text);
 /// The text on one line: control characters become spaces.
 std::string one_line(std::string_view text);
 
+/// A name in backquotes on one line.
+std::string in_ticks(std::string_view name);
+
 /// The name nearest to a mistyped one (edit distance, letter case counts half), or "" if none is
 /// near.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& names);

@@ -12,10 +12,6 @@ namespace {
 constexpr double kNoise = 1e-8;
 constexpr double kRoom = 0.05;
 
-double size_of(const AxisRange& range) {
-  return std::max(std::abs(range.low), std::abs(range.high));
-}
-
 bool is_one_value(const AxisRange& range) {
   return !(range.high - range.low > kNoise * size_of(range));
 }
@@ -33,6 +29,10 @@ std::string label(double value, int digits) {
 }
 
 }  // namespace
+
+double size_of(const AxisRange& range) {
+  return std::max(std::abs(range.low), std::abs(range.high));
+}
 
 AxisRange with_room(const AxisRange& values) {
   if (is_one_value(values)) return around(values);

@@ -11,6 +11,9 @@ struct AxisRange {
   bool operator==(const AxisRange&) const = default;
 };
 
+/// The size of its larger end.
+double size_of(const AxisRange& range);
+
 /// Room of a twentieth above and below, so that no curve lies on the frame. Where all values are
 /// one but for round-off, the range is wide enough that they look like one.
 AxisRange with_room(const AxisRange& values);

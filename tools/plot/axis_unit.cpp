@@ -1,9 +1,12 @@
 #include "tools/plot/axis_unit.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <cstdlib>
 
+#include "sim/base/error.hpp"
 #include "sim/base/message_text.hpp"
 
 namespace articular::tools {
@@ -60,6 +63,13 @@ AxisUnit axis_unit(std::string_view text) {
   if (written == "%") return {"%", {}, 0.01};
   const sim::MeasuredUnit unit = sim::parse_any_unit(written);
   return {written, unit.dimension, unit.size};
+}
+
+void require_dimension(const sim::Dimension& found, const AxisUnit& expected,
+                       const std::string& what) {
+  if (found == expected.dimension) return;
+  throw sim::InputError(fmt::format("{}: expected {}, found {}", what,
+                                    sim::noun_of(expected.dimension), sim::noun_of(found)));
 }
 
 ShownUnit shown_unit(const AxisUnit& unit, double largest) {

@@ -19,6 +19,11 @@ struct AxisUnit {
 /// @throws std::invalid_argument  says what was found
 AxisUnit axis_unit(std::string_view text);
 
+/// @param what  for the message: "--x-range"
+/// @throws sim::InputError  where a dimension is another than that of the axis
+void require_dimension(const sim::Dimension& found, const AxisUnit& expected,
+                       const std::string& what);
+
 /// By what values are multiplied before they are drawn, and the unit that they have then.
 struct ShownUnit {
   double factor = 1;

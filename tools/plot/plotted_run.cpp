@@ -10,6 +10,7 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "sim/base/error.hpp"
 #include "sim/base/file_bytes.hpp"
@@ -181,6 +182,16 @@ std::optional<std::size_t> find_column(const PlottedRun& run, const std::string&
   for (std::size_t i = 0; i < run.columns.size(); ++i)
     if (run.columns[i].name == name) return i;
   return std::nullopt;
+}
+
+AxisUnit unit_of_column(const PlottedRun& run, std::size_t column) {
+  const HistoryColumn& named = run.columns[column];
+  try {
+    return axis_unit(named.unit);
+  } catch (const std::invalid_argument& error) {
+    throw sim::InputError({sim::one_line((run.folder / "history.csv").string()), 1},
+                          fmt::format("column {}: {}", sim::in_ticks(named.name), error.what()));
+  }
 }
 
 RunCurves read_curves(const PlottedRun& run, std::size_t x, const std::vector<std::size_t>& ys) {

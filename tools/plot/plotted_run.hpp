@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/plot/axis_unit.hpp"
 #include "tools/plot/probe_panels.hpp"
 #include "tools/plot/thinned_curve.hpp"
 
@@ -34,6 +35,9 @@ PlottedRun open_run(const std::filesystem::path& folder);
 
 /// The column of a name, or none.
 std::optional<std::size_t> find_column(const PlottedRun& run, const std::string& name);
+
+/// @throws sim::InputError  where it is no unit
+AxisUnit unit_of_column(const PlottedRun& run, std::size_t column);
 
 struct RunCurves {
   std::vector<ThinnedCurve> curves;
