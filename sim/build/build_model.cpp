@@ -337,8 +337,10 @@ class Builder {
       throw InputError(where, fmt::format("`{}` has no length: its points coincide", name));
     if (wrap.empty()) return line;
     std::vector<int> bodies;
+    bodies.reserve(wrap.size());
     for (const std::string& body : wrap) bodies.push_back(body_index(body));
     std::vector<Vec3> points;
+    points.reserve(line.path.size());
     for (const WeightedPoint& point : line.path) points.push_back(start_position(point));
     make_wrap(wrap, bodies, points, where, model_, line);
     return line;

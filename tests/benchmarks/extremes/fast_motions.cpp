@@ -12,23 +12,25 @@
 namespace articular::benchmarks {
 namespace {
 
-constexpr double kSide = 0.02;  // [m] of the block
+constexpr double kBlockSide = 0.02;  // [m] of the block
 
 std::string block(double young, double damping) {
-  return box("block", "tissue", {.size = {kSide, kSide, kSide}, .cells = {4, 4, 4}},
+  return box("block", "tissue", {.size = {kBlockSide, kBlockSide, kBlockSide}, .cells = {4, 4, 4}},
              solid(1000, "neo-hookean", young, 0.3,
                    fmt::format(", mass_damping = \"{} 1/s\"", damping))) +
-         carrier("floor") + attach("block", "floor", {-1, -1, -1}, {1, 1, 1e-6 - kSide / 2});
+         carrier("floor") + attach("block", "floor", {-1, -1, -1}, {1, 1, 1e-6 - kBlockSide / 2});
 }
 
 /// A plate is driven 6 mm into a block at this speed and stays there. @return the run
 ProgramRun drive(const Bench& bench, const std::string& name, double speed) {
   constexpr double kWay = 0.008, kRest = 0.5;  // [m], [s]
-  const std::string scene =
-      general(kWay / speed + kRest, 1e-3) + block(15e3, 50) +
-      box("plate", "fixed",
-          {.size = {0.04, 0.04, 0.004}, .cells = {8, 8, 1}, .center = {0, 0, kSide / 2 + 0.004}}) +
-      motion("plate", kWay / speed, {0, 0, -kWay}, "linear") + reaction_probe("plate", "plate");
+  const std::string scene = general(kWay / speed + kRest, 1e-3) + block(15e3, 50) +
+                            box("plate", "fixed",
+                                {.size = {0.04, 0.04, 0.004},
+                                 .cells = {8, 8, 1},
+                                 .center = {0, 0, kBlockSide / 2 + 0.004}}) +
+                            motion("plate", kWay / speed, {0, 0, -kWay}, "linear") +
+                            reaction_probe("plate", "plate");
   return bench.run(name, scene, 120);
 }
 
@@ -57,15 +59,16 @@ Finding impact(const Bench& bench, bool rigid, double young, double step,
         ball("ball", "rigid", 0.004, 0.002, {0.001, 0.0005, 0.0145}, density(1000) + velocity) +
         point_probe("ball", "ball", {0.001, 0.0005, 0.0145});
   else
-    scene += box("block", "tissue", {.size = {kSide, kSide, kSide}, .cells = {4, 4, 4}},
-                 solid(1000, "neo-hookean", young, 0.3) + velocity) +
-             box("wall", "fixed",
-                 {.size = {0.06, 0.06, 0.02}, .cells = {6, 6, 2}, .center = {0, 0, -0.021}}) +
-             point_probe("ball", "block", {0, 0, kSide / 2});
+    scene +=
+        box("block", "tissue", {.size = {kBlockSide, kBlockSide, kBlockSide}, .cells = {4, 4, 4}},
+            solid(1000, "neo-hookean", young, 0.3) + velocity) +
+        box("wall", "fixed",
+            {.size = {0.06, 0.06, 0.02}, .cells = {6, 6, 2}, .center = {0, 0, -0.021}}) +
+        point_probe("ball", "block", {0, 0, kBlockSide / 2});
   const ProgramRun run = bench.run("impact", scene, 120);
   if (const auto end = ended_early(run)) return *end;
   const ScenarioResults results(run.results);
-  if (results.smallest("ball.position.z [m]") < -kSide / 2)
+  if (results.smallest("ball.position.z [m]") < -kBlockSide / 2)
     return {Outcome::Failed, "it went through"};
   // In between, what was made may come and go; as motion it would have ended the run.
   return judged(run, energy_created(results), {.right = 1e-3, .stable = 1},

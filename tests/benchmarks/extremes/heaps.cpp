@@ -13,22 +13,25 @@
 namespace articular::benchmarks {
 namespace {
 
-constexpr double kSide = 0.005, kGap = 0.001;  // [m]
+constexpr double kCubeSide = 0.005, kCubeGap = 0.001;  // [m]
 
 /// A cube of n³ cubes of rigid bodies or tissue, a little out of line, so that they don't stay a
 /// tower.
 std::string cubes(int n, bool rigid) {
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> jitter(-kGap / 2, kGap / 2);
+  std::uniform_real_distribution<double> jitter(-kCubeGap / 2, kCubeGap / 2);
   std::string text;
   for (int i = 0; i < n * n * n; ++i) {
-    const auto at = [&](int k) { return (kSide + kGap) * (k - 0.5 * (n - 1)) + jitter(random); };
+    const auto at = [&](int k) {
+      return (kCubeSide + kCubeGap) * (k - 0.5 * (n - 1)) + jitter(random);
+    };
     const double x = at(i % n), y = at(i / n % n);
     const int layer = i / n / n;
-    const double z = kSide / 2 + kGap + (kSide + kGap) * layer;
-    text += box(fmt::format("cube {}", i), rigid ? "rigid" : "tissue",
-                {.size = {kSide, kSide, kSide}, .cells = {1, 1, 1}, .center = {x, y, z}},
-                rigid ? density(1000) : solid(1000, "neo-hookean", 1e5, 0.3));
+    const double z = kCubeSide / 2 + kCubeGap + (kCubeSide + kCubeGap) * layer;
+    text +=
+        box(fmt::format("cube {}", i), rigid ? "rigid" : "tissue",
+            {.size = {kCubeSide, kCubeSide, kCubeSide}, .cells = {1, 1, 1}, .center = {x, y, z}},
+            rigid ? density(1000) : solid(1000, "neo-hookean", 1e5, 0.3));
   }
   return text;
 }
@@ -51,7 +54,7 @@ Finding study(const Bench& bench, const Heap& heap) {
   if (const auto end = ended_early(run)) return *end;
   std::ifstream in(run.results / "summary.json");
   const double penetration = nlohmann::json::parse(in).at("max_penetration_m");
-  Finding finding = judged(run, penetration / kSide, {.right = 0.05, .stable = 0.5},
+  Finding finding = judged(run, penetration / kCubeSide, {.right = 0.05, .stable = 0.5},
                            "largest penetration by the side");
   finding.measured += fmt::format("; energy made of nothing: {:.1g}; {:.0f} s of wall time",
                                   energy_created(ScenarioResults(run.results)), run.seconds);

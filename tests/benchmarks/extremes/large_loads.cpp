@@ -11,14 +11,14 @@
 namespace articular::benchmarks {
 namespace {
 
-constexpr double kSide = 0.01;  // [m]
+constexpr double kLoadedSide = 0.01;  // [m]
 
 std::string muscle(double force, const std::string& radius) {
   return fmt::format(
       "[[muscle]]\nname = \"puller\"\npath = [{{ body = \"ceiling\", point = \"0 0 {} m\" }}, {{ "
       "body = \"block\", point = \"0 0 {} m\"{} }}]\nmax_force = \"{} N\"\n"
       "excitation = {{ time = [\"0 s\", \"10 ms\"], value = [0, 1] }}\n",
-      digits(0.05), digits(kSide / 2), radius, digits(force));
+      digits(0.05), digits(kLoadedSide / 2), radius, digits(force));
 }
 
 /// It pulls at a block of tissue; 0.1 N would stretch the block by 10 %.
@@ -61,10 +61,10 @@ Finding heavy(const Bench& bench, double g, double young, bool is_static,
       box("block", "tissue", {.cells = {3, 3, 3}},
           solid(1000, "neo-hookean", young, 0.45, ", mass_damping = \"50 1/s\"")) +
       gravity(9.81 * g) + reaction_probe("floor", "floor") +
-      point_probe("top", "block", {0, 0, kSide / 2}) + contact;
+      point_probe("top", "block", {0, 0, kLoadedSide / 2}) + contact;
   const ProgramRun run = bench.run("heavy", scene, 120);
   if (const auto end = ended_early(run)) return *end;
-  const double weight = 1000 * kSide * kSide * kSide * 9.81 * g;
+  const double weight = 1000 * kLoadedSide * kLoadedSide * kLoadedSide * 9.81 * g;
   const ScenarioResults results(run.results);
   const double force = std::abs(results.last("floor.force.z [N]"));
   Finding finding = judged(run, std::abs(force / weight - 1), {.right = 0.01, .stable = 0.5},
@@ -72,9 +72,9 @@ Finding heavy(const Bench& bench, double g, double young, bool is_static,
   const auto moved = [&](const std::string& column) {
     return results.last(column) - results.column(column).front();
   };
-  finding.measured +=
-      fmt::format("; sideways by {:.2g} of its side",
-                  std::hypot(moved("top.position.x [m]"), moved("top.position.y [m]")) / kSide);
+  finding.measured += fmt::format(
+      "; sideways by {:.2g} of its side",
+      std::hypot(moved("top.position.x [m]"), moved("top.position.y [m]")) / kLoadedSide);
   return finding;
 }
 

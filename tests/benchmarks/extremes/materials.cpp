@@ -11,10 +11,11 @@
 namespace articular::benchmarks {
 namespace {
 
-constexpr double kSide = 0.01, kStrain = 0.01, kArea = kSide * kSide, kDensity = 1000;  // SI
+constexpr double kBarSide = 0.01, kBarStrain = 0.01, kBarArea = kBarSide * kBarSide,
+                 kBarDensity = 1000;  // SI
 
 /// Slow beside waves: 400 of their ways through the block.
-double slow(double young) { return 400 * kSide / std::sqrt(young / kDensity); }
+double slow(double young) { return 400 * kBarSide / std::sqrt(young / kBarDensity); }
 
 std::string start(bool is_static, double duration) {
   return is_static ? statics(1, 0.5) : general(1.5 * duration, duration / 100);
@@ -32,11 +33,11 @@ Finding young(const Bench& bench, double E, bool is_static) {
   const double duration = is_static ? 1 : slow(E);
   const std::string scene =
       start(is_static, duration) + carrier("floor") + carrier("press") +
-      box("block", "tissue", {.cells = {3, 3, 3}}, solid(kDensity, "corotated", E, 0)) +
+      box("block", "tissue", {.cells = {3, 3, 3}}, solid(kBarDensity, "corotated", E, 0)) +
       attach("block", "floor", {-1, -1, -1}, {1, 1, -0.00499}) +
       attach("block", "press", {-1, -1, 0.00499}, {1, 1, 1}) +
-      motion("press", duration, {0, 0, -kStrain * kSide}) + reaction_probe("floor", "floor");
-  return judged_force(bench.run("press", scene, 60), "floor", E * kArea * kStrain, 0.01);
+      motion("press", duration, {0, 0, -kBarStrain * kBarSide}) + reaction_probe("floor", "floor");
+  return judged_force(bench.run("press", scene, 60), "floor", E * kBarArea * kBarStrain, 0.01);
 }
 
 /// Upper block soft, lower one hard; they meet across a contact with other meshes on both sides.
@@ -46,15 +47,15 @@ Finding both(const Bench& bench, bool is_static) {
   const std::string scene =
       start(is_static, duration) + carrier("floor") + carrier("press") +
       box("hard", "tissue",
-          {.size = {0.016, 0.016, kSide}, .cells = {4, 4, 3}, .center = {0, 0, -kSide / 2}},
-          solid(kDensity, "corotated", kHard, 0)) +
-      box("soft", "tissue", {.cells = {3, 3, 3}, .center = {0, 0, kSide / 2}},
-          solid(kDensity, "corotated", kSoft, 0)) +
-      attach("hard", "floor", {-1, -1, -1}, {1, 1, 1e-5 - kSide}) +
-      attach("soft", "press", {-1, -1, kSide - 1e-5}, {1, 1, 1}) +
-      motion("press", duration, {0, 0, -kStrain * kSide}) + reaction_probe("floor", "floor");
+          {.size = {0.016, 0.016, kBarSide}, .cells = {4, 4, 3}, .center = {0, 0, -kBarSide / 2}},
+          solid(kBarDensity, "corotated", kHard, 0)) +
+      box("soft", "tissue", {.cells = {3, 3, 3}, .center = {0, 0, kBarSide / 2}},
+          solid(kBarDensity, "corotated", kSoft, 0)) +
+      attach("hard", "floor", {-1, -1, -1}, {1, 1, 1e-5 - kBarSide}) +
+      attach("soft", "press", {-1, -1, kBarSide - 1e-5}, {1, 1, 1}) +
+      motion("press", duration, {0, 0, -kBarStrain * kBarSide}) + reaction_probe("floor", "floor");
   // In time contact is soft: it gives by a tenth of what elements do.
-  return judged_force(bench.run("press", scene, 120), "floor", kSoft * kArea * kStrain,
+  return judged_force(bench.run("press", scene, 120), "floor", kSoft * kBarArea * kBarStrain,
                       is_static ? 0.01 : 0.05);
 }
 
@@ -68,9 +69,9 @@ Finding poisson(const Bench& bench, double nu, const std::string& element) {
       box("press", "fixed",
           {.size = {0.03, 0.03, 0.004}, .cells = {3, 3, 1}, .center = {0, 0, 0.007}}) +
       box("block", "tissue", {.cells = {3, 3, 3}},
-          solid(kDensity, "corotated", kYoung, nu, ", element = \"" + element + "\"")) +
-      motion("press", 1, {0, 0, -kStrain * kSide}) + reaction_probe("floor", "floor");
-  return judged_force(bench.run("press", scene, 60), "floor", kYoung * kArea * kStrain, 0.01);
+          solid(kBarDensity, "corotated", kYoung, nu, ", element = \"" + element + "\"")) +
+      motion("press", 1, {0, 0, -kBarStrain * kBarSide}) + reaction_probe("floor", "floor");
+  return judged_force(bench.run("press", scene, 60), "floor", kYoung * kBarArea * kBarStrain, 0.01);
 }
 
 }  // namespace

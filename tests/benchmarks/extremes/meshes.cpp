@@ -12,10 +12,10 @@
 namespace articular::benchmarks {
 namespace {
 
-constexpr double kSide = 0.01, kYoung = 1e4, kStrain = 0.01;  // [m], [Pa]
+constexpr double kMeshedSide = 0.01, kMeshedYoung = 1e4, kMeshedStrain = 0.01;  // [m], [Pa]
 
 std::string material(const std::string& element) {
-  return solid(1000, "corotated", kYoung, 0, ", element = \"" + element + "\"");
+  return solid(1000, "corotated", kMeshedYoung, 0, ", element = \"" + element + "\"");
 }
 
 /// Presses a block of this height, from z = 0, by 1 %: at once in statics, in 2 s in time.
@@ -24,24 +24,26 @@ Finding press(const Bench& bench, const std::string& block, double height, bool 
                             carrier("press") + block +
                             attach("block", "floor", {-1, -1, -1}, {1, 1, 1e-9}) +
                             attach("block", "press", {-1, -1, (1 - 1e-6) * height}, {1, 1, 1}) +
-                            motion("press", is_static ? 1 : 2, {0, 0, -kStrain * height}) +
+                            motion("press", is_static ? 1 : 2, {0, 0, -kMeshedStrain * height}) +
                             reaction_probe("floor", "floor");
   const ProgramRun run = bench.run("press", scene, 120);
   if (const auto end = ended_early(run)) return *end;
   const double force = std::abs(ScenarioResults(run.results).last("floor.force.z [N]"));
-  return judged(run, std::abs(force / (kYoung * kSide * kSide * kStrain) - 1),
+  return judged(run,
+                std::abs(force / (kMeshedYoung * kMeshedSide * kMeshedSide * kMeshedStrain) - 1),
                 {.right = 0.01, .stable = 0.3}, "force against E A ε");
 }
 
 /// Elements whose edges are 5 mm and 5 mm/ratio.
 Finding stretched(const Bench& bench, double ratio, const std::string& element, bool is_static) {
-  const double height = 4 * 0.5 * kSide / ratio;
-  return press(
-      bench,
-      box("block", "tissue",
-          {.size = {kSide, kSide, height}, .cells = {2, 2, 4}, .center = {0, 0, height / 2}},
-          material(element)),
-      height, is_static);
+  const double height = 4 * 0.5 * kMeshedSide / ratio;
+  return press(bench,
+               box("block", "tissue",
+                   {.size = {kMeshedSide, kMeshedSide, height},
+                    .cells = {2, 2, 4},
+                    .center = {0, 0, height / 2}},
+                   material(element)),
+               height, is_static);
 }
 
 std::string written(const Bench& bench, const sim::MeshData& mesh, const std::string& element) {
@@ -53,9 +55,9 @@ std::string written(const Bench& bench, const sim::MeshData& mesh, const std::st
 }
 
 sim::MeshData block_mesh(int cells) {
-  return sim::box_mesh({.size = {kSide, kSide, kSide},
+  return sim::box_mesh({.size = {kMeshedSide, kMeshedSide, kMeshedSide},
                         .cells = Eigen::Vector3i::Constant(cells),
-                        .center = {0, 0, kSide / 2}});
+                        .center = {0, 0, kMeshedSide / 2}});
 }
 
 /// The inner node of a block of 2 x 2 x 2 cells almost in its bottom: elements with this height by
@@ -63,8 +65,8 @@ sim::MeshData block_mesh(int cells) {
 Finding slivers(const Bench& bench, double flatness, const std::string& element, bool is_static) {
   sim::MeshData mesh = block_mesh(2);
   for (auto x : mesh.X.colwise())
-    if (x.isApprox(Eigen::Vector3d(0, 0, kSide / 2), 1e-9)) x.z() = flatness * kSide;
-  return press(bench, written(bench, mesh, element), kSide, is_static);
+    if (x.isApprox(Eigen::Vector3d(0, 0, kMeshedSide / 2), 1e-9)) x.z() = flatness * kMeshedSide;
+  return press(bench, written(bench, mesh, element), kMeshedSide, is_static);
 }
 
 /// Seven cells a side, each longer than the one before: sizes 1 : 1000.
@@ -76,9 +78,10 @@ Finding graded(const Bench& bench, const std::string& element, bool is_static) {
   };
   sim::MeshData mesh = block_mesh(kCells);
   for (auto x : mesh.X.colwise())
-    x = kSide * Eigen::Vector3d(place(x.x() / kSide + 0.5) - 0.5, place(x.y() / kSide + 0.5) - 0.5,
-                                place(x.z() / kSide));
-  return press(bench, written(bench, mesh, element), kSide, is_static);
+    x = kMeshedSide * Eigen::Vector3d(place(x.x() / kMeshedSide + 0.5) - 0.5,
+                                      place(x.y() / kMeshedSide + 0.5) - 0.5,
+                                      place(x.z() / kMeshedSide));
+  return press(bench, written(bench, mesh, element), kMeshedSide, is_static);
 }
 
 }  // namespace

@@ -12,24 +12,24 @@
 namespace articular::benchmarks {
 namespace {
 
-constexpr double kSide = 0.01, kYoung = 1e4;  // [m], [Pa]
+constexpr double kOverlappingSide = 0.01, kOverlappingYoung = 1e4;  // [m], [Pa]
 
 std::string tissue(const std::string& name, double z, double size) {
   return box(name, "tissue",
-             {.size = {size, size, kSide}, .cells = {3, 3, 3}, .center = {0.001, 0, z}},
-             solid(1000, "neo-hookean", kYoung, 0.3, ", mass_damping = \"20 1/s\""));
+             {.size = {size, size, kOverlappingSide}, .cells = {3, 3, 3}, .center = {0.001, 0, z}},
+             solid(1000, "neo-hookean", kOverlappingYoung, 0.3, ", mass_damping = \"20 1/s\""));
 }
 
 /// Nothing holds them: apart they have no strain energy left, and touch no more than a little.
 Finding free_blocks(const Bench& bench, double overlap, bool is_static) {
   const std::string scene = (is_static ? statics(1, 1) : general(0.5, 2e-3)) +
-                            tissue("lower", 0, 1.2 * kSide) +
-                            tissue("upper", kSide * (1 - overlap), kSide) + energy_probe() +
-                            contact_probe("contact", "lower", "upper");
+                            tissue("lower", 0, 1.2 * kOverlappingSide) +
+                            tissue("upper", kOverlappingSide * (1 - overlap), kOverlappingSide) +
+                            energy_probe() + contact_probe("contact", "lower", "upper");
   const ProgramRun run = bench.run("blocks", scene, 120);
   if (const auto end = ended_early(run)) return *end;
   const ScenarioResults results(run.results);
-  return judged(run, results.last("contact.max_penetration [m]") / kSide,
+  return judged(run, results.last("contact.max_penetration [m]") / kOverlappingSide,
                 {.right = 0.01, .stable = 0.3}, "overlap left, by the side");
 }
 
@@ -38,21 +38,23 @@ Finding free_blocks(const Bench& bench, double overlap, bool is_static) {
 Finding held_blocks(const Bench& bench, double overlap, bool is_static) {
   const auto block = [](const std::string& name, double z) {
     return box(name, "tissue", {.cells = {3, 3, 3}, .center = {0, 0, z}},
-               solid(1000, "corotated", kYoung, 0, ", mass_damping = \"20 1/s\""));
+               solid(1000, "corotated", kOverlappingYoung, 0, ", mass_damping = \"20 1/s\""));
   };
-  const double top = kSide * (1.5 - overlap);
-  const std::string scene = (is_static ? statics(1, 1) : general(0.5, 2e-3)) + carrier("floor") +
-                            carrier("ceiling") + block("lower", 0) +
-                            block("upper", kSide * (1 - overlap)) +
-                            attach("lower", "floor", {-1, -1, -1}, {1, 1, 1e-5 - kSide / 2}) +
-                            attach("upper", "ceiling", {-1, -1, top - 1e-5}, {1, 1, 1}) +
-                            reaction_probe("floor", "floor");
+  const double top = kOverlappingSide * (1.5 - overlap);
+  const std::string scene =
+      (is_static ? statics(1, 1) : general(0.5, 2e-3)) + carrier("floor") + carrier("ceiling") +
+      block("lower", 0) + block("upper", kOverlappingSide * (1 - overlap)) +
+      attach("lower", "floor", {-1, -1, -1}, {1, 1, 1e-5 - kOverlappingSide / 2}) +
+      attach("upper", "ceiling", {-1, -1, top - 1e-5}, {1, 1, 1}) +
+      reaction_probe("floor", "floor");
   const ProgramRun run = bench.run("blocks", scene, 120);
   if (const auto end = ended_early(run)) return *end;
   const double force = std::abs(ScenarioResults(run.results).last("floor.force.z [N]"));
   // In time contact gives by a tenth of what elements do, on both sides.
-  return judged(run, std::abs(force / (kYoung * kSide * kSide * overlap / 2) - 1),
-                {.right = is_static ? 0.01 : 0.1, .stable = 0.5}, "force against E A ε");
+  return judged(
+      run,
+      std::abs(force / (kOverlappingYoung * kOverlappingSide * kOverlappingSide * overlap / 2) - 1),
+      {.right = is_static ? 0.01 : 0.1, .stable = 0.5}, "force against E A ε");
 }
 
 }  // namespace

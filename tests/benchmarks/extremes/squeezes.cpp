@@ -11,7 +11,7 @@
 namespace articular::benchmarks {
 namespace {
 
-constexpr double kSide = 0.01, kYoung = 1e4;  // [m], [Pa]
+constexpr double kSqueezedSide = 0.01, kSqueezedYoung = 1e4;  // [m], [Pa]
 
 std::string analysis(bool is_static) { return is_static ? statics(1, 0.02) : general(1.5, 5e-3); }
 
@@ -35,19 +35,20 @@ Finding tied(const Bench& bench, double stretch, bool is_static) {
   const std::string scene =
       analysis(is_static) + carrier("floor") + carrier("press") +
       box("block", "tissue", {.cells = {3, 3, 3}},
-          solid(1000, "corotated", kYoung, 0, ", mass_damping = \"20 1/s\"")) +
+          solid(1000, "corotated", kSqueezedYoung, 0, ", mass_damping = \"20 1/s\"")) +
       attach("block", "floor", {-1, -1, -1}, {1, 1, -0.00499}) +
       attach("block", "press", {-1, -1, 0.00499}, {1, 1, 1}) +
-      motion("press", 1, {0, 0, -(1 - stretch) * kSide}) + energy_probe() +
+      motion("press", 1, {0, 0, -(1 - stretch) * kSqueezedSide}) + energy_probe() +
       reaction_probe("floor", "floor");
-  return judged_force(bench.run("press", scene, 120), kYoung * kSide * kSide * (1 - stretch),
-                      is_static);
+  return judged_force(bench.run("press", scene, 120),
+                      kSqueezedYoung * kSqueezedSide * kSqueezedSide * (1 - stretch), is_static);
 }
 
 /// Nominal stress of stable neo-Hookean tissue whose sides are free: from P₁₁ = 0 the lateral
 /// stretch is a² = α/s − μ/(λ s²), and P₃₃ = μ s + λ (a² s − α) a².
 double free_stress(double s, double nu) {
-  const double mu = kYoung / (2 * (1 + nu)), lambda = kYoung * nu / ((1 + nu) * (1 - 2 * nu)) + mu,
+  const double mu = kSqueezedYoung / (2 * (1 + nu)),
+               lambda = kSqueezedYoung * nu / ((1 + nu) * (1 - 2 * nu)) + mu,
                alpha = 1 + mu / lambda;
   const double a2 = alpha / s - mu / (lambda * s * s);
   return mu * s + lambda * (a2 * s - alpha) * a2;
@@ -62,11 +63,11 @@ Finding between_plates(const Bench& bench, double stretch, bool is_static) {
   const std::string scene =
       analysis(is_static) + plate("floor", -0.01) + plate("press", 0.01) +
       box("block", "tissue", {.cells = {3, 3, 3}},
-          solid(1000, "neo-hookean", kYoung, kNu, ", mass_damping = \"20 1/s\"")) +
-      motion("press", 1, {0, 0, -(1 - stretch) * kSide}) + energy_probe() +
+          solid(1000, "neo-hookean", kSqueezedYoung, kNu, ", mass_damping = \"20 1/s\"")) +
+      motion("press", 1, {0, 0, -(1 - stretch) * kSqueezedSide}) + energy_probe() +
       reaction_probe("floor", "floor");
-  return judged_force(bench.run("press", scene, 120), -free_stress(stretch, kNu) * kSide * kSide,
-                      is_static);
+  return judged_force(bench.run("press", scene, 120),
+                      -free_stress(stretch, kNu) * kSqueezedSide * kSqueezedSide, is_static);
 }
 
 }  // namespace

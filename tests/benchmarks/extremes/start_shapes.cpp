@@ -11,7 +11,7 @@
 namespace articular::benchmarks {
 namespace {
 
-constexpr double kSide = 0.01, kYoung = 1e4;  // [m], [Pa]
+constexpr double kShapedSide = 0.01, kShapedYoung = 1e4;  // [m], [Pa]
 
 struct Law {
   std::string words;     // for the table
@@ -19,9 +19,9 @@ struct Law {
 };
 
 Law law(const std::string& name, const std::string& element) {
-  return {
-      name + ", " + element,
-      solid(1000, name, kYoung, 0.3, ", mass_damping = \"20 1/s\", element = \"" + element + "\"")};
+  return {name + ", " + element,
+          solid(1000, name, kShapedYoung, 0.3,
+                ", mass_damping = \"20 1/s\", element = \"" + element + "\"")};
 }
 
 using Move = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
@@ -30,7 +30,8 @@ Finding study(const Bench& bench, const std::string& material, bool tied, const 
   std::string scene =
       general(2, 2e-3) + box("block", "tissue", {.cells = {3, 3, 3}}, material) + energy_probe();
   if (tied)
-    scene += carrier("floor") + attach("block", "floor", {-1, -1, -1}, {1, 1, 1e-5 - kSide / 2});
+    scene +=
+        carrier("floor") + attach("block", "floor", {-1, -1, -1}, {1, 1, 1e-5 - kShapedSide / 2});
   const ProgramRun run =
       bench.run_from("block", scene, 120, [&](const sim::Model& model, sim::State& state) {
         for (int block = 0; block < model.layout.num_free_nodes; ++block) {
@@ -41,8 +42,10 @@ Finding study(const Bench& bench, const std::string& material, bool tied, const 
   if (const auto end = ended_early(run)) return *end;
   const double rest = ScenarioResults(run.results).last("energy.elastic [J]");
   constexpr double kStrain = 1e-3;
-  return judged(run, rest / (0.5 * kYoung * kSide * kSide * kSide * kStrain * kStrain),
-                {.right = 1, .stable = 1e6}, "elastic energy by that of 0.1 % strain");
+  return judged(
+      run,
+      rest / (0.5 * kShapedYoung * kShapedSide * kShapedSide * kShapedSide * kStrain * kStrain),
+      {.right = 1, .stable = 1e6}, "elastic energy by that of 0.1 % strain");
 }
 
 void add(const std::string& name, const Law& law, bool tied, const Move& move, bool quick,
@@ -67,7 +70,9 @@ std::vector<Extreme> start_shapes() {
     const bool quick = &law == laws.data();
     add(
         "every element inverted", law, true,
-        [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x.x(), x.y(), -kSide - x.z()); },
+        [](const Eigen::Vector3d& x) {
+          return Eigen::Vector3d(x.x(), x.y(), -kShapedSide - x.z());
+        },
         quick, rows);
     add(
         "turned inside out, nothing held", law, false,
@@ -75,7 +80,7 @@ std::vector<Extreme> start_shapes() {
     add(
         "random nodal positions", law, true,
         [random = std::mt19937(1)](const Eigen::Vector3d&) mutable {
-          std::uniform_real_distribution<double> place(-kSide / 2, kSide / 2);
+          std::uniform_real_distribution<double> place(-kShapedSide / 2, kShapedSide / 2);
           const double x = place(random), y = place(random);
           return Eigen::Vector3d(x, y, place(random));
         },

@@ -13,30 +13,34 @@
 namespace articular::benchmarks {
 namespace {
 
-constexpr double kLength = 0.01, kDensity = 1000, kYoung = 15e3, kGravity = 9.81;  // SI
-constexpr double kSag = kDensity * kGravity * kLength * kLength / (2 * kYoung);    // [m]
+constexpr double kColumnLength = 0.01, kColumnDensity = 1000, kColumnYoung = 15e3,
+                 kColumnGravity = 9.81;  // SI
+constexpr double kColumnSag =
+    kColumnDensity * kColumnGravity * kColumnLength * kColumnLength / (2 * kColumnYoung);  // [m]
 
 double tip(double t) {
   constexpr int kModes = 100;
-  const double c = std::sqrt(kYoung / kDensity);
+  const double c = std::sqrt(kColumnYoung / kColumnDensity);
   double u = 0;
   for (int k = 0; k < kModes; ++k) {
-    const double wave = (2 * k + 1) * std::numbers::pi / (2 * kLength);
-    u += (k % 2 == 0 ? 1 : -1) * 2 * kGravity / (kLength * c * c * wave * wave * wave) *
+    const double wave = (2 * k + 1) * std::numbers::pi / (2 * kColumnLength);
+    u += (k % 2 == 0 ? 1 : -1) * 2 * kColumnGravity / (kColumnLength * c * c * wave * wave * wave) *
          (1 - std::cos(wave * c * t));
   }
   return u;
 }
 
 std::string scene(double step, const std::string& scheme) {
-  const double period = 4 * kLength / std::sqrt(kYoung / kDensity);
+  const double period = 4 * kColumnLength / std::sqrt(kColumnYoung / kColumnDensity);
   return general(std::max(period, 10 * step), step, "", "scheme = \"" + scheme + "\"") +
          carrier("ceiling") +
          box("column", "tissue",
-             {.size = {0.002, 0.002, kLength}, .cells = {1, 1, 10}, .center = {0, 0, -kLength / 2}},
-             solid(kDensity, "linear", kYoung, 0)) +
-         attach("column", "ceiling", {-1, -1, -1e-9}, {1, 1, 1}) + gravity(kGravity) +
-         point_probe("tip", "column", {0.001, 0.001, -kLength}) + energy_probe();
+             {.size = {0.002, 0.002, kColumnLength},
+              .cells = {1, 1, 10},
+              .center = {0, 0, -kColumnLength / 2}},
+             solid(kColumnDensity, "linear", kColumnYoung, 0)) +
+         attach("column", "ceiling", {-1, -1, -1e-9}, {1, 1, 1}) + gravity(kColumnGravity) +
+         point_probe("tip", "column", {0.001, 0.001, -kColumnLength}) + energy_probe();
 }
 
 Finding study(const Bench& bench, double step, const std::string& scheme) {
@@ -46,7 +50,7 @@ Finding study(const Bench& bench, double step, const std::string& scheme) {
   const auto &t = results.column("time [s]"), &z = results.column("tip.position.z [m]");
   double error = 0;
   for (std::size_t i = 0; i < t.size(); ++i)
-    error = std::max(error, std::abs(-kLength - z[i] - tip(t[i])) / kSag);
+    error = std::max(error, std::abs(-kColumnLength - z[i] - tip(t[i])) / kColumnSag);
   // Undamped it swings to twice the sag: more would be instability.
   return judged(run, error, {.right = 0.05, .stable = 2.2}, "largest error of the tip by the sag");
 }

@@ -14,25 +14,25 @@
 namespace articular::sim {
 namespace {
 
-constexpr double kSide = 0.02;  // of the block, half as high [m]
-constexpr double kYoung = 1e6;  // [Pa]
-constexpr double kPoisson = 0.3;
-constexpr double kJitter = 0.2;
+constexpr double kDragSide = 0.02;  // of the block, half as high [m]
+constexpr double kDragYoung = 1e6;  // [Pa]
+constexpr double kDragPoisson = 0.3;
+constexpr double kDragJitter = 0.2;
 constexpr int kPressSteps = 4;
 /// The diagonals of the cells are mirrored from one to the next: two cells are a mesh period.
 constexpr int kCells = 2, kStepsPerCell = 8;
 
 /// The block's top is z = 0.
 void add_block(Scene& scene, int cells, double part) {
-  const std::vector<double> side = uniform_lines(-kSide / 2, kSide / 2, cells);
-  MeshData mesh = block_mesh({side, side, uniform_lines(-kSide / 2, 0, cells / 2)});
-  jitter(mesh, kSide / cells, part, 1);
-  scene.tissue("block", mesh, fem::NeoHookean(kYoung, kPoisson));
+  const std::vector<double> side = uniform_lines(-kDragSide / 2, kDragSide / 2, cells);
+  MeshData mesh = block_mesh({side, side, uniform_lines(-kDragSide / 2, 0, cells / 2)});
+  jitter(mesh, kDragSide / cells, part, 1);
+  scene.tissue("block", mesh, fem::NeoHookean(kDragYoung, kDragPoisson));
   Body floor;
   floor.name = "floor";
   floor.kind = Body::Kind::Fixed;
   scene.add(floor);
-  scene.tie("block", "floor", -0.501 * kSide, -0.499 * kSide);
+  scene.tie("block", "floor", -0.501 * kDragSide, -0.499 * kDragSide);
 }
 
 /// Down by `depth` beside the middle, then along x over it, by a cell before and behind.
@@ -94,26 +94,27 @@ void print_header(const char* title, const char* first) {
       title, first, kCostHeader, kCostRule);
 }
 
-constexpr double kRadius = kSide / 2, kIndentation = kSide / 20;
+constexpr double kDragRadius = kDragSide / 2, kDragIndentation = kDragSide / 20;
 
 Body sphere() {
   Body body;
   body.name = "sphere";
   body.kind = Body::Kind::Fixed;
-  body.geometry = SphereGeometry{kRadius, kRadius / 10, {0, 0, kRadius}};  // 4,800 facets
+  body.geometry =
+      SphereGeometry{kDragRadius, kDragRadius / 10, {0, 0, kDragRadius}};  // 4,800 facets
   return body;
 }
 
 void drag_row(int cells, double part, const StudyOptions& options) {
-  const double h = kSide / cells;
+  const double h = kDragSide / cells;
   print_row(fmt::format("{}{} | {:.1f}", cells, part > 0 ? ", jittered" : "",
-                        std::sqrt(kRadius * kIndentation) / h),
+                        std::sqrt(kDragRadius * kDragIndentation) / h),
             h, [&] { return drag_sphere(cells, part, options); });
 }
 
-constexpr double kPunch = 0.3 * kSide;             // the side of its square face [m]
-constexpr double kPunchDepth = 0.02 * kSide / 2;   // 2 % of the block's height
-constexpr double kPunchTurn = 0.5235987755982988;  // 30 degrees
+constexpr double kPunch = 0.3 * kDragSide;            // the side of its square face [m]
+constexpr double kPunchDepth = 0.02 * kDragSide / 2;  // 2 % of the block's height
+constexpr double kPunchTurn = 0.5235987755982988;     // 30 degrees
 
 void add_rigid_punch(Scene& scene) {
   Body body;
@@ -131,7 +132,7 @@ void add_tissue_punch(Scene& scene, double stiffness_ratio) {
   Placement turned;
   turned.rotation = {0, 0, kPunchTurn};
   place(turned, mesh.X);
-  scene.tissue("tissue punch", mesh, fem::NeoHookean(stiffness_ratio * kYoung, kPoisson));
+  scene.tissue("tissue punch", mesh, fem::NeoHookean(stiffness_ratio * kDragYoung, kDragPoisson));
   Body press;
   press.name = "punch";
   press.kind = Body::Kind::Fixed;
@@ -142,7 +143,7 @@ void add_tissue_punch(Scene& scene, double stiffness_ratio) {
 
 void lines_row(const std::string& name, int cells, double part, const StudyOptions& options,
                const std::function<void(Scene&)>& add_punch) {
-  const double h = kSide / cells;
+  const double h = kDragSide / cells;
   Scene scene(options);
   add_block(scene, cells, part);
   add_punch(scene);
@@ -158,7 +159,7 @@ Ripple drag_sphere(int cells, double part, const StudyOptions& options) {
   add_block(scene, cells, part);
   scene.add(sphere());
   scene.touch("sphere", "block");
-  scene.drive("sphere", path(kIndentation, kSide / cells));
+  scene.drive("sphere", path(kDragIndentation, kDragSide / cells));
   return push(scene, options);
 }
 
@@ -166,7 +167,7 @@ void study_drag(const StudyOptions& options) {
   print_header("Drag: rigid sphere over a block, 8 steps a cell",
                "cells of the block's side | contact radius/h");
   for (const int cells : {8, 12, 16, 26})
-    for (const double part : {0.0, kJitter})
+    for (const double part : {0.0, kDragJitter})
       if (cells <= options.finest) drag_row(cells, part, options);
 }
 
@@ -174,7 +175,7 @@ void study_lines(const StudyOptions& options) {
   print_header("Lines: a square punch, turned by 30 degrees, 2 % deep, 8 steps a cell",
                "cells of the block's side | punch");
   for (const int cells : {8, 16})
-    for (const double part : {0.0, kJitter}) {
+    for (const double part : {0.0, kDragJitter}) {
       if (cells > options.finest) continue;
       lines_row("rigid", cells, part, options, add_rigid_punch);
       lines_row("tissue, 10 E", cells, part, options,

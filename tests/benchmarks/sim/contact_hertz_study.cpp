@@ -20,15 +20,15 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kYoung = 1e6, kPoisson = 0.3;
-constexpr double kRadius = 0.04;                   // R of the sphere or the cylinders [m]
-constexpr double kContactRadius = 0.05 * kRadius;  // a of Hertz; strains are about a/R
-constexpr double kApproach = kContactRadius * kContactRadius / kRadius;  // δ = a²/R
-constexpr double kDepth = 20 * kContactRadius;      // of a block, tied at its bottom
-constexpr double kHalfWidth = 15 * kContactRadius;  // of a block
-constexpr double kFine = 1.5 * kContactRadius;      // half width of the finest cells
-constexpr double kGrowth = 1.6;                     // of the cells beyond
-constexpr int kSteps = 2;
+constexpr double kHertzYoung = 1e6, kHertzPoisson = 0.3;
+constexpr double kHertzRadius = 0.04;                   // R of the sphere or the cylinders [m]
+constexpr double kContactRadius = 0.05 * kHertzRadius;  // a of Hertz; strains are about a/R
+constexpr double kApproach = kContactRadius * kContactRadius / kHertzRadius;  // δ = a²/R
+constexpr double kHertzDepth = 20 * kContactRadius;      // of a block, tied at its bottom
+constexpr double kHertzHalfWidth = 15 * kContactRadius;  // of a block
+constexpr double kHertzFine = 1.5 * kContactRadius;      // half width of the finest cells
+constexpr double kHertzGrowth = 1.6;                     // of the cells beyond
+constexpr int kHertzSteps = 2;
 
 struct Hertz {
   double force = 0, radius = 0, peak = 0;  // [N], [m], [Pa]
@@ -38,7 +38,7 @@ struct Hertz {
 /// in χ. Two like bodies that touch have the same χ: each has half of the approach, and half of the
 /// compliance is its own.
 double depth_factor(double chi) {
-  const double nu = kPoisson;
+  const double nu = kHertzPoisson;
   const double alpha = -(1.2876 - 1.4678 * nu + 1.3442 * nu * nu) / (1 - nu);
   const double beta = (0.6387 - 1.0277 * nu + 1.5164 * nu * nu) / (1 - nu);
   const double q = 2 * chi / pi, cube = alpha * alpha * alpha;
@@ -49,9 +49,9 @@ double depth_factor(double chi) {
 /// @param E_star  [Pa] 1/E* = Σ (1 − ν²)/E over what is not rigid
 Hertz hertz(double E_star) {
   Hertz h;
-  h.force = 4.0 / 3 * E_star * std::sqrt(kRadius) * std::pow(kApproach, 1.5) *
-            depth_factor(kContactRadius / kDepth);
-  h.radius = std::cbrt(0.75 * h.force * kRadius / E_star);
+  h.force = 4.0 / 3 * E_star * std::sqrt(kHertzRadius) * std::pow(kApproach, 1.5) *
+            depth_factor(kContactRadius / kHertzDepth);
+  h.radius = std::cbrt(0.75 * h.force * kHertzRadius / E_star);
   h.peak = 1.5 * h.force / (pi * h.radius * h.radius);
   return h;
 }
@@ -67,21 +67,21 @@ double radius_by_moment(const std::vector<NodalContact>& nodes) {
 }
 
 void print_header(const char* title) {
-  const Hertz one = hertz(kYoung / (1 - kPoisson * kPoisson));
+  const Hertz one = hertz(kHertzYoung / (1 - kHertzPoisson * kHertzPoisson));
   std::printf(
       "\n## %s (depth of a block %.0f a; its correction of the force %+.1f %%; a/R = %.2f)\n\n"
       "| elements over a | force [N] | error [%%] | a by the second moment, error [%%] | "
       "a by the area, error [%%] | peak pressure, error [%%] | penetration/δ [%%] | %s\n"
       "|---|---|---|---|---|---|---|%s\n",
-      title, kDepth / kContactRadius, 100 * (depth_factor(kContactRadius / kDepth) - 1),
-      one.radius / kRadius, kCostHeader, kCostRule);
+      title, kHertzDepth / kContactRadius, 100 * (depth_factor(kContactRadius / kHertzDepth) - 1),
+      one.radius / kHertzRadius, kCostHeader, kCostRule);
 }
 
 void print_row(int elements, const Scene& scene, const StudyOptions& options,
                const Hertz& expected) {
   try {
     ContactRun run(scene, options);
-    run.steps(1, kSteps);
+    run.steps(1, kHertzSteps);
     const ContactValues contact = run.contact();
     const double force = std::abs(contact.force.z());
     const auto nodes = run.nodal_contacts("lower", Vec3::UnitZ());
@@ -99,8 +99,8 @@ void print_row(int elements, const Scene& scene, const StudyOptions& options,
 
 /// A block with its top at z = 0, fine in the middle.
 MeshData fine_block(double h) {
-  const std::vector<double> side = graded_lines(kHalfWidth, kFine, h, kGrowth);
-  return block_mesh({side, side, graded_depth(-kDepth, kContactRadius, h, kGrowth)});
+  const std::vector<double> side = graded_lines(kHertzHalfWidth, kHertzFine, h, kHertzGrowth);
+  return block_mesh({side, side, graded_depth(-kHertzDepth, kContactRadius, h, kHertzGrowth)});
 }
 
 /// A block whose top is rounded to half of a cylinder that touches z = 0 from below.
@@ -108,16 +108,17 @@ MeshData fine_block(double h) {
 MeshData half_cylinder(double h, int across) {
   MeshData mesh = fine_block(h);
   for (auto node : mesh.X.colwise()) {
-    const double sagitta = kRadius - std::sqrt(kRadius * kRadius - node[across] * node[across]);
-    node.z() -= sagitta * (1 + node.z() / kDepth);
+    const double sagitta =
+        kHertzRadius - std::sqrt(kHertzRadius * kHertzRadius - node[across] * node[across]);
+    node.z() -= sagitta * (1 + node.z() / kHertzDepth);
   }
   return mesh;
 }
 
 void add_lower(Scene& scene, const MeshData& mesh) {
-  scene.tissue("lower", mesh, fem::NeoHookean(kYoung, kPoisson));
+  scene.tissue("lower", mesh, fem::NeoHookean(kHertzYoung, kHertzPoisson));
   scene.add(stand("floor"));
-  scene.tie("lower", "floor", -1.001 * kDepth, -0.999 * kDepth);
+  scene.tie("lower", "floor", -1.001 * kHertzDepth, -0.999 * kHertzDepth);
 }
 
 }  // namespace
@@ -129,10 +130,11 @@ void study_hertz(const StudyOptions& options) {
     Scene scene(options);
     add_lower(scene, fine_block(kContactRadius / elements));
     // Facets of a/16: their sagitta is 0.05 % of δ.
-    scene.add_rigid("sphere", sphere_cap(kRadius, 3 * kContactRadius, kFine, kContactRadius / 16));
+    scene.add_rigid("sphere",
+                    sphere_cap(kHertzRadius, 3 * kContactRadius, kHertzFine, kContactRadius / 16));
     scene.touch("sphere", "lower");
     scene.drive("sphere", {Vec3::Zero(), Vec3(0, 0, -kApproach)});
-    print_row(elements, scene, options, hertz(kYoung / (1 - kPoisson * kPoisson)));
+    print_row(elements, scene, options, hertz(kHertzYoung / (1 - kHertzPoisson * kHertzPoisson)));
   }
 }
 
@@ -147,12 +149,13 @@ void study_cylinders(const StudyOptions& options) {
     Placement turned;
     turned.rotation = {pi, 0, 0};
     place(turned, upper.X);
-    scene.tissue("upper", upper, fem::NeoHookean(kYoung, kPoisson));
+    scene.tissue("upper", upper, fem::NeoHookean(kHertzYoung, kHertzPoisson));
     scene.add(stand("press"));
-    scene.tie("upper", "press", 0.999 * kDepth, 1.001 * kDepth);
+    scene.tie("upper", "press", 0.999 * kHertzDepth, 1.001 * kHertzDepth);
     scene.touch("upper", "lower");
     scene.drive("press", {Vec3::Zero(), Vec3(0, 0, -kApproach)});
-    print_row(elements, scene, options, hertz(0.5 * kYoung / (1 - kPoisson * kPoisson)));
+    print_row(elements, scene, options,
+              hertz(0.5 * kHertzYoung / (1 - kHertzPoisson * kHertzPoisson)));
   }
 }
 

@@ -27,25 +27,27 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kYoung = 1e6, kPoisson = 0.3;
-constexpr double kRadius = 1;  // a, of the punch and of the sphere's contact [m]
-constexpr double kSphere = 20 * kRadius;
-constexpr double kGrowth = 1.6;  // of cells away from the contact
-constexpr int kSteps = 2;
+constexpr double kPunchYoung = 1e6, kPunchPoisson = 0.3;
+constexpr double kPunchRadius = 1;  // a, of the punch and of the sphere's contact [m]
+constexpr double kSphere = 20 * kPunchRadius;
+constexpr double kPunchGrowth = 1.6;  // of cells away from the contact
+constexpr int kPunchSteps = 2;
 
 /// A block with its top at z = 0, tied at its bottom.
 void add_block(Scene& scene, double h) {
-  constexpr double kDepth = 8 * kRadius, kHalfWidth = 6 * kRadius, kFine = 1.3 * kRadius;
-  const std::vector<double> side = graded_lines(kHalfWidth, kFine, h, kGrowth);
-  scene.tissue("lower", block_mesh({side, side, graded_depth(-kDepth, 0.8 * kRadius, h, kGrowth)}),
-               fem::NeoHookean(kYoung, kPoisson));
+  constexpr double kDepth = 8 * kPunchRadius, kHalfWidth = 6 * kPunchRadius,
+                   kFine = 1.3 * kPunchRadius;
+  const std::vector<double> side = graded_lines(kHalfWidth, kFine, h, kPunchGrowth);
+  scene.tissue("lower",
+               block_mesh({side, side, graded_depth(-kDepth, 0.8 * kPunchRadius, h, kPunchGrowth)}),
+               fem::NeoHookean(kPunchYoung, kPunchPoisson));
   scene.add(stand("floor"));
   scene.tie("lower", "floor", -1.001 * kDepth, -0.999 * kDepth);
 }
 
 /// A disc that looks down, its rings h wide.
 MeshData disc(double h) {
-  const int rings = static_cast<int>(std::lround(kRadius / h)), sectors = 6 * rings;
+  const int rings = static_cast<int>(std::lround(kPunchRadius / h)), sectors = 6 * rings;
   MeshData mesh;
   mesh.X.setZero(3, 1 + rings * sectors);
   const auto node = [&](int ring, int sector) {
@@ -54,7 +56,7 @@ MeshData disc(double h) {
   std::vector<Eigen::Vector3i> triangles;
   for (int ring = 1; ring <= rings; ++ring)
     for (int s = 0; s < sectors; ++s) {
-      const double angle = 2 * pi * s / sectors, r = kRadius * ring / rings;
+      const double angle = 2 * pi * s / sectors, r = kPunchRadius * ring / rings;
       mesh.X.col(node(ring, s)) = Vec3(r * std::cos(angle), r * std::sin(angle), 0);
       triangles.emplace_back(node(ring, s), node(ring - 1, s), node(ring, s + 1));
       if (ring > 1)
@@ -132,7 +134,7 @@ void print_row(const ContactRun& run, int elements, const std::string& name,
   std::fflush(stdout);
 }
 
-void print_header(const std::string& title) {
+void print_pressure_header(const std::string& title) {
   std::printf(
       "\n## %s\n\n| elements | body | p of the law | told | with slivers | by the whole area | "
       "mean of the ring | face | blank nodes | sum over force − 1 |\n"
@@ -146,7 +148,7 @@ void run_rows(const Scene& scene, const StudyOptions& options, int elements,
               const std::array<const char*, 2>& bodies, MeasureOf&& measure_of) {
   try {
     ContactRun run(scene, options);
-    run.steps(1, kSteps);
+    run.steps(1, kPunchSteps);
     for (const char* const body : bodies) print_row(run, elements, body, measure_of(run));
   } catch (const std::exception& error) {
     print_failure(std::to_string(elements), error);
@@ -156,20 +158,20 @@ void run_rows(const Scene& scene, const StudyOptions& options, int elements,
 double normal_force(const ContactRun& run) { return std::abs(run.contact().force.z()); }
 
 void punch(const StudyOptions& options) {
-  print_header("Flat punch: largest error up to 0.6 a [%]");
+  print_pressure_header("Flat punch: largest error up to 0.6 a [%]");
   for (const int elements : {2, 3, 4, 8}) {
     if (elements > options.finest) continue;
     Scene scene(options);
-    add_block(scene, kRadius / elements);
-    scene.add_rigid("punch", disc(kRadius / (elements + 1)));
+    add_block(scene, kPunchRadius / elements);
+    scene.add_rigid("punch", disc(kPunchRadius / (elements + 1)));
     scene.touch("punch", "lower");
-    scene.drive("punch", {Vec3::Zero(), Vec3(0, 0, -0.02 * kRadius)});
+    scene.drive("punch", {Vec3::Zero(), Vec3(0, 0, -0.02 * kPunchRadius)});
     run_rows(scene, options, elements, {"lower", "punch"}, [](const ContactRun& run) {
-      const double middle = normal_force(run) / (2 * pi * kRadius * kRadius);
+      const double middle = normal_force(run) / (2 * pi * kPunchRadius * kPunchRadius);
       return [middle](const Positions& X, const Eigen::VectorXd& p) {
         double error = 0;
         for (Eigen::Index i = 0; i < p.size(); ++i) {
-          const double r = X.col(i).head<2>().norm() / kRadius;
+          const double r = X.col(i).head<2>().norm() / kPunchRadius;
           const bool touches = r < 0.6 && std::abs(X(2, i)) < 1e-9;
           if (touches) error = std::max(error, std::abs(p[i] / middle * std::sqrt(1 - r * r) - 1));
         }
@@ -180,17 +182,18 @@ void punch(const StudyOptions& options) {
 }
 
 void sphere(const StudyOptions& options) {
-  print_header("Sphere: error of the peak [%]");
+  print_pressure_header("Sphere: error of the peak [%]");
   for (const int elements : {1, 2, 4, 8}) {
     if (elements > options.finest) continue;
     Scene scene(options);
-    add_block(scene, kRadius / elements);
-    scene.add_rigid("sphere",
-                    sphere_cap(kSphere, 3 * kRadius, 1.3 * kRadius, kRadius / (1.2 * elements)));
+    add_block(scene, kPunchRadius / elements);
+    scene.add_rigid("sphere", sphere_cap(kSphere, 3 * kPunchRadius, 1.3 * kPunchRadius,
+                                         kPunchRadius / (1.2 * elements)));
     scene.touch("sphere", "lower");
-    scene.drive("sphere", {Vec3::Zero(), Vec3(0, 0, -kRadius * kRadius / kSphere)});
+    scene.drive("sphere", {Vec3::Zero(), Vec3(0, 0, -kPunchRadius * kPunchRadius / kSphere)});
     run_rows(scene, options, elements, {"lower", "sphere"}, [](const ContactRun& run) {
-      const double E_star = kYoung / (1 - kPoisson * kPoisson), force = normal_force(run);
+      const double E_star = kPunchYoung / (1 - kPunchPoisson * kPunchPoisson),
+                   force = normal_force(run);
       const double a = std::cbrt(0.75 * force * kSphere / E_star);
       return [peak = 1.5 * force / (pi * a * a)](const Positions& X, const Eigen::VectorXd& p) {
         return 100 * (largest(X, p) / peak - 1);
@@ -200,19 +203,19 @@ void sphere(const StudyOptions& options) {
 }
 
 void edge(const StudyOptions& options) {
-  print_header("Edge of a wedge: peak [kPa]");
+  print_pressure_header("Edge of a wedge: peak [kPa]");
   constexpr double kLayer = 1, kBefore = 1.5, kBehind = 0.37;  // of what it presses on [m]
   for (const int elements : {4, 6, 8, 16}) {
     if (elements > 2 * options.finest) continue;
     const double h = kWedge / elements;
     const int cells = static_cast<int>(std::lround((kBefore + kWedge + kBehind) / (0.83 * h)));
     Scene scene(options);
-    scene.tissue("wedge", wedge(h), fem::NeoHookean(kYoung, kPoisson));
+    scene.tissue("wedge", wedge(h), fem::NeoHookean(kPunchYoung, kPunchPoisson));
     scene.tissue(
         "lower",
         block_mesh({uniform_lines(-kBefore, kWedge + kBehind, cells), uniform_lines(0, 4 * h, 4),
                     uniform_lines(-kLayer, 0, std::max(2, elements / 4))}),
-        fem::NeoHookean(kYoung, kPoisson));
+        fem::NeoHookean(kPunchYoung, kPunchPoisson));
     scene.add(stand("floor"));
     scene.add(stand("rim"));
     scene.tie("lower", "floor", -1.001 * kLayer, -0.999 * kLayer);

@@ -9,8 +9,8 @@
 namespace articular::sim {
 namespace {
 
-constexpr double kJitter = 0.2;
-constexpr double kPoisson = 0.3;
+constexpr double kResponseJitter = 0.2;
+constexpr double kResponsePoisson = 0.3;
 
 /// The table's next cells, of which there are `count`; dashes where there is no solution.
 void print_cells(int count, const std::function<void()>& print) {
@@ -28,7 +28,7 @@ void print_row(DepthRule rule, double stiffness, StudyOptions options) {
   options.stiffness = stiffness / kStatic;
   std::printf("| %s | %g |", kDepthRules[static_cast<int>(rule)], stiffness);
   print_cells(2, [&] {
-    const PatchResult patch = press_blocks(7, 8, kJitter, options);
+    const PatchResult patch = press_blocks(7, 8, kResponseJitter, options);
     std::printf(" %+.3f | %.4f |", patch.mean, patch.deviation);
   });
   for (const int cells : {8, 16}) {
@@ -39,7 +39,7 @@ void print_row(DepthRule rule, double stiffness, StudyOptions options) {
     });
   }
   print_cells(2, [&] {
-    const LayerResult layer = press_layer(2, kPoisson, options);
+    const LayerResult layer = press_layer(2, kResponsePoisson, options);
     std::printf(" %.3f | %.0f |", layer.force, 1e-3 * layer.peak);
   });
   std::printf("\n");
