@@ -11,7 +11,7 @@
 namespace articular::tools {
 namespace {
 
-constexpr std::size_t kMostPanels = 80;
+constexpr std::size_t kMostPanels = 300;  // a page of 5 m is what PDF allows
 
 /// All columns but the time and that on the x axis, in the order in which they first appear.
 std::vector<HistoryColumn> union_of(const std::vector<PlottedRun>& runs, const std::string& x) {

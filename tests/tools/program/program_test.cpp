@@ -210,6 +210,17 @@ name = "band"
 path = [{ body = "floor", point = "30 0 0 mm" }, { body = "bone", point = "21 0 0 mm" }]
 stiffness = "2 N/mm"
 slack_length = "8 mm"
+[[ligament]]
+name = "through"
+path = [{ body = "floor", point = "20 0.4 8 mm" }, { body = "floor", point = "20 0.4 -8 mm" }]
+stiffness = "2 N/mm"
+slack_length = "20 mm"
+[[ligament]]
+name = "over"
+path = [{ body = "floor", point = "20 0.4 8 mm" }, { body = "floor", point = "20 0.4 -8 mm" }]
+wrap = ["bone"]
+stiffness = "2 N/mm"
+slack_length = "20 mm"
 )");
   const ProgramResult result = run_program(folder, "check scene.toml");
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -226,7 +237,9 @@ slack_length = "8 mm"
         "(2.0 2.0 2.0) mm, held along (1.00 0.00 0.00)",
         "disc                 under pressure          8 faces, 16 mm^2, in all (0 0 -0.032) N",
         "9.00  ( 0.00  0.00 -1.00)", "3 N, 6.00 mm",
-        "9.00  (-1.00  0.00  0.00)          2  8.00 mm, +12.50 %",
+        "9.00  (-1.00  0.00  0.00)          2  8.00 mm, +12.50 %\n",
+        "16.00  ( 0.00  0.00 -1.00)          0  20.00 mm, -20.00 %, 0.6 mm deep through `bone`\n",
+        ", around `bone`\n",
         "At the start, where nothing presses yet, nothing but inertia resists: "})
     EXPECT_NE(result.out.find(row), std::string::npos) << row << "\n" << result.out;
 }
