@@ -3,8 +3,20 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <utility>
 
 namespace articular::sim {
+
+bool is_closed(const Triangles& triangles) {
+  std::set<std::pair<int, int>> open;
+  for (const auto& t : triangles.colwise())
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      if (open.erase({b, a}) == 0 && !open.insert({a, b}).second) return false;
+    }
+  return open.empty() && triangles.cols() > 0;
+}
 
 double winding_number(const Positions& X, const Triangles& triangles, const Vec3& x) {
   double angle = 0;
