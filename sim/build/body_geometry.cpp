@@ -11,6 +11,7 @@
 #include "collision/mesh/surface.hpp"
 #include "sim/mesh/mesh_continue.hpp"
 #include "sim/mesh/shapes.hpp"
+#include "sim/mesh/winding_number.hpp"
 
 namespace articular::sim {
 namespace {
@@ -147,6 +148,12 @@ MassProperties rigid_mass(const Body& body, const MeshData& mesh) {
       throw InputError(body.where, fmt::format("rigid body `{}` needs a mesh, or mass, "
                                                "center_of_mass and inertia",
                                                body.name));
+    if (!is_closed(mesh.triangles))
+      throw InputError(body.where,
+                       fmt::format("the surface of `{}` has borders, or triangles that face each "
+                                   "other, so its volume is not known; expected a closed surface, "
+                                   "or mass, center_of_mass and inertia",
+                                   body.name));
     mass = solid_mass_properties(mesh.X, mesh.triangles, body.density.value_or(1.0));
     if (!(mass.mass > 0))
       throw InputError(body.where,

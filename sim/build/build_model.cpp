@@ -6,6 +6,7 @@
 
 #include "sim/base/available_memory.hpp"
 #include "sim/base/mistakes.hpp"
+#include "sim/build/active_stress_doubt.hpp"
 #include "sim/build/body_collider.hpp"
 #include "sim/build/body_geometry.hpp"
 #include "sim/build/coincident_bodies.hpp"
@@ -326,6 +327,18 @@ class Builder {
     return free_start_;
   }
 
+  void tell_line_of_one_bone(const std::string& name, const std::vector<Anchor>& path,
+                             const Location& where) {
+    const std::string& first = path.front().body;
+    const auto is_first = [&](const Anchor& anchor) { return anchor.body == first; };
+    const bool is_bone = model_.bodies[static_cast<std::size_t>(body_index(first))].rigid >= 0;
+    if (is_bone && std::all_of(path.begin(), path.end(), is_first))
+      model_.warnings.push_back(
+          prefix(where) + fmt::format("all points of `{}` lie on `{}`: its length never changes, "
+                                      "and what it pulls moves nothing",
+                                      name, first));
+  }
+
   Line make_line(const std::string& name, const std::vector<Anchor>& path,
                  const std::vector<std::string>& wrap, const Location& where) {
     Line line;
@@ -335,6 +348,7 @@ class Builder {
       line.start_length += (start_position(line.path[i]) - start_position(line.path[i - 1])).norm();
     if (!(line.start_length > 0))
       throw InputError(where, fmt::format("`{}` has no length: its points coincide", name));
+    tell_line_of_one_bone(name, path, where);
     if (wrap.empty()) return line;
     std::vector<int> bodies;
     bodies.reserve(wrap.size());
@@ -358,6 +372,8 @@ class Builder {
                       muscle.name));
     tissue.muscle = static_cast<int>(model_.muscles.size());
     model_.muscles.push_back({.given = muscle});
+    if (const auto doubt = active_stress_doubt(tissue, body.name, muscle))
+      model_.warnings.push_back(prefix(muscle.where) + *doubt);
   }
 
   void make_line_muscle(const Muscle& muscle) {

@@ -50,8 +50,7 @@ fem::SolverProblem problem_of(const Scenario& scenario, const Model& model) {
   problem.num_blocks = model.layout.num_unknown_blocks();
   problem.num_nodes = model.layout.num_free_nodes;
   problem.has_contact = !model.contacts.empty();
-  problem.has_friction =
-      model.contacts.any([](const ContactModel& contact) { return contact.law.friction > 0; });
+  problem.has_friction = has_friction(model);
   problem.in_time = !model.is_static;
   problem.reach = 0;
   for (const Tissue& tissue : model.tissues) {

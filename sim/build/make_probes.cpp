@@ -45,6 +45,12 @@ struct Resolver {
                                    "not touch itself in this scene; expected two bodies, or a "
                                    "[[contact]] with self = \"{}\"",
                                    probe.name, contact.first, contact.first));
+    if (!pair && first != second && scenario.contact)
+      throw InputError(probe.where,
+                       fmt::format("probe `{}` observes contact of `{}` and `{}`, which do not "
+                                   "touch in this scene: [[contact]] names other pairs, or neither "
+                                   "of them moves",
+                                   probe.name, contact.first, contact.second));
     if (pair) observed.contact = *pair;
     if (contact.region) observed.faces = faces_in(*contact.region, contact.first);
     return observed;

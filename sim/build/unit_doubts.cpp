@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <type_traits>
+#include <variant>
+
 #include "sim/base/error.hpp"
 
 namespace articular::sim {
@@ -23,6 +26,34 @@ bool is_usual(double value, const Usual& range) {
 /// The longest side of the box around it [m].
 double extent(const Positions& X) {
   return X.cols() > 0 ? (X.rowwise().maxCoeff() - X.rowwise().minCoeff()).maxCoeff() : 0;
+}
+
+const std::vector<double>& times_of(const Load& load) {
+  return std::visit(
+      [](const auto& kind) -> const std::vector<double>& {
+        if constexpr (std::is_same_v<decltype(kind), const MotionLoad&>)
+          return kind.motion.time;
+        else
+          return kind.profile.time;
+      },
+      load);
+}
+
+/// Curves of which a run sees nothing but the first value: "10 s" for "10 ms".
+template <class Doubt>
+void doubt_times(const Scenario& scenario, const Doubt& doubt) {
+  const auto look_at = [&](const std::vector<double>& times, const Location& where,
+                           const std::string& what) {
+    if (times.size() > 1 && times.front() >= scenario.duration)
+      doubt(where, fmt::format("{} begins at {:.4g} s, when the run of {:.4g} s is over", what,
+                               times.front(), scenario.duration));
+  };
+  for (const Load& load : scenario.loads)
+    look_at(times_of(load), std::visit([](const auto& kind) { return kind.where; }, load),
+            "a load's curve");
+  for (const Muscle& muscle : scenario.muscles)
+    look_at(muscle.excitation.time, muscle.where,
+            fmt::format("the excitation of `{}`", muscle.name));
 }
 
 }  // namespace
@@ -54,6 +85,7 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
     if (muscle.tissue.empty() && !is_usual(muscle.max_force, kForce))
       doubt(muscle.where, fmt::format("muscle `{}` has a largest force of {:.3g} N", muscle.name,
                                       muscle.max_force));
+  doubt_times(scenario, doubt);
   return doubts;
 }
 

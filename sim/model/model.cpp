@@ -43,4 +43,8 @@ Positions start_positions(const Model& model, const BodyModel& body) {
   return body.X.colwise() + model.rigid_bodies[static_cast<std::size_t>(body.rigid)].rest.p;
 }
 
+bool has_friction(const Model& model) {
+  return model.contacts.any([](const ContactModel& contact) { return contact.law.friction > 0; });
+}
+
 }  // namespace articular::sim

@@ -323,6 +323,9 @@ Eigen::VectorXd initial_state(const Model& model);
 /// Nodes of a body's mesh at the start, world [m]; none of a body that only carries points.
 Positions start_positions(const Model& model, const BodyModel& body);
 
+/// Whether any contact has friction.
+bool has_friction(const Model& model);
+
 /// A muscle's activation after a long time of the excitation that it has at t.
 double steady_activation(const MuscleModel& muscle, double t);
 

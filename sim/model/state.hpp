@@ -72,6 +72,7 @@ struct RunExtrema {
   double overlap_at = 0;   // [s]
   double kinetic = 0;      // [J], largest
   double work = 0;         // [J], largest sum of what muscles, loads and driven motions had done
+  double moved_at = 0;     // [s], last with kinetic energy that counts beside what was turned over
   double made = 0;         // [J], most that had come from nowhere when a frame was written
   double gravity_low = std::numeric_limits<double>::infinity();  // [J]
   double gravity_high = -std::numeric_limits<double>::infinity();

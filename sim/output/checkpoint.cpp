@@ -13,7 +13,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 10\n";
+constexpr char kMagic[] = "articular checkpoint 11\n";
 
 constexpr const char *kNewest = "state.bin", *kBefore = "previous.bin";
 
@@ -88,6 +88,7 @@ void each_of_extrema(Extrema& extrema, const Visit& visit) {
   visit(extrema.overlap_at);
   visit(extrema.kinetic);
   visit(extrema.work);
+  visit(extrema.moved_at);
   visit(extrema.made);
   visit(extrema.gravity_low);
   visit(extrema.gravity_high);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "fem/mesh/tetrahedron.hpp"
 #include "sim/contact/contact_pressure.hpp"
@@ -38,12 +39,30 @@ std::string remedy(const Model& model, Integrator::Scheme scheme) {
                                               "accuracy = \"accurate\" where deep contact did");
 }
 
+/// What the time integration took of the energy that was turned over, where that is much.
+struct MuchLost {
+  double loss = 0, whole = 0;  // [J]
+};
+
+std::optional<MuchLost> much_lost(const Model& model, const State& state, const Stepper& stepper) {
+  if (model.is_static) return std::nullopt;
+  const double loss = numerical_loss(state, stepper.stored_energy()), whole = turned_over(state);
+  const bool counts = whole > energy_of_tolerance(model, stepper.settings().step);
+  if (!counts || !(loss > kMuchLost * whole)) return std::nullopt;
+  return MuchLost{loss, whole};
+}
+
+/// With friction the way to rest decides where it is.
+bool rest_is_untouched(const Model& model, const State& state) {
+  return is_at_rest(state) && !has_friction(model);
+}
+
 void warn_of_energy(const Model& model, const State& state, const Stepper& stepper,
                     std::vector<std::string>& warnings) {
   if (model.is_static) return;
   const double loss = numerical_loss(state, stepper.stored_energy()), whole = turned_over(state);
   if (!(whole > energy_of_tolerance(model, stepper.settings().step))) return;
-  if (loss > kMuchLost * whole)
+  if (much_lost(model, state, stepper) && !rest_is_untouched(model, state))
     warnings.push_back(
         fmt::format("the time integration took {:.2g} J, {:.0f} % of the energy that was turned "
                     "over ({:.2g} J): motion dies out sooner than it would; a smaller "
@@ -147,6 +166,16 @@ std::vector<std::string> run_warnings(const Model& model, const State& state,
   for (const RigidBodyMode& motion : stepper.indifferent())
     warnings.push_back(motion.words + ": nothing holds it, and nothing drives it");
   return warnings;
+}
+
+std::vector<std::string> run_notes(const Model& model, const State& state, const Stepper& stepper) {
+  const std::optional<MuchLost> lost = much_lost(model, state, stepper);
+  if (!lost || !rest_is_untouched(model, state)) return {};
+  return {fmt::format(
+      "motion died out sooner than it would: the time integration took {:.2g} J, {:.0f} % of the "
+      "energy that was turned over ({:.2g} J). What rests from t = {:.4g} s on is not touched by "
+      "that, but speeds and impacts before are; a smaller integrator.step takes less",
+      lost->loss, 100 * lost->loss / lost->whole, lost->whole, state.extrema.moved_at)};
 }
 
 }  // namespace articular::sim

@@ -13,4 +13,8 @@ namespace articular::sim {
 std::vector<std::string> run_warnings(const Model& model, const State& state,
                                       const Stepper& stepper);
 
+/// What a reader of the results may want to know, and what it leaves untouched: motion that the
+/// time integration damped on its way to rest. A sentence each.
+std::vector<std::string> run_notes(const Model& model, const State& state, const Stepper& stepper);
+
 }  // namespace articular::sim

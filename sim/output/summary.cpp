@@ -144,6 +144,7 @@ std::string summary_json(const Scenario& scenario, const Model& model, const Sta
       {"evaluations", evaluations(state.counts.evaluations)},
       {"peak_memory_MB", static_cast<double>(usage.ru_maxrss) / 1024},
       {"warnings", warnings},
+      {"notes", run_notes(model, state, stepper)},
       {"inputs", fingerprint(scenario, model)},
       {"input_files", input_files(inputs)},
       {"processor",

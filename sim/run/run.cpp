@@ -73,6 +73,8 @@ class Run {
       if (options_.warn)
         for (const std::string& warning : run_warnings(model_, state_, stepper_))
           options_.warn(warning);
+      if (options_.note)
+        for (const std::string& note : run_notes(model_, state_, stepper_)) options_.note(note);
       write_text_file(
           options_.directory / "summary.json",
           summary_json(scenario_, model_, state_, stepper_, stepper_.times(), wall, inputs_, how));

@@ -20,6 +20,8 @@ struct RunOptions {
   std::function<bool()> is_to_stop;
   /// Called at the end with each warning that the run itself has given cause for, if any.
   std::function<void(const std::string&)> warn;
+  /// And with each note, see run_notes().
+  std::function<void(const std::string&)> note;
   /// Called after every step; true stops the run (as after Ctrl-C).
   std::function<bool(const State&, double duration)> after_step;
 };

@@ -11,6 +11,10 @@
 namespace articular::sim {
 namespace {
 
+/// Of the energy that was turned over: speeds of a thirtieth of the largest.
+constexpr double kRest = 1e-3;
+constexpr double kRestedPart = 0.1;  // of the run
+
 /// What is deeper is not found by the usual search: half an element, or a rigid body's shell [m].
 double followed_depth(const Model& model, const ContactModel& contact) {
   const Collider& a = *model.bodies[static_cast<std::size_t>(contact.a)].collider;
@@ -53,16 +57,22 @@ void note_extrema(const Moment& now, State& state) {
     extrema.contact = contact.contact;
     extrema.overlap_at = state.t;
   }
-  extrema.kinetic = std::max(extrema.kinetic, kinetic_energy(now));
+  const double kinetic = kinetic_energy(now);
+  extrema.kinetic = std::max(extrema.kinetic, kinetic);
   extrema.work = std::max(extrema.work, work_done(state.energy));
   const double gravity = gravity_energy(now);
   extrema.gravity_low = std::min(extrema.gravity_low, gravity);
   extrema.gravity_high = std::max(extrema.gravity_high, gravity);
+  if (kinetic > kRest * turned_over(state)) extrema.moved_at = state.t;
 }
 
 double turned_over(const State& state) {
   return std::max({state.extrema.kinetic, state.extrema.gravity_high - state.extrema.gravity_low,
                    state.extrema.work, work_done(state.energy)});
+}
+
+bool is_at_rest(const State& state) {
+  return state.t - state.extrema.moved_at >= kRestedPart * state.t;
 }
 
 double energy_of_tolerance(const Model& model, double step) {

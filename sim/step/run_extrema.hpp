@@ -16,6 +16,9 @@ void note_balance(double numerical_loss, State& state);
 /// of. A press that was lifted again has taken back what it had put in.
 double turned_over(const State& state);
 
+/// Whether nothing has moved for a tenth of the run so far, but for what does not count.
+bool is_at_rest(const State& state);
+
 /// Kinetic energy at velocities that Newton's iteration does not tell from rest [J].
 /// @param step  [s]
 double energy_of_tolerance(const Model& model, double step);

@@ -85,6 +85,10 @@ int run_once(const sim::Scenario& scenario, const RunArguments& arguments) {
     progress.finish();
     fmt::print(stderr, "articular: warning: {}\n", warning);
   };
+  options.note = [&](const std::string& note) {
+    progress.finish();
+    fmt::print(stderr, "articular: note: {}\n", note);
+  };
   listen_for_interruption();
   std::signal(SIGPIPE, SIG_IGN);  // the write that it is about fails and says why
   sim::RunOutcome outcome = sim::RunOutcome::Finished;

@@ -146,4 +146,25 @@ TEST(Model, ACurveIsLinearBetweenItsTimesAndConstantOutside) {
   EXPECT_EQ(value_at({}, 3), 1);
 }
 
+// A slip of the pen: both ends on the femur.
+TEST(BuildModel, ALineWithAllPointsOnOneBoneIsTold) {
+  for (const std::string far : {"low", "high"}) {
+    Scenario s = scene(1e-3);
+    s.bodies = {box_body("low", Body::Kind::Rigid, {0.1, 0.1, 0.1}, Vec3::Zero()),
+                box_body("high", Body::Kind::Rigid, {0.1, 0.1, 0.1}, {0, 0, 0.1})};
+    s.contact = false;
+    Ligament ligament;
+    ligament.name = "band";
+    ligament.path = {anchor("low", {0.05, 0, 0}), anchor(far, {0.05, 0, 0.05})};
+    ligament.stiffness = 1;
+    s.ligaments = {ligament};
+    const Model model = build_model(s);
+    const bool told =
+        std::any_of(model.warnings.begin(), model.warnings.end(), [](const std::string& warning) {
+          return warning.find("all points of `band` lie on `low`") != std::string::npos;
+        });
+    EXPECT_EQ(told, far == "low");
+  }
+}
+
 }  // namespace articular::sim::build_model_test

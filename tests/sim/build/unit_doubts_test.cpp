@@ -58,6 +58,18 @@ TEST(UnitDoubts, AreOfAMusclesForce) {
   EXPECT_EQ(num_doubts(s), 1U);
 }
 
+TEST(UnitDoubts, AreOfCurvesThatBeginWhenTheRunIsOver) {
+  for (const double begin : {0.5, 2.0}) {
+    Scenario s = usual();
+    s.duration = 1;
+    s.muscles[0].excitation = {{begin, begin + 1}, {0, 1}};
+    EXPECT_EQ(num_doubts(s), begin < 1 ? 0U : 1U) << begin;
+    s.loads = {shift("floor", begin + 1, {0, 0, 0.01})};
+    std::get<MotionLoad>(s.loads[0]).motion.time.front() = begin;
+    EXPECT_EQ(num_doubts(s), begin < 1 ? 0U : 2U) << begin;
+  }
+}
+
 TEST(UnitDoubts, AFloorMayBeAsLargeAsItLikes) {
   Scenario s = usual();
   s.bodies.push_back(box_body("plate", Body::Kind::Fixed, {50, 50, 1}, {0, 0, -2}));

@@ -39,8 +39,57 @@ Scenario column(double step, Integrator::Scheme scheme) {
 
 TEST(RunWarnings, ASwingThatItsStepsDampIsTold) {
   Simulation run(column(5e-3, Integrator::Scheme::ImplicitEuler));
-  run.advance(0.1);
+  run.advance(0.01);
   EXPECT_TRUE(has(all_warnings(run), "the time integration took")) << all_warnings(run);
+}
+
+std::string all_notes(const Simulation& run) {
+  std::string all;
+  for (const std::string& note : run_notes(run.model, run.state, run.stepper)) all += note + "\n";
+  return all;
+}
+
+// What hangs at rest at last hangs where it should, whatever the steps took on the way.
+TEST(RunWarnings, OneThatCameToRestIsANoteThatSaysWhatIsNotTouched) {
+  Simulation run(column(5e-3, Integrator::Scheme::ImplicitEuler));
+  run.advance(0.01);
+  EXPECT_TRUE(has(all_warnings(run), "the time integration took"));
+  EXPECT_EQ(all_notes(run), "");
+  run.advance(0.4);
+  EXPECT_EQ(all_warnings(run), "");
+  EXPECT_TRUE(has(all_notes(run), "What rests from t = 0.01 s on")) << all_notes(run);
+}
+
+// At the ends of a swing there is no speed for a moment.
+TEST(RunWarnings, APendulumThatTurnsDoesNotRest) {
+  Simulation run(column(1e-3, Integrator::Scheme::TrBdf2));
+  run.advance(0.005);
+  bool rested = false;
+  double least = 1;  // kinetic energy by that turned over
+  for (double t = 0.005; t < 0.06; t += 1e-3) {
+    run.advance(t);
+    least = std::min(least, run.stepper.stored_energy().kinetic / turned_over(run.state));
+    rested = rested || is_at_rest(run.state);
+  }
+  EXPECT_FALSE(rested);
+  EXPECT_LT(least, 0.05);
+}
+
+TEST(RunWarnings, WhereThereIsFrictionTheWayToRestMayDecideWhereItIs) {
+  for (const double friction : {0.0, 0.5}) {
+    Scenario s = column(5e-3, Integrator::Scheme::ImplicitEuler);
+    s.contact = true;
+    s.bodies.push_back(box_body("floor", Body::Kind::Fixed, {0.1, 0.1, 0.01}, {0, 0, -0.05}));
+    ContactPair pair;
+    pair.a = "column";
+    pair.b = "floor";
+    pair.friction = friction;
+    s.contacts = {pair};
+    Simulation run(s);
+    run.advance(0.44);
+    EXPECT_EQ(has(all_warnings(run), "the time integration took"), friction > 0);
+    EXPECT_EQ(all_notes(run).empty(), friction > 0);
+  }
 }
 
 TEST(RunWarnings, OneThatIsFollowedGivesNone) {

@@ -369,7 +369,8 @@ TEST(Program, WarnsOfAMuscleThatCanHardlyPull) {
               kScene +
                   "[[muscle]]\nname = \"lip\"\nmax_force = \"1 N\"\noptimal_length = \"5 mm\"\n"
                   "path = [{ body = \"floor\", point = \"0 0 0 mm\" }, "
-                  "{ body = \"floor\", point = \"0 0 10 mm\" }]\n");
+                  "{ body = \"roof\", point = \"0 0 10 mm\" }]\n"
+                  "[[body]]\nname = \"roof\"\nkind = \"fixed\"\n");
   const ProgramResult result = run_program(folder, kRun);
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;

@@ -1,0 +1,42 @@
+// Mass of rigid bodies from their surfaces.
+#include "sim/build/body_geometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/base/error.hpp"
+#include "tests/sim/wrap/wrap_shapes.hpp"
+
+namespace articular::sim::body_geometry_test {
+
+MeshData surface(const wrap_test::Shape& shape) {
+  MeshData mesh;
+  mesh.X = shape.X;
+  mesh.triangles = shape.triangles;
+  return mesh;
+}
+
+TEST(RigidMass, OfABallIsThatOfItsVolume) {
+  Body body;
+  body.density = 2000;
+  const double r = 0.03;
+  const MassProperties mass =
+      rigid_mass(body, surface(wrap_test::ellipsoid(24, Vec3::Constant(r))));
+  EXPECT_NEAR(mass.mass, 2000 * 4 / 3 * wrap_test::kPi * r * r * r, 0.005 * mass.mass);
+  EXPECT_NEAR(mass.inertia(0, 0), 0.4 * mass.mass * r * r, 0.005 * mass.inertia(0, 0));
+}
+
+// The divergence theorem gives an open tube two thirds of its volume, or any other part of it.
+TEST(RigidMass, OfAnOpenSurfaceIsRefusedUnlessItIsGiven) {
+  Body body;
+  body.density = 2000;
+  const MeshData tube = surface(wrap_test::cylinder(16, 4, 0.01, 0.05));
+  EXPECT_THROW(rigid_mass(body, tube), InputError);
+  body.density.reset();
+  body.mass = 0.1;
+  EXPECT_THROW(rigid_mass(body, tube), InputError);  // the inertia would come from it
+  body.center_of_mass = Vec3(0, 0, 0.01);
+  body.inertia = 1e-5 * Mat3::Identity();
+  EXPECT_EQ(rigid_mass(body, tube).mass, 0.1);
+}
+
+}  // namespace articular::sim::body_geometry_test
