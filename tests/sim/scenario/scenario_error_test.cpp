@@ -295,6 +295,12 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{"EmptyName", kStart + "[[body]]\nname = @\"\"\n",
                 "`name`: expected text, found an empty string"},
+        Mistake{"ResultsAtAnAbsolutePath", kStart + "[output]\ndirectory = @\"/home/you\"\n",
+                "`directory`: expected a folder within the working folder, found \"/home/you\"; "
+                "give another one as --out"},
+        Mistake{"ResultsAbove", kStart + "[output]\ndirectory = @\"out/../../you\"\n",
+                "`directory`: expected a folder within the working folder, found "
+                "\"out/../../you\"; give another one as --out"},
         Mistake{"NameWithSlash", kStart + "[[body]]\nname = @\"../x\"\n",
                 "`name`: expected a name of letters, digits, `_`, `-` and inner spaces, found "
                 "\"../x\""},
