@@ -9,8 +9,9 @@ namespace articular::fem {
 /// active (MuscleFibre), shear along and across them (FibreShear) and κ/2 Θ² (the paper has
 /// Θ = ln J):
 ///
-///   Ψ = G1 B1² + G2 B2² + W(λ̄, a) + κ/2 Θ²  (+ c10 (Ī1 − 3))
+///   Ψ = G1 B1² + G2 B2² + W(λ, a) + κ/2 Θ²  (+ c10 (Ī1 − 3))
 ///
+/// The paper has W(λ̄): see FibreLaw for why fibres feel the volume here.
 /// c10 is an addition: it gives slack fibres (a passive muscle that is shortened) a stiffness.
 ///
 /// [Blemker 2005] Blemker, Pinsky, Delp. A 3D model of muscle reveals the causes of nonuniform

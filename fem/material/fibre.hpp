@@ -8,8 +8,14 @@ namespace articular::fem {
 /// The energy W of fibres at a stretch λ > 0 and an activation in [0, 1]. At a constant activation
 /// it is elastic; a change of it adds or takes energy, as muscle does. Cauchy stress of the fibre:
 /// λ dW/dλ.
+///
+/// kFeelsVolume says which stretch: λ = |F a0|, or λ̄ without the change of volume. Incompressible
+/// tissue does not tell them apart. But a tension T of λ̄ is a stress T (a aᵀ − I/3), whose second
+/// part a pressure of T/3 has to balance. Elements that have distortion and pressure on different
+/// domains don't balance it wave by wave, and where T is some times the shear modulus they fold.
 template <class L>
 concept FibreLaw = requires(const L& law, double stretch, double activation) {
+  { L::kFeelsVolume } -> std::convertible_to<bool>;
   { law.energy(stretch, activation) } -> std::same_as<double>;     // W [J/m³]
   { law.tension(stretch, activation) } -> std::same_as<double>;    // dW/dλ [Pa], per rest area
   { law.stiffness(stretch, activation) } -> std::same_as<double>;  // d²W/dλ² [Pa]
@@ -33,8 +39,7 @@ decltype(auto) element_law(const M& material, [[maybe_unused]] const FibreDirect
   }
 }
 
-/// Ψ_d = Ψ_ground + W(λ̄): a ground substance with fibres along a0 that feel the stretch without
-/// the change of volume [Weiss 1996]. Defined for J > 0.
+/// Ψ_d = Ψ_ground + W: a ground substance with fibres along a0 [Weiss 1996]. Defined for J > 0.
 template <Hyperelastic Ground, FibreLaw Law>
 class Reinforced {
  public:
@@ -45,20 +50,30 @@ class Reinforced {
   double shear_modulus() const { return ground_.shear_modulus(); }  // [Pa]
 
   double energy_density(const Mat3& F) const {
-    return ground_.energy_density(F) + law_.energy(isochoric_fibre_stretch(F, a0_), activation_);
+    return ground_.energy_density(F) + law_.energy(stretch(F), activation_);
   }
   Mat3 first_piola(const Mat3& F) const {
-    const double tension = law_.tension(isochoric_fibre_stretch(F, a0_), activation_);
-    return ground_.first_piola(F) + tension * isochoric_fibre_stretch_gradient(F, a0_);
+    return ground_.first_piola(F) + law_.tension(stretch(F), activation_) * stretch_gradient(F);
   }
   Mat9 tangent(const Mat3& F) const {
-    const Jet stretch = isochoric_fibre_stretch_jet(F, a0_);
+    const Jet stretch = stretch_jet(F);
     return ground_.tangent(F) + composed(stretch, 0, law_.tension(stretch.value, activation_),
                                          law_.stiffness(stretch.value, activation_))
                                     .hessian;
   }
 
  private:
+  double stretch(const Mat3& F) const {
+    return Law::kFeelsVolume ? fibre_stretch(F, a0_) : isochoric_fibre_stretch(F, a0_);
+  }
+  Mat3 stretch_gradient(const Mat3& F) const {
+    return Law::kFeelsVolume ? fibre_stretch_gradient(F, a0_)
+                             : isochoric_fibre_stretch_gradient(F, a0_);
+  }
+  Jet stretch_jet(const Mat3& F) const {
+    return Law::kFeelsVolume ? fibre_stretch_jet(F, a0_) : isochoric_fibre_stretch_jet(F, a0_);
+  }
+
   Ground ground_;
   Law law_;
   Vec3 a0_;

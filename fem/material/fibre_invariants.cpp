@@ -27,6 +27,19 @@ Jet fifth_invariant(const Mat3& F, const Vec3& a0) {
           2 * dw.transpose() * dw + 2 * on_columns(A + A.transpose())};
 }
 
+double fibre_stretch(const Mat3& F, const Vec3& a0) { return (F * a0).norm(); }
+
+Mat3 fibre_stretch_gradient(const Mat3& F, const Vec3& a0) {
+  const Vec3 b = F * a0;
+  return b * a0.transpose() / b.norm();
+}
+
+Jet fibre_stretch_jet(const Mat3& F, const Vec3& a0) {
+  const Jet I4 = fourth_invariant(F, a0);
+  const double stretch = std::sqrt(I4.value);
+  return composed(I4, stretch, 0.5 / stretch, -0.25 / (stretch * I4.value));
+}
+
 double isochoric_fibre_stretch(const Mat3& F, const Vec3& a0) {
   return std::pow(F.determinant(), -1.0 / 3) * (F * a0).norm();
 }
@@ -39,10 +52,7 @@ Mat3 isochoric_fibre_stretch_gradient(const Mat3& F, const Vec3& a0) {
 }
 
 Jet isochoric_fibre_stretch_jet(const Mat3& F, const Vec3& a0) {
-  const Jet I4 = fourth_invariant(F, a0);
-  const double stretch = std::sqrt(I4.value);
-  const double first = 0.5 / stretch, second = -0.25 / (stretch * I4.value);
-  return times_power_of_volume(composed(I4, stretch, first, second), -1.0 / 3, F);
+  return times_power_of_volume(fibre_stretch_jet(F, a0), -1.0 / 3, F);
 }
 
 }  // namespace articular::fem

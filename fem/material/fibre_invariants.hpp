@@ -19,6 +19,11 @@ Mat3 fifth_invariant_gradient(const Mat3& F, const Vec3& a0);
 /// 2 dFᵀ dF a0.
 Jet fifth_invariant(const Mat3& F, const Vec3& a0);
 
+/// λ = |F a0|, the stretch of the fibre
+double fibre_stretch(const Mat3& F, const Vec3& a0);
+Mat3 fibre_stretch_gradient(const Mat3& F, const Vec3& a0);
+Jet fibre_stretch_jet(const Mat3& F, const Vec3& a0);
+
 /// λ̄ = J^(−1/3) |F a0|, the stretch of the fibre without the change of volume, J > 0
 double isochoric_fibre_stretch(const Mat3& F, const Vec3& a0);
 Mat3 isochoric_fibre_stretch_gradient(const Mat3& F, const Vec3& a0);

@@ -18,6 +18,8 @@ namespace articular::fem {
 ///                strains in the biceps brachii. J. Biomech. 38.
 class MuscleFibre {
  public:
+  static constexpr bool kFeelsVolume = true;  // the paper has λ̄
+
   struct Constants {
     double max_stress = 0.3e6;   // σ_max [Pa], > 0
     double p1 = 0.05, p2 = 6.6;  // P1, P2 [-], > 0

@@ -18,6 +18,8 @@ namespace articular::fem {
 /// where λ < 1; that of a ForceLength is counted from its l0: never negative, not 0 at rest.
 class ToeLinearFibre {
  public:
+  static constexpr bool kFeelsVolume = false;
+
   struct Constants {
     double c3;                 // [Pa], > 0
     double c4;                 // [-], > 0, with c4 λ* < 700 (its exponential has to be a number)

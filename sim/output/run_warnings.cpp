@@ -174,7 +174,7 @@ std::vector<std::string> run_notes(const Model& model, const State& state, const
   return {fmt::format(
       "motion died out sooner than it would: the time integration took {:.2g} J, {:.0f} % of the "
       "energy that was turned over ({:.2g} J). What rests from t = {:.4g} s on is not touched by "
-      "that, but speeds and impacts before are; a smaller integrator.step takes less",
+      "that, but how things moved before is; a smaller integrator.step takes less",
       lost->loss, 100 * lost->loss / lost->whole, lost->whole, state.extrema.moved_at)};
 }
 

@@ -39,9 +39,10 @@ std::string warnings_of(const ProgramRun& run) {
   const nlohmann::json summary = summary_of(run);
   const std::string file = summary.at("scenario").get<std::string>() + ":";
   std::string all;
-  for (const auto& item : summary.at("warnings"))
-    if (const std::string warning = item; warning.find(file) == std::string::npos)
-      all += (all.empty() ? "" : "; ") + warning;
+  for (const char* kind : {"warnings", "notes"})
+    for (const auto& item : summary.at(kind))
+      if (const std::string told = item; told.find(file) == std::string::npos)
+        all += (all.empty() ? "" : "; ") + told;
   return all;
 }
 

@@ -22,8 +22,8 @@ std::optional<Finding> ended_early(const ProgramRun& run);
 /// @param what  of the error: "tip against the closed form"
 Finding judged(const ProgramRun& run, double error, const Bound& bound, const std::string& what);
 
-/// The warnings in summary.json that speak of what happened in the run (not those of the file,
-/// which begin with its line), one after the other.
+/// The warnings and notes in summary.json that speak of what happened in the run (not those of the
+/// file, which begin with its line), one after the other.
 std::string warnings_of(const ProgramRun& run);
 
 }  // namespace articular::benchmarks

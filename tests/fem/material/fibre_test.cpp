@@ -224,6 +224,23 @@ TEST(BlemkerMuscle, LargeShearsFollowTheClosedForms) {
   }
 }
 
+// A tension along the fibre and nothing across it, at any change of volume; and the opposite where
+// fibres don't feel it: then a third of the tension presses all around.
+TEST(BlemkerMuscle, FibresPullAlongThemselvesAlone) {
+  for (const double swelling : {0.8, 1.0, 1.1}) {
+    const Mat3 F = swelling * Mat3::Identity();
+    const Mat3 active = muscle(1).first_piola(F) - muscle(0).first_piola(F);
+    const double expected = 0.3e6 * MuscleFibre::active(swelling);
+    EXPECT_LT((active - expected * kFibre * kFibre.transpose()).norm(), 1e-9 * expected);
+  }
+  const ToeLinearFibre collagen(
+      {.c3 = 1e3, .c4 = 20, .c5 = 1e6, .toe_end = 1.1, .active_stress = 1e5});
+  const TransverselyIsotropic<> law(2e4, 0, collagen, 1e6);
+  const Mat3 active = law.along(kFibre, 1).first_piola(Mat3::Identity()) -
+                      law.along(kFibre, 0).first_piola(Mat3::Identity());
+  EXPECT_NEAR(active.trace(), 0, 1e-6);
+}
+
 // As published nothing resists a slack fibre that shortens with even sides; c10 does.
 TEST(BlemkerMuscle, PassiveShorteningMeetsOnlyTheGroundSubstance) {
   for (const double s : {0.6, 0.8, 0.95}) {

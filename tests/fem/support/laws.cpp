@@ -53,7 +53,7 @@ void add_isochoric(const std::string& suffix, std::vector<LawExample>& laws) {
   add("BlemkerMuscle",
       BlemkerMuscle<Theta>(MuscleFibre({.optimal_stretch = 1.05}),
                            {.G1 = 500, .G2 = 800, .c10 = 200}),
-      1e7, {.one_shear_modulus = false});
+      1e7, {.shape_only = false, .one_shear_modulus = false});
 }
 
 }  // namespace
