@@ -39,18 +39,21 @@ std::string remedy(const Model& model, Integrator::Scheme scheme) {
                                               "accuracy = \"accurate\" where deep contact did");
 }
 
-/// What the time integration took of the energy that was turned over, where that is much.
-struct MuchLost {
-  double loss = 0, whole = 0;  // [J]
+struct EnergyBalance {
+  double loss = 0;   // [J], by the time integration; negative: made
+  double whole = 0;  // [J], what was turned over
 };
 
-std::optional<MuchLost> much_lost(const Model& model, const State& state, const Stepper& stepper) {
-  if (model.is_static) return std::nullopt;
-  const double loss = numerical_loss(state, stepper.stored_energy()), whole = turned_over(state);
-  const bool counts = whole > energy_of_tolerance(model, stepper.settings().step);
-  if (!counts || !(loss > kMuchLost * whole)) return std::nullopt;
-  return MuchLost{loss, whole};
+/// None where there is no motion to speak of.
+std::optional<EnergyBalance> energy_balance(const Model& model, const State& state,
+                                            const Stepper& stepper) {
+  const double whole = turned_over(state);
+  if (model.is_static || !(whole > energy_of_tolerance(model, stepper.settings().step)))
+    return std::nullopt;
+  return EnergyBalance{numerical_loss(state, stepper.stored_energy()), whole};
 }
+
+bool is_much_lost(const EnergyBalance& energy) { return energy.loss > kMuchLost * energy.whole; }
 
 /// With friction the way to rest decides where it is.
 bool rest_is_untouched(const Model& model, const State& state) {
@@ -59,10 +62,10 @@ bool rest_is_untouched(const Model& model, const State& state) {
 
 void warn_of_energy(const Model& model, const State& state, const Stepper& stepper,
                     std::vector<std::string>& warnings) {
-  if (model.is_static) return;
-  const double loss = numerical_loss(state, stepper.stored_energy()), whole = turned_over(state);
-  if (!(whole > energy_of_tolerance(model, stepper.settings().step))) return;
-  if (much_lost(model, state, stepper) && !rest_is_untouched(model, state))
+  const std::optional<EnergyBalance> energy = energy_balance(model, state, stepper);
+  if (!energy) return;
+  const auto [loss, whole] = *energy;
+  if (is_much_lost(*energy) && !rest_is_untouched(model, state))
     warnings.push_back(
         fmt::format("the time integration took {:.2g} J, {:.0f} % of the energy that was turned "
                     "over ({:.2g} J): motion dies out sooner than it would; a smaller "
@@ -169,13 +172,13 @@ std::vector<std::string> run_warnings(const Model& model, const State& state,
 }
 
 std::vector<std::string> run_notes(const Model& model, const State& state, const Stepper& stepper) {
-  const std::optional<MuchLost> lost = much_lost(model, state, stepper);
-  if (!lost || !rest_is_untouched(model, state)) return {};
+  const std::optional<EnergyBalance> energy = energy_balance(model, state, stepper);
+  if (!energy || !is_much_lost(*energy) || !rest_is_untouched(model, state)) return {};
   return {fmt::format(
       "motion died out sooner than it would: the time integration took {:.2g} J, {:.0f} % of the "
       "energy that was turned over ({:.2g} J). What rests from t = {:.4g} s on is not touched by "
       "that, but how things moved before is; a smaller integrator.step takes less",
-      lost->loss, 100 * lost->loss / lost->whole, lost->whole, state.extrema.moved_at)};
+      energy->loss, 100 * energy->loss / energy->whole, energy->whole, state.extrema.moved_at)};
 }
 
 }  // namespace articular::sim
