@@ -10,7 +10,6 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "sim/base/error.hpp"
 #include "sim/base/file_bytes.hpp"
@@ -185,13 +184,7 @@ std::optional<std::size_t> find_column(const PlottedRun& run, const std::string&
 }
 
 AxisUnit unit_of_column(const PlottedRun& run, std::size_t column) {
-  const HistoryColumn& named = run.columns[column];
-  try {
-    return axis_unit(named.unit);
-  } catch (const std::invalid_argument& error) {
-    throw sim::InputError({sim::one_line((run.folder / "history.csv").string()), 1},
-                          fmt::format("column {}: {}", sim::in_ticks(named.name), error.what()));
-  }
+  return column_unit(run.columns[column], {shown(run.folder / "history.csv"), 1});
 }
 
 RunCurves read_curves(const PlottedRun& run, std::size_t x, const std::vector<std::size_t>& ys) {

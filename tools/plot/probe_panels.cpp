@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "sim/base/error.hpp"
 #include "sim/base/message_text.hpp"
@@ -40,6 +41,13 @@ HistoryColumn history_column(std::string_view text) {
   const std::size_t at = text.rfind(" [");
   if (at == std::string_view::npos || !text.ends_with(']')) return {std::string(text), ""};
   return {std::string(text.substr(0, at)), std::string(text.substr(at + 2, text.size() - at - 3))};
+}
+
+AxisUnit column_unit(const HistoryColumn& column, const sim::Location& where) try {
+  return axis_unit(column.unit);
+} catch (const std::invalid_argument& error) {
+  throw sim::InputError(where,
+                        fmt::format("column {}: {}", sim::in_ticks(column.name), error.what()));
 }
 
 bool means(std::string_view word, std::string_view column) {

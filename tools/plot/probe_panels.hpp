@@ -5,6 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/base/error.hpp"
+#include "tools/plot/axis_unit.hpp"
+
 /// Which columns of history.csv are drawn, and which of them together.
 namespace articular::tools {
 
@@ -18,6 +21,9 @@ struct HistoryColumn {
 
 /// "incisor.position.z [mm]"
 HistoryColumn history_column(std::string_view text);
+
+/// @throws sim::InputError  at `where`, names the column, where its unit is none
+AxisUnit column_unit(const HistoryColumn& column, const sim::Location& where);
 
 /// Whether a word means a column: its name, its first parts up to a dot, or with `*` for any
 /// characters a pattern of either. "condyle" means "condyle.force.x", and so does "con*.force".

@@ -37,13 +37,7 @@ std::optional<double> take_number(std::string_view& rest) {
 
 BandColumn band_column(const sim::CsvTable& table, std::size_t i) {
   const HistoryColumn header = history_column(table.columns.fields[i]);
-  BandColumn column{header.name, {}, {}};
-  try {
-    column.unit = axis_unit(header.unit);
-  } catch (const std::invalid_argument& error) {
-    throw sim::InputError(table.columns.where,
-                          fmt::format("column `{}`: {}", sim::one_line(header.name), error.what()));
-  }
+  BandColumn column{header.name, column_unit(header, table.columns.where), {}};
   for (const sim::CsvRow& row : table.rows)
     column.values.push_back(column.unit.size *
                             sim::csv_number(row.fields[i], header.name, row.where));
@@ -101,7 +95,7 @@ BandTable read_band(const std::string& text) {
       throw sim::InputError(table.rows[i].where, "the lower end lies above the upper one");
     if (i > 0 && !(band.x.values[i] > band.x.values[i - 1]))
       throw sim::InputError(table.rows[i].where,
-                            fmt::format("column `{}` has to increase", sim::one_line(band.x.name)));
+                            fmt::format("column {} has to increase", sim::in_ticks(band.x.name)));
   }
   return band;
 }
