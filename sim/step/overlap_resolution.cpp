@@ -37,6 +37,29 @@ std::string names(const Model& model, const ContactModel& contact) {
                      model.bodies[static_cast<std::size_t>(contact.b)].name);
 }
 
+/// Of the elements at both surfaces [m].
+double least_size(const Model& model, const ContactModel& contact) {
+  const auto size = [&](int body) {
+    return model.bodies[static_cast<std::size_t>(body)].collider->size;
+  };
+  return std::min(size(contact.a), size(contact.b));
+}
+
+/// Surfaces that lie flush are no deeper in each other [m].
+double flush_depth(const Model& model, const ContactModel& contact) {
+  return kFlush * least_size(model, contact);
+}
+
+/// A deeper overlap is set apart [m]. Tissue and layers give way by as much as contact may take. Two
+/// rigid bodies don't: a hundredth of an element of bone holds enough energy to throw a tool off.
+double kept_depth(const Model& model, const ContactModel& contact) {
+  const auto is_tissue = [&](int body) {
+    return model.bodies[static_cast<std::size_t>(body)].tissue >= 0;
+  };
+  const bool gives_way = is_tissue(contact.a) || is_tissue(contact.b) || contact.layers > 0;
+  return gives_way ? contact.max_penetration : flush_depth(model, contact);
+}
+
 /// What lies so deep in another body that contact can't tell the way out is no start.
 /// @param seen  depths that contact finds a face for
 void refuse_lost_bodies(const Model& model, const ContactDepths& seen) {
@@ -70,8 +93,8 @@ class OverlapResolver {
     refuse_lost_bodies(model_, dynamics_.now().contact.point_depths());
     std::vector<OverlapAtStart> overlaps;
     for (const auto& [id, deepest] : depth.all())
-      if (const ContactModel contact = model_.contacts[id]; deepest > kFlush * least_size(contact))
-        overlaps.push_back({id, deepest, deepest > contact.max_penetration});
+      if (const ContactModel contact = model_.contacts[id]; deepest > flush_depth(model_, contact))
+        overlaps.push_back({id, deepest, deepest > kept_depth(model_, contact)});
     return overlaps;
   }
 
@@ -118,19 +141,11 @@ class OverlapResolver {
     return depths;
   }
 
-  /// Of the elements at both surfaces [m].
-  double least_size(const ContactModel& contact) const {
-    const auto size = [&](int body) {
-      return model_.bodies[static_cast<std::size_t>(body)].collider->size;
-    };
-    return std::min(size(contact.a), size(contact.b));
-  }
-
   double num_steps() const {
     double count = 1;
     for (const ResolvedOverlap& overlap : resolution_.overlaps) {
       const ContactModel contact = model_.contacts[overlap.contact];
-      const double step = kStepOfElement * least_size(contact);
+      const double step = kStepOfElement * least_size(model_, contact);
       count = std::max(count, std::ceil(overlap.before / step));
     }
     return count;
@@ -163,7 +178,7 @@ class OverlapResolver {
     const std::vector<ContactSummary> contacts = dynamics_.contacts();
     const bool apart =
         std::all_of(contacts.begin(), contacts.end(), [this](const ContactSummary& contact) {
-          return contact.max_point_depth <= model_.contacts[contact.contact].max_penetration;
+          return contact.max_point_depth <= kept_depth(model_, model_.contacts[contact.contact]);
         });
     return apart || equilibrium_.is_balanced(kMostUnbalanced);
   }

@@ -8,7 +8,7 @@ namespace articular::sim {
 struct OverlapAtStart {
   ContactId contact = 0;
   double depth = 0;           // [m] of the deepest point
-  bool is_set_apart = false;  // by resolve_overlaps(): deeper than the contact's max_penetration
+  bool is_set_apart = false;  // by resolve_overlaps()
 };
 
 /// Of every contact that is deeper than round-off: what resolve_overlaps() goes by.
@@ -22,7 +22,8 @@ std::vector<OverlapAtStart> overlaps_at_start(const Scenario& scenario, const Mo
 /// contact and the tissues' elasticity alone, without gravity, loads, lines and activation, move
 /// bodies in pseudo-time until they have given way; tissue between held ones keeps the stress.
 ///
-/// Overlaps within the contact's max_penetration stay as they are.
+/// Overlaps within the contact's max_penetration stay as they are; of two rigid bodies without a
+/// layer none does that is deeper than round-off.
 /// @param scenario  that the model was built from
 /// @param y  at the start, in the order of Layout; on return positions have moved, nothing else
 /// @param watch  told of each iteration, see Equilibrium; may be empty
