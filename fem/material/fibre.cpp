@@ -2,6 +2,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "fem/material/active_fibre.hpp"
 #include "fem/material/muscle_fibre.hpp"
 #include "fem/material/toe_linear_fibre.hpp"
 
@@ -32,52 +33,61 @@ ToeLinearFibre::ToeLinearFibre(const Constants& c) : c_(c) {
   checked_positive(c.c3, "c3", "Pa");
   checked_positive(c.c4, "c4", "(no unit)");
   checked_positive(c.c5, "c5", "Pa");
-  checked_not_negative(c.active_stress, "active stress", "Pa");
   check_at_least_one(c.toe_end, "stretch at the end of the toe", false);
   check_below(c.c4 * c.toe_end, "c4 times the stretch at the end of the toe", kLargestExponent);
   c6_ = c.c3 * std::expm1(c.c4 * (c.toe_end - 1)) - c.c5 * c.toe_end;
 }
 
-double ToeLinearFibre::energy(double stretch, double activation) const {
-  const double active = activation * c_.active_stress *
-                        (c_.force_length ? c_.force_length->work(stretch) : std::log(stretch));
-  if (stretch <= 1) return active;
-  if (stretch < c_.toe_end) return active + toe_energy(stretch);
-  return active + toe_energy(c_.toe_end) + c_.c5 * (stretch - c_.toe_end) +
+double ToeLinearFibre::energy(double stretch, double /*activation*/) const {
+  if (stretch <= 1) return 0;
+  if (stretch < c_.toe_end) return toe_energy(stretch);
+  return toe_energy(c_.toe_end) + c_.c5 * (stretch - c_.toe_end) +
          c6_ * std::log(stretch / c_.toe_end);
 }
 
-double ToeLinearFibre::tension(double stretch, double activation) const {
-  return cauchy_stress(stretch, activation) / stretch;
+double ToeLinearFibre::tension(double stretch, double /*activation*/) const {
+  return cauchy_stress(stretch) / stretch;
 }
 
 double ToeLinearFibre::stiffness(double stretch, double activation) const {
-  return (stress_slope(stretch, activation) - tension(stretch, activation)) / stretch;
+  return (stress_slope(stretch) - tension(stretch, activation)) / stretch;
 }
 
-double ToeLinearFibre::cauchy_stress(double stretch, double activation) const {
-  const double active = active_stress(stretch, activation);
-  if (stretch <= 1) return active;
-  if (stretch < c_.toe_end) return active + c_.c3 * std::expm1(c_.c4 * (stretch - 1));
-  return active + c_.c5 * stretch + c6_;
+double ToeLinearFibre::cauchy_stress(double stretch) const {
+  if (stretch <= 1) return 0;
+  if (stretch < c_.toe_end) return c_.c3 * std::expm1(c_.c4 * (stretch - 1));
+  return c_.c5 * stretch + c6_;
 }
 
-double ToeLinearFibre::active_stress(double stretch, double activation) const {
-  const double full = activation * c_.active_stress;
-  return c_.force_length ? full * c_.force_length->factor(stretch) : full;
-}
-
-double ToeLinearFibre::stress_slope(double stretch, double activation) const {
-  const double active =
-      c_.force_length ? activation * c_.active_stress * c_.force_length->slope(stretch) : 0;
-  if (stretch <= 1) return active;
-  if (stretch < c_.toe_end) return active + c_.c3 * c_.c4 * std::exp(c_.c4 * (stretch - 1));
-  return active + c_.c5;
+double ToeLinearFibre::stress_slope(double stretch) const {
+  if (stretch <= 1) return 0;
+  if (stretch < c_.toe_end) return c_.c3 * c_.c4 * std::exp(c_.c4 * (stretch - 1));
+  return c_.c5;
 }
 
 double ToeLinearFibre::toe_energy(double stretch) const {
   const double difference = std::expint(c_.c4 * stretch) - std::expint(c_.c4);
   return c_.c3 * (std::exp(-c_.c4) * difference - std::log(stretch));
+}
+
+ActiveFibre::ActiveFibre(const Constants& c) : c_(c) {
+  checked_not_negative(c.stress, "active stress", "Pa");
+}
+
+double ActiveFibre::energy(double stretch, double activation) const {
+  const double work = c_.force_length ? c_.force_length->work(stretch) : stretch;
+  return activation * c_.stress * work;
+}
+
+double ActiveFibre::tension(double stretch, double activation) const {
+  const double factor = c_.force_length ? c_.force_length->factor(stretch) / stretch : 1;
+  return activation * c_.stress * factor;
+}
+
+double ActiveFibre::stiffness(double stretch, double activation) const {
+  if (!c_.force_length) return 0;
+  const double slope = activation * c_.stress * c_.force_length->slope(stretch);
+  return (slope - tension(stretch, activation)) / stretch;
 }
 
 MuscleFibre::MuscleFibre(const Constants& c) : c_(c) {

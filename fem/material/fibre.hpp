@@ -12,7 +12,8 @@ namespace articular::fem {
 /// kFeelsVolume says which stretch: λ = |F a0|, or λ̄ without the change of volume. Incompressible
 /// tissue does not tell them apart. But a tension T of λ̄ is a stress T (a aᵀ − I/3), whose second
 /// part a pressure of T/3 has to balance. Elements that have distortion and pressure on different
-/// domains don't balance it wave by wave, and where T is some times the shear modulus they fold.
+/// domains don't balance it wave by wave, and where T is active (it has no stiffness) and some
+/// times the shear modulus they fold.
 template <class L>
 concept FibreLaw = requires(const L& law, double stretch, double activation) {
   { L::kFeelsVolume } -> std::convertible_to<bool>;

@@ -1,45 +1,37 @@
 #pragma once
 
-#include <optional>
-
 #include "fem/material/fibre.hpp"
-#include "fem/material/force_length.hpp"
 
 namespace articular::fem {
 
-/// Crimped collagen that pulls only when stretched [Weiss 1996, eq. 7.2], and an active stress:
+/// Crimped collagen that pulls only when stretched [Weiss 1996, eq. 7.2]:
 ///
-///   λ dW/dλ = a σ_a f +  0                        λ ≤ 1
-///                        c3 (exp(c4 (λ − 1)) − 1) 1 < λ < λ*
-///                        c5 λ + c6                λ ≥ λ*, c6 such that the stress has no jump
+///   λ dW/dλ = 0                        λ ≤ 1
+///             c3 (exp(c4 (λ − 1)) − 1) 1 < λ < λ*
+///             c5 λ + c6                λ ≥ λ*, c6 such that the stress has no jump
 ///
 /// The stiffness jumps where fibres become taut (λ = 1: from 0 to c3 c4) and, with most published
-/// constants, at λ*. f is 1, or the ForceLength. With 1 the active energy is a σ_a ln λ, negative
-/// where λ < 1; that of a ForceLength is counted from its l0: never negative, not 0 at rest.
+/// constants, at λ*.
 class ToeLinearFibre {
  public:
   static constexpr bool kFeelsVolume = false;
 
   struct Constants {
-    double c3;                 // [Pa], > 0
-    double c4;                 // [-], > 0, with c4 λ* < 700 (its exponential has to be a number)
-    double c5;                 // [Pa], > 0
-    double toe_end;            // λ* [-], > 1, the stretch itself
-    double active_stress = 0;  // σ_a [Pa], at full activation, not negative
-    std::optional<ForceLength> force_length = {};  // f; none: 1
+    double c3;       // [Pa], > 0
+    double c4;       // [-], > 0, with c4 λ* < 700 (its exponential has to be a number)
+    double c5;       // [Pa], > 0
+    double toe_end;  // λ* [-], > 1, the stretch itself
   };
   /// @throws std::invalid_argument naming a constant that is out of range
   explicit ToeLinearFibre(const Constants& c);
 
-  double energy(double stretch, double activation) const;
+  double energy(double stretch, double activation) const;  // none feels the activation
   double tension(double stretch, double activation) const;
   double stiffness(double stretch, double activation) const;
-  /// λ dW/dλ [Pa]
-  double cauchy_stress(double stretch, double activation) const;
+  double cauchy_stress(double stretch) const;  // λ dW/dλ [Pa]
 
  private:
-  double active_stress(double stretch, double activation) const;
-  double stress_slope(double stretch, double activation) const;
+  double stress_slope(double stretch) const;
   // ∫ c3 (exp(c4 (λ − 1)) − 1)/λ dλ from 1, with the exponential integral Ei.
   double toe_energy(double stretch) const;
 

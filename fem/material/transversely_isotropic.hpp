@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/material/active_fibre.hpp"
 #include "fem/material/mooney_rivlin.hpp"
 #include "fem/material/toe_linear_fibre.hpp"
 
@@ -7,11 +8,12 @@ namespace articular::fem {
 
 /// Ligament, tendon, meniscus [Weiss 1996]: fibres in a Mooney–Rivlin ground substance,
 ///
-///   Ψ = c10 (Ī1 − 3) + c01 (Ī2 − 3) + W(λ̄) + κ/2 Θ²,
+///   Ψ = c10 (Ī1 − 3) + c01 (Ī2 − 3) + W(λ̄) + κ/2 Θ²  (+ W_a(λ, a)),
 ///
-/// with the W of ToeLinearFibre. At small strain it is isotropic as long as the fibres are slack;
-/// taut ones add c3 c4 to the modulus along them: with a stretch ε along the fibre, no change of
-/// volume and free sides, σ = (6 (c10 + c01) + c3 c4) ε. Defined for J > 0.
+/// with the W of ToeLinearFibre. W_a of ActiveFibre is an addition, for tissue that pulls by
+/// itself; see FibreLaw for why it feels the volume. At small strain it is isotropic as long as the
+/// fibres are slack; taut ones add c3 c4 to the modulus along them: with a stretch ε along the
+/// fibre, no change of volume and free sides, σ = (6 (c10 + c01) + c3 c4) ε. Defined for J > 0.
 ///
 /// [Weiss 1996] Weiss, Maker, Govindjee. Finite element implementation of incompressible,
 ///              transversely isotropic hyperelasticity. Comput. Methods Appl. Mech. Eng. 135.
@@ -23,20 +25,26 @@ class TransverselyIsotropic {
   /// @param c10, c01  [Pa], not negative, sum > 0
   /// @param kappa     bulk modulus [Pa], > 0
   /// @throws std::invalid_argument naming a constant that is out of range
-  TransverselyIsotropic(double c10, double c01, const ToeLinearFibre& fibre, double kappa)
-      : ground_(c10, c01), fibre_(fibre), kappa_(checked_positive(kappa, "bulk modulus", "Pa")) {}
+  TransverselyIsotropic(double c10, double c01, const ToeLinearFibre& fibre, double kappa,
+                        const ActiveFibre& active = {})
+      : ground_(c10, c01),
+        fibre_(fibre),
+        active_(active),
+        kappa_(checked_positive(kappa, "bulk modulus", "Pa")) {}
 
   double bulk_modulus() const { return kappa_; }                    // [Pa]
   double shear_modulus() const { return ground_.shear_modulus(); }  // [Pa]
 
-  using Local = SplitMaterial<Reinforced<IsochoricMooneyRivlin, ToeLinearFibre>, Theta>;
+  using Passive = Reinforced<IsochoricMooneyRivlin, ToeLinearFibre>;
+  using Local = SplitMaterial<Reinforced<Passive, ActiveFibre>, Theta>;
   Local along(const Vec3& a0, double activation) const {
-    return {{ground_, fibre_, a0, activation}, kappa_};
+    return {{Passive(ground_, fibre_, a0, activation), active_, a0, activation}, kappa_};
   }
 
  private:
   IsochoricMooneyRivlin ground_;
   ToeLinearFibre fibre_;
+  ActiveFibre active_;
   double kappa_;  // [Pa]
 };
 static_assert(Fibred<TransverselyIsotropic<>>);

@@ -13,13 +13,15 @@
 #include <vector>
 
 #include "fem/sparse/pressure_term.hpp"
+#include "sim/assembly/turning_stiffness.hpp"
 #include "sim/model/newton_weights.hpp"
 
 namespace articular::sim {
 namespace {
 
-/// A motion that moves nothing farther than 1 counts as free when its stiffness is below this part
-/// of the stiffest diagonal entry: round-off of K leaves 1e-12.
+/// A motion that moves nothing farther than 1 counts as free when its stiffness is no more than
+/// this part of the stiffest diagonal entry: round-off of K leaves 1e-12. One with a negative
+/// stiffness is driven off by the load, not free.
 constexpr double kFree = 1e-10;
 
 /// A motion counts as driven when forces do more work on it than this part of the largest force.
@@ -34,6 +36,7 @@ struct BodyMotions {
   int body = 0;
   Vec3 center = Vec3::Zero();              // [m]
   double radius = 0;                       // [m] farthest point from there
+  Mat3 axes = Mat3::Identity();            // along and about which it moves
   std::vector<int> blocks;                 // that move,
   std::array<std::vector<Vec3>, 6> moves;  // and how: three translations, three turns by 1/radius
 };
@@ -114,6 +117,7 @@ void append_motions(const Model& model, const Configuration& now, int b,
     motions.center = now.poses[static_cast<std::size_t>(body.rigid)].p;
     motions.radius = turning_radius(rigid);
     motions.blocks = {rigid.block, rigid.block + 1};
+    if (rigid.hold) motions.axes = rigid.hold->axes;
   } else {
     for (const auto& [block, x] : nodes) motions.center += x / static_cast<double>(nodes.size());
     for (const auto& [block, x] : nodes) {
@@ -122,11 +126,10 @@ void append_motions(const Model& model, const Configuration& now, int b,
     }
   }
   for (int k = 0; k < 6; ++k) {
-    Vec3 axis = Vec3::Unit(k % 3);
+    Vec3 axis = motions.axes.col(k % 3);
     std::vector<Vec3>& move = motions.moves[static_cast<std::size_t>(k)];
     if (is_rigid) {
       const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
-      if (rigid.hold) axis = rigid.hold->axes.col(k % 3);
       if (rigid.hold && rigid.hold->held[static_cast<std::size_t>(k)]) axis.setZero();
       const Vec3 none = Vec3::Zero();
       move = k < 3 ? std::vector{axis, none} : std::vector<Vec3>{none, axis / motions.radius};
@@ -238,11 +241,20 @@ struct Projected {
   Eigen::VectorXd drive;
 };
 
+/// The turns of a rigid body: what its forces add.
+void add_turning(const Model& model, const BodyMotions& body, const std::vector<Mat3>& turning,
+                 Eigen::Block<Eigen::MatrixXd, 3, 3> stiffness) {
+  const int rigid = model.bodies[static_cast<std::size_t>(body.body)].rigid;
+  if (rigid < 0) return;
+  Mat3 turns;  // by the motions
+  for (int k = 0; k < 3; ++k) turns.col(k) = body.moves[static_cast<std::size_t>(3 + k)][1];
+  stiffness += turns.transpose() * turning[static_cast<std::size_t>(rigid)] * turns;
+}
+
 /// Of each group. As they are not coupled, the same column of all takes one product.
 std::vector<Projected> projected(const std::vector<std::vector<int>>& groups,
-                                 const std::vector<BodyMotions>& bodies,
-                                 const NewtonEquations& equations, double stiffest,
-                                 const Eigen::VectorXd& forces) {
+                                 const std::vector<BodyMotions>& bodies, const Moment& now,
+                                 const NewtonEquations& equations, double stiffest) {
   const auto motions = [&](const std::vector<int>& group, Eigen::Index column) -> const auto& {
     return bodies[static_cast<std::size_t>(group[static_cast<std::size_t>(column / 6)])];
   };
@@ -272,10 +284,17 @@ std::vector<Projected> projected(const std::vector<std::vector<int>>& groups,
     for_each([&](const std::vector<int>& group, const BodyMotions& body, Projected& of_group) {
       for (Eigen::Index i = 0; i < of_group.drive.size(); ++i)
         of_group.stiffness(i, j) = dot(motions(group, i), static_cast<int>(i % 6), product);
-      of_group.drive[j] = dot(body, k, forces);
+      of_group.drive[j] = dot(body, k, now.forces);
       if (dot(body, k, columns) == 0) of_group.stiffness(j, j) = stiffest;  // held
     });
   }
+  const std::vector<Mat3> turning = turning_stiffness(now);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t i = 0; i < groups[g].size(); ++i) {
+      const auto turns = 6 * static_cast<Eigen::Index>(i) + 3;
+      add_turning(now.model, bodies[static_cast<std::size_t>(groups[g][i])], turning,
+                  result[g].stiffness.block<3, 3>(turns, turns));
+    }
   return result;
 }
 
@@ -288,9 +307,10 @@ struct FreeMotions {
 FreeMotions free_motions(const Projected& of_group, double limit) {
   const Eigen::MatrixXd& K = of_group.stiffness;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (K + K.transpose()));
-  Eigen::Index count = 0;
-  while (count < K.cols() && eigen.eigenvalues()[count] <= limit) ++count;
-  FreeMotions found{eigen.eigenvectors().leftCols(count), {}};
+  const Eigen::VectorXd& values = eigen.eigenvalues();  // they rise
+  const Eigen::Index first = (values.array() < -limit).count();
+  const Eigen::Index count = (values.array() <= limit).count() - first;
+  FreeMotions found{eigen.eigenvectors().middleCols(first, count), {}};
   found.driven = found.all * (found.all.transpose() * of_group.drive);
   return found;
 }
@@ -312,8 +332,7 @@ std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& 
   std::optional<std::size_t> first_free;
   Eigen::VectorXd any;
   double squares = 0;
-  for (const Projected& of_group :
-       projected(groups, bodies, equations, stiffest, dynamics.now().forces)) {
+  for (const Projected& of_group : projected(groups, bodies, dynamics.now(), equations, stiffest)) {
     const FreeMotions found = free_motions(of_group, kFree * stiffest);
     if (found.all.cols() > 0 && !first_free) {
       first_free = motions.size();
@@ -343,7 +362,8 @@ std::optional<RigidBodyMode> find_rigid_body_mode(const Model& model, Dynamics& 
   return RigidBodyMode{
       most->body,
       fmt::format("body `{}` can {}", model.bodies[static_cast<std::size_t>(most->body)].name,
-                  rigid_motion_in_words(part.head<3>(), part.tail<3>(), most->center))};
+                  rigid_motion_in_words(most->axes * part.head<3>(), most->axes * part.tail<3>(),
+                                        most->center))};
 }
 
 }  // namespace articular::sim

@@ -104,6 +104,17 @@ void take_surface(MeshData& mesh) {
   mesh.triangles = collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())).faces;
 }
 
+/// Of a file: a closed surface of which the outside is within.
+void refuse_inside_out(const MeshData& mesh, const MeshFile& file, const std::string& body) {
+  if (mesh.tets.cols() > 0 || !is_closed(mesh.triangles)) return;
+  if (!(solid_mass_properties(mesh.X, mesh.triangles, 1).mass < 0)) return;
+  throw InputError(file.where,
+                   fmt::format("the surface {} of `{}` is inside out: its triangles are listed "
+                               "clockwise as seen from outside; expected counterclockwise ones "
+                               "(turn the normals round)",
+                               file.path.string(), body));
+}
+
 }  // namespace
 
 std::string mesh_name(const Body& body) {
@@ -125,9 +136,12 @@ BodyGeometry read_geometry(const Body& body) {
                      fmt::format("the mesh of tissue `{}`{} has no tetrahedra; expected "
                                  "a tetrahedral mesh (.vtu, .vtk or .inp)",
                                  body.name, mesh_name(body)));
+  if (const auto* file = std::get_if<MeshFile>(&body.geometry))
+    refuse_inside_out(geometry.mesh, *file, body.name);
   if (!tissue && geometry.mesh.X.cols() > 0) take_surface(geometry.mesh);
   for (const MeshFile& file : body.contact_meshes) {
     MeshData part = load(file, body.name);
+    refuse_inside_out(part, file, body.name);
     take_surface(part);
     if (part.triangles.cols() == 0)
       throw InputError(file.where, fmt::format("contact mesh {} of `{}` has no triangles",

@@ -6,7 +6,6 @@
 
 #include "sim/base/available_memory.hpp"
 #include "sim/base/mistakes.hpp"
-#include "sim/build/active_stress_doubt.hpp"
 #include "sim/build/body_collider.hpp"
 #include "sim/build/body_geometry.hpp"
 #include "sim/build/coincident_bodies.hpp"
@@ -19,6 +18,7 @@
 #include "sim/build/make_wraps.hpp"
 #include "sim/build/memory_need.hpp"
 #include "sim/build/region.hpp"
+#include "sim/build/scene_doubts.hpp"
 #include "sim/build/unit_doubts.hpp"
 #include "sim/build/weighted_points.hpp"
 #include "sim/lines/muscle_law.hpp"
@@ -70,6 +70,8 @@ class Builder {
     model_.detection_margin = detection_margin(model_);
     model_.trusted_motion = trusted_motion(model_);
     for (std::string& doubt : unit_doubts(scenario_, model_))
+      model_.warnings.push_back(std::move(doubt));
+    for (std::string& doubt : scene_doubts(scenario_, model_, geometry_))
       model_.warnings.push_back(std::move(doubt));
     model_.linear_solver = choose_linear_solver(scenario_, model_);
     return std::move(model_);
@@ -372,8 +374,6 @@ class Builder {
                       muscle.name));
     tissue.muscle = static_cast<int>(model_.muscles.size());
     model_.muscles.push_back({.given = muscle});
-    if (const auto doubt = active_stress_doubt(tissue, body.name, muscle))
-      model_.warnings.push_back(prefix(muscle.where) + *doubt);
   }
 
   void make_line_muscle(const Muscle& muscle) {

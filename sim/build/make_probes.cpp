@@ -63,6 +63,10 @@ struct Resolver {
   }
 
   Observed operator()(const LineProbe& named) const {
+    for (std::size_t t = 0; t < model.tissues.size(); ++t)
+      if (const int m = model.tissues[t].muscle;
+          m >= 0 && model.muscles[static_cast<std::size_t>(m)].given.name == named.line)
+        return ObservedFibres{static_cast<int>(t), m};
     const int index = line_called(named.line);
     const Line& line = model.lines[static_cast<std::size_t>(index)];
     if (line.muscle >= 0) return ObservedMuscle{index, line.muscle};

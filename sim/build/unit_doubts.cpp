@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <type_traits>
 #include <variant>
 
 #include "sim/base/error.hpp"
+#include "sim/model/tissue.hpp"
 
 namespace articular::sim {
 namespace {
@@ -18,6 +22,8 @@ struct Usual {
 // of about 500 Pa, diamond one of 5e11 Pa; the strongest muscle of a man has some thousand newtons.
 constexpr Usual kExtent{1e-4, 1}, kTissueDensity{100, 4000}, kRigidDensity{100, 25000},
     kShearModulus{10, 1e12}, kForce{0, 2e4};
+
+constexpr double kMostTurn = 2 * std::numbers::pi * (1 + 1e-9);  // [rad]
 
 bool is_usual(double value, const Usual& range) {
   return value >= range.least && value <= range.most;
@@ -56,6 +62,36 @@ void doubt_times(const Scenario& scenario, const Doubt& doubt) {
             fmt::format("the excitation of `{}`", muscle.name));
 }
 
+double largest_factor(const Curve& profile) {
+  double most = profile.value.empty() ? 1 : 0;
+  for (const double value : profile.value) most = std::max(most, std::abs(value));
+  return most;
+}
+
+/// Pressures and tractions that would press a column of the tissue to nothing.
+template <class Doubt>
+void doubt_surface_loads(const Scenario& scenario, const Model& model, const Doubt& doubt) {
+  for (const Load& any : scenario.loads) {
+    const auto* const load = std::get_if<SurfaceLoad>(&any);
+    if (load == nullptr) continue;
+    const double* const pressure = std::get_if<double>(&load->stress);
+    const double stress =
+        largest_factor(load->profile) *
+        (pressure != nullptr ? std::abs(*pressure) : std::get<Vec3>(load->stress).norm());
+    for (const BodyModel& body : model.bodies) {
+      if (body.name != load->at.tissue) continue;
+      const double modulus =
+          constrained_modulus(model.tissues[static_cast<std::size_t>(body.tissue)]);
+      if (stress > modulus)
+        doubt(load->where,
+              fmt::format("the {} of {:.3g} kPa on `{}` is {:.2g} times its modulus in confined "
+                          "compression",
+                          pressure != nullptr ? "pressure" : "traction", 1e-3 * stress, body.name,
+                          stress / modulus));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& model) {
@@ -85,6 +121,15 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
     if (muscle.tissue.empty() && !is_usual(muscle.max_force, kForce))
       doubt(muscle.where, fmt::format("muscle `{}` has a largest force of {:.3g} N", muscle.name,
                                       muscle.max_force));
+  for (const Load& load : scenario.loads)
+    if (const auto* motion = std::get_if<MotionLoad>(&load))
+      for (const Vec3& rotation : motion->motion.rotation)
+        if (rotation.norm() > kMostTurn) {
+          doubt(motion->where, fmt::format("a motion turns `{}` by {:.4g} degrees", motion->body,
+                                           rotation.norm() * 180 / std::numbers::pi));
+          break;
+        }
+  doubt_surface_loads(scenario, model, doubt);
   doubt_times(scenario, doubt);
   return doubts;
 }

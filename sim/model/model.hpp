@@ -218,6 +218,12 @@ struct ObservedMuscle {
   int muscle = 0;  // index into Model::muscles
 };
 
+/// A muscle made of a tissue's fibres.
+struct ObservedFibres {
+  int tissue = 0;  // index into Model::tissues
+  int muscle = 0;  // index into Model::muscles
+};
+
 struct ObservedLigament {
   int line = 0;      // index into Model::lines
   int ligament = 0;  // index into Model::ligaments
@@ -257,10 +263,10 @@ struct ObservedJoint {
   bool is_right = true;
 };
 
-using Observed =
-    std::variant<ObservedPoint, ObservedAngle, ObservedContact, ObservedMuscle, ObservedLigament,
-                 ObservedMomentArm, ObservedWrap, ObservedEnergy, ObservedReaction, ObservedSupport,
-                 ObservedAttachment, ObservedShare, ObservedJoint>;
+using Observed = std::variant<ObservedPoint, ObservedAngle, ObservedContact, ObservedMuscle,
+                              ObservedFibres, ObservedLigament, ObservedMomentArm, ObservedWrap,
+                              ObservedEnergy, ObservedReaction, ObservedSupport, ObservedAttachment,
+                              ObservedShare, ObservedJoint>;
 
 struct ProbeModel {
   std::string name;

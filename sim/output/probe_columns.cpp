@@ -178,6 +178,25 @@ void list(const MuscleReading& muscle, Columns& columns) {
   columns.number("activation", "-", muscle.activation);
 }
 
+struct FibreReading {
+  double activation = 0;
+  double stretch = 0;  // mean over the volume at rest
+};
+
+FibreReading measure(const ObservedFibres& fibres, const Now& now) {
+  const auto t = static_cast<std::size_t>(fibres.tissue);
+  const TissueElements& elements = now.model.tissues[t].elements;
+  const Eigen::Map<const Eigen::VectorXd> volume(
+      elements.rest_volume().data(), static_cast<Eigen::Index>(elements.rest_volume().size()));
+  return {now.configuration().activation[fibres.muscle],
+          elements.fibre_stretch(now.moment().tissues[t].x).dot(volume) / volume.sum()};
+}
+
+void list(const FibreReading& fibres, Columns& columns) {
+  columns.number("activation", "-", fibres.activation);
+  columns.number("stretch", "-", fibres.stretch);
+}
+
 struct LigamentReading {
   double force = 0;   // [N]
   double length = 0;  // [m]

@@ -112,16 +112,18 @@ fem::ForceLength read_force_length(const Node& node) {
 }
 
 fem::ToeLinearFibre read_collagen(const TableReader& table) {
-  fem::ToeLinearFibre::Constants c{.c3 = stress(table, "c3"),
-                                   .c4 = number(table, "c4"),
-                                   .c5 = stress(table, "c5"),
-                                   .toe_end = number(table, "toe_end"),
-                                   .active_stress = stress_or(table, "active_stress", 0),
-                                   .force_length = {}};
-  if (c.active_stress == 0)
+  return fem::ToeLinearFibre({.c3 = stress(table, "c3"),
+                              .c4 = number(table, "c4"),
+                              .c5 = stress(table, "c5"),
+                              .toe_end = number(table, "toe_end")});
+}
+
+fem::ActiveFibre read_active_fibre(const TableReader& table) {
+  fem::ActiveFibre::Constants c{.stress = stress_or(table, "active_stress", 0), .force_length = {}};
+  if (c.stress == 0)
     table.refuse({"force_length"}, "without `active_stress` there is nothing that depends on it");
   table.may("force_length", c.force_length, read_force_length);
-  return fem::ToeLinearFibre(c);
+  return fem::ActiveFibre(c);
 }
 
 std::vector<fem::OgdenTerm> read_ogden_terms(const Node& node) {
@@ -167,7 +169,8 @@ fem::AnyMaterial read_split_law(const TableReader& table, Law law) {
                                          stress(table, "bulk_modulus"));
     case Law::TransverselyIsotropic:
       return fem::TransverselyIsotropic<Theta>(stress(table, "c10"), stress_or(table, "c01", 0),
-                                               read_collagen(table), stress(table, "bulk_modulus"));
+                                               read_collagen(table), stress(table, "bulk_modulus"),
+                                               read_active_fibre(table));
     case Law::Muscle: {
       const typename fem::BlemkerMuscle<Theta>::Constants published;
       return fem::BlemkerMuscle<Theta>(

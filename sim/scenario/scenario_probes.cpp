@@ -1,5 +1,6 @@
 // What is recorded.
 #include <algorithm>
+#include <utility>
 
 #include "sim/scenario/scenario_reader.hpp"
 
@@ -10,7 +11,8 @@ using Names = std::vector<std::string>;
 
 /// What probes may name, besides bodies.
 struct Named {
-  Names lines;     // muscles and ligaments
+  Names lines;     // muscles and ligaments, but for
+  Names fibres;    // muscles made of a tissue's fibres
   Names wrapping;  // those that wrap around bodies
   Names supports;  // those with a name
 };
@@ -23,18 +25,26 @@ std::string read_body_of_kind(const Node& node, const Context& context, Body::Ki
   return body.name;
 }
 
-std::string read_line_reference(const Node& node, const Context& context, const Names& lines) {
+bool is_in(const std::string& name, const Names& names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string read_line_reference(const Node& node, const Context& context, const Named& named) {
   std::string line = context.name(read_text(node));
-  if (std::find(lines.begin(), lines.end(), line) == lines.end())
+  if (is_in(line, named.fibres))
+    fail(node, fmt::format("muscle `{}` is made of a tissue's fibres and has no line; expected "
+                           "one with a `path`",
+                           line));
+  if (!is_in(line, named.lines))
     fail(node, fmt::format("no muscle or ligament is called `{}`{}", one_line(line),
-                           suggestion(line, lines)));
+                           suggestion(line, named.lines)));
   return line;
 }
 
 std::string read_support_reference(const Node& node, const Context& context,
                                    const Names& supports) {
   std::string support = context.name(read_text(node));
-  if (std::find(supports.begin(), supports.end(), support) == supports.end())
+  if (!is_in(support, supports))
     fail(node, fmt::format("no [[support]] has the name `{}`{}", one_line(support),
                            suggestion(support, supports)));
   return support;
@@ -109,14 +119,17 @@ Target read_contact(const TableReader& table, const Context& context, const Name
 
 Target read_line(const TableReader& table, const Context& context, const Named& named) {
   keep_only(table, {"line"});
-  return LineProbe{read_line_reference(table.at("line"), context, named.lines)};
+  const Node& node = table.at("line");
+  if (std::string muscle = context.name(read_text(node)); is_in(muscle, named.fibres))
+    return LineProbe{std::move(muscle)};
+  return LineProbe{read_line_reference(node, context, named)};
 }
 
 Target read_moment_arm(const TableReader& table, const Context& context, const Named& named) {
   keep_only(table, {"line", "body", "point", "axis"});
   table.refuse({"mirror"}, "an axis is a direction, which is not mirrored");
   MomentArmProbe arm;
-  arm.line = read_line_reference(table.at("line"), context, named.lines);
+  arm.line = read_line_reference(table.at("line"), context, named);
   const Body& body = read_body_reference(table.at("body"), context);
   if (body.kind == Body::Kind::Tissue)
     fail(table.at("body"),
@@ -129,7 +142,7 @@ Target read_moment_arm(const TableReader& table, const Context& context, const N
 
 Target read_wrap(const TableReader& table, const Context& context, const Named& named) {
   keep_only(table, {"line"});
-  WrapProbe wrap{read_line_reference(table.at("line"), context, named.lines)};
+  WrapProbe wrap{read_line_reference(table.at("line"), context, named)};
   if (std::find(named.wrapping.begin(), named.wrapping.end(), wrap.line) == named.wrapping.end())
     fail(table.at("line"), fmt::format("`{}` has no `wrap`", wrap.line));
   return wrap;
@@ -247,7 +260,7 @@ std::vector<Probe> read_probes(const TableReader& document, const Context& conte
                                const Scenario& read_so_far) {
   Named named;
   for (const Muscle& muscle : read_so_far.muscles)
-    if (muscle.tissue.empty()) named.lines.push_back(muscle.name);
+    (muscle.tissue.empty() ? named.lines : named.fibres).push_back(muscle.name);
   for (const Ligament& ligament : read_so_far.ligaments) named.lines.push_back(ligament.name);
   for (const Muscle& muscle : read_so_far.muscles)
     if (!muscle.wrap.empty()) named.wrapping.push_back(muscle.name);

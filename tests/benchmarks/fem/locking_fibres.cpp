@@ -14,8 +14,7 @@ namespace {
 AnyMaterial fibred(double ratio) {
   constexpr double kC4 = 10, kToeEnd = 1.001, kNu = 0.49;
   const double c5 = ratio * kMu, c3 = c5 / (kC4 * std::exp(kC4 * (kToeEnd - 1)));
-  const ToeLinearFibre fibre(
-      {.c3 = c3, .c4 = kC4, .c5 = c5, .toe_end = kToeEnd, .active_stress = 0});
+  const ToeLinearFibre fibre({.c3 = c3, .c4 = kC4, .c5 = c5, .toe_end = kToeEnd});
   return TransverselyIsotropic<VolumeChange>(kMu / 2, 0, fibre,
                                              2 * kMu * (1 + kNu) / (3 * (1 - 2 * kNu)));
 }

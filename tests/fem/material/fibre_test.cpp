@@ -33,14 +33,24 @@ double integral(const std::function<double(double)>& f, double from, double to) 
 TEST(ToeLinearFibre, CauchyStressIsThePublishedOne) {
   // Constants of the cruciate ligament; numbers by hand from the formulas.
   const ToeLinearFibre fibre = cruciate_fibre();
-  for (const double slack : {0.3, 0.9, 1.0}) EXPECT_EQ(fibre.cauchy_stress(slack, 0), 0);
-  EXPECT_NEAR(fibre.cauchy_stress(1.03, 0), 0.0139e6 * (std::exp(3.4866) - 1), 1e-6);
+  for (const double slack : {0.3, 0.9, 1.0}) EXPECT_EQ(fibre.cauchy_stress(slack), 0);
+  EXPECT_NEAR(fibre.cauchy_stress(1.03), 0.0139e6 * (std::exp(3.4866) - 1), 1e-6);
   const double end = 0.0139e6 * (std::exp(116.22 * 0.046) - 1);  // 2.902 MPa
   EXPECT_NEAR(end, 2.902e6, 1e3);
-  EXPECT_NEAR(fibre.cauchy_stress(1.046, 0), end, 1e-12 * 535e6);
-  EXPECT_NEAR(fibre.cauchy_stress(1.1, 0), end + 535.039e6 * 0.054, 1e-12 * 535e6);
-  EXPECT_NEAR(fibre.cauchy_stress(3, 0), end + 535.039e6 * 1.954, 1e-12 * 1e9);  // no exponential
-  EXPECT_NEAR(fibre.cauchy_stress(1.03, 0.5) - fibre.cauchy_stress(1.03, 0), 2.5e6, 1e-6);
+  EXPECT_NEAR(fibre.cauchy_stress(1.046), end, 1e-12 * 535e6);
+  EXPECT_NEAR(fibre.cauchy_stress(1.1), end + 535.039e6 * 0.054, 1e-12 * 535e6);
+  EXPECT_NEAR(fibre.cauchy_stress(3), end + 535.039e6 * 1.954, 1e-12 * 1e9);  // no exponential
+}
+
+TEST(ActiveFibre, StressIsTheActivationTimesItsLargestAndTheForceLength) {
+  const ForceLength curve({.calcium = 3.1});
+  const ActiveFibre even({.stress = 5e6}), sarcomeres({.stress = 5e6, .force_length = curve});
+  for (const double stretch : {0.7, 1.0, 1.03, 1.4}) {
+    EXPECT_NEAR(even.tension(stretch, 0.5), 2.5e6, 1e-6);
+    EXPECT_NEAR(stretch * sarcomeres.tension(stretch, 0.5), 2.5e6 * curve.factor(stretch), 1e-6);
+    EXPECT_EQ(even.tension(stretch, 0), 0);
+    EXPECT_EQ(ActiveFibre().tension(stretch, 1), 0);
+  }
 }
 
 // Numbers by hand: f = 1 − exp(−B (l − l0)) where all calcium is there, B (l − l0) = 1.2825 at
@@ -139,6 +149,8 @@ void expect_consistent(const Law& law, double scale) {
 TEST(FibreLaw, EnergyTensionAndStiffnessBelongTogether) {
   expect_consistent(cruciate_fibre(), 535e6);
   expect_consistent(cardiac_fibre(), 1e6);
+  expect_consistent(cardiac_activity(), 1e6);
+  expect_consistent(ActiveFibre({.stress = 5e6}), 5e6);
   expect_consistent(MuscleFibre({}), 0.3e6);
   expect_consistent(MuscleFibre({.optimal_stretch = 1.1}), 0.3e6);
 }
@@ -160,11 +172,13 @@ double stress_along_fibre(const Law& law, double stretch) {
 // Incompressible uniaxial stress along the fibres: σ = 2 (λ² − 1/λ)(c10 + c01/λ) + λ dW/dλ.
 TEST(TransverselyIsotropic, StressAlongTheFibreAddsThatOfGroundAndFibre) {
   const ToeLinearFibre fibre = cruciate_fibre();
+  const ActiveFibre active({.stress = 5e6});
   for (const double activation : {0.0, 0.4}) {
-    const auto law = TransverselyIsotropic<>(1.95e6, 0.5e6, fibre, 146e6).along(kFibre, activation);
+    const auto law =
+        TransverselyIsotropic<>(1.95e6, 0.5e6, fibre, 146e6, active).along(kFibre, activation);
     for (const double s : {0.8, 1.0, 1.03, 1.1, 1.5}) {
-      const double expected =
-          2 * (s * s - 1 / s) * (1.95e6 + 0.5e6 / s) + fibre.cauchy_stress(s, activation);
+      const double expected = 2 * (s * s - 1 / s) * (1.95e6 + 0.5e6 / s) + fibre.cauchy_stress(s) +
+                              5e6 * activation * s;
       EXPECT_NEAR(stress_along_fibre(law, s), expected, 1e-11 * 1e8);
     }
   }
@@ -224,21 +238,27 @@ TEST(BlemkerMuscle, LargeShearsFollowTheClosedForms) {
   }
 }
 
-// A tension along the fibre and nothing across it, at any change of volume; and the opposite where
-// fibres don't feel it: then a third of the tension presses all around.
-TEST(BlemkerMuscle, FibresPullAlongThemselvesAlone) {
+// A tension along the fibre and nothing across it, at any change of volume.
+TEST(ActiveStress, PullsAlongTheFibresAlone) {
   for (const double swelling : {0.8, 1.0, 1.1}) {
     const Mat3 F = swelling * Mat3::Identity();
     const Mat3 active = muscle(1).first_piola(F) - muscle(0).first_piola(F);
     const double expected = 0.3e6 * MuscleFibre::active(swelling);
     EXPECT_LT((active - expected * kFibre * kFibre.transpose()).norm(), 1e-9 * expected);
+
+    const TransverselyIsotropic<> collagen(2e4, 0, cruciate_fibre(), 1e6,
+                                           ActiveFibre({.stress = 1e5}));
+    const Mat3 other =
+        collagen.along(kFibre, 1).first_piola(F) - collagen.along(kFibre, 0).first_piola(F);
+    EXPECT_LT((other - 1e5 * kFibre * kFibre.transpose()).norm(), 1e-9 * 1e5);
   }
-  const ToeLinearFibre collagen(
-      {.c3 = 1e3, .c4 = 20, .c5 = 1e6, .toe_end = 1.1, .active_stress = 1e5});
-  const TransverselyIsotropic<> law(2e4, 0, collagen, 1e6);
-  const Mat3 active = law.along(kFibre, 1).first_piola(Mat3::Identity()) -
-                      law.along(kFibre, 0).first_piola(Mat3::Identity());
-  EXPECT_NEAR(active.trace(), 0, 1e-6);
+}
+
+// Swelling alone does not draw the fibres of collagen, as published.
+TEST(TransverselyIsotropic, PassiveFibresDoNotFeelTheVolume) {
+  const auto law = TransverselyIsotropic<>(2e4, 0, cruciate_fibre(), 1e6).along(kFibre, 0);
+  const Mat3 stress = law.first_piola(1.1 * Mat3::Identity());
+  EXPECT_LT((stress - stress.trace() / 3 * Mat3::Identity()).norm(), 1e-6);
 }
 
 // As published nothing resists a slack fibre that shortens with even sides; c10 does.
@@ -300,11 +320,7 @@ TEST(Materials, RefuseBadConstantsAndSayWhy) {
                  {"toe", "above 1"});
   expect_refusal([] { (void)ToeLinearFibre({.c3 = 1, .c4 = 1e3, .c5 = 1, .toe_end = 1.1}); },
                  {"1100", "700"});
-  expect_refusal(
-      [] {
-        (void)ToeLinearFibre({.c3 = 1, .c4 = 1, .c5 = 1, .toe_end = 1.1, .active_stress = -5});
-      },
-      {"active stress", "-5 Pa"});
+  expect_refusal([] { (void)ActiveFibre({.stress = -5}); }, {"active stress", "-5 Pa"});
   expect_refusal([] { (void)MuscleFibre({.max_stress = -1}); }, {"active stress", "-1 Pa"});
   expect_refusal([] { (void)MuscleFibre({.p1 = 0}); }, {"P1", "positive"});
   expect_refusal([] { (void)MuscleFibre({.p2 = 0}); }, {"P2", "positive"});

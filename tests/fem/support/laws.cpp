@@ -48,8 +48,12 @@ void add_isochoric(const std::string& suffix, std::vector<LawExample>& laws) {
   add("Ogden", Ogden<Theta>({{4e3, 2.5}, {1e3, -3}, {200, 7}}, 2e4), 2e4, {});
   add("VerondaWestmann", VerondaWestmann<Theta>(1e4, 2, 1e5), 1e5, {});
   add("TransverselyIsotropic",
-      TransverselyIsotropic<Theta>(1.95e6, 0.5e6, cruciate_fibre(), 146.41e6), 1.5e8, {});
-  add("LengthDependent", TransverselyIsotropic<Theta>(2e3, 1e3, cardiac_fibre(), 1e5), 1e6, {});
+      TransverselyIsotropic<Theta>(1.95e6, 0.5e6, cruciate_fibre(), 146.41e6,
+                                   ActiveFibre({.stress = 5e6})),
+      1.5e8, {.shape_only = false});
+  add("LengthDependent",
+      TransverselyIsotropic<Theta>(2e3, 1e3, cardiac_fibre(), 1e5, cardiac_activity()), 1e6,
+      {.shape_only = false});
   add("BlemkerMuscle",
       BlemkerMuscle<Theta>(MuscleFibre({.optimal_stretch = 1.05}),
                            {.G1 = 500, .G2 = 800, .c10 = 200}),
@@ -59,17 +63,15 @@ void add_isochoric(const std::string& suffix, std::vector<LawExample>& laws) {
 }  // namespace
 
 ToeLinearFibre cruciate_fibre() {
-  return ToeLinearFibre(
-      {.c3 = 0.0139e6, .c4 = 116.22, .c5 = 535.039e6, .toe_end = 1.046, .active_stress = 5e6});
+  return ToeLinearFibre({.c3 = 0.0139e6, .c4 = 116.22, .c5 = 535.039e6, .toe_end = 1.046});
 }
 
 ToeLinearFibre cardiac_fibre() {
-  return ToeLinearFibre({.c3 = 1e3,
-                         .c4 = 12,
-                         .c5 = 2e5,
-                         .toe_end = 1.25,
-                         .active_stress = 135.7e3,
-                         .force_length = ForceLength({.calcium = 3.1})});
+  return ToeLinearFibre({.c3 = 1e3, .c4 = 12, .c5 = 2e5, .toe_end = 1.25});
+}
+
+ActiveFibre cardiac_activity() {
+  return ActiveFibre({.stress = 135.7e3, .force_length = ForceLength({.calcium = 3.1})});
 }
 
 void PrintTo(const LawExample& example, std::ostream* out) { *out << example.name; }

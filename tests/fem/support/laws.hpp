@@ -42,10 +42,11 @@ void PrintTo(const LawExample& example, std::ostream* out);  // found by the tes
 /// Fibred ones have their fibres along kFibre.
 std::vector<LawExample> all_laws();
 
-/// Fibres of the anterior cruciate ligament, with an active stress of 5 MPa for the tests.
+/// Fibres of the anterior cruciate ligament.
 ToeLinearFibre cruciate_fibre();
 
-/// Fibres whose active stress depends on their length.
+/// Fibres of the heart, and their active stress, which depends on their length.
 ToeLinearFibre cardiac_fibre();
+ActiveFibre cardiac_activity();
 
 }  // namespace articular::fem

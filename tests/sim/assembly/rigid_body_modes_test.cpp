@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -237,6 +238,44 @@ TEST(RigidBodyModes, WhatIsNotCoupledIsLookedAtByItself) {
 TEST(RigidBodyModes, OfMoreThanAHundredCoupledBodiesNothingIsSaid) {
   EXPECT_TRUE(Simulation(row_of_masses(100, false)).stepper.loose());
   EXPECT_FALSE(Simulation(row_of_masses(101, false)).stepper.loose());
+}
+
+/// A rod that hangs from the wall on a ligament at its upper end. It moves in a plane.
+Scenario hanging_rod(bool has_weight) {
+  Scenario s = scene(1);
+  s.analysis = Scenario::Analysis::Static;
+  s.bodies = {mass_body("rod", 1), stand("wall")};
+  s.bodies[0].inertia = kInertia.asDiagonal();
+  s.bodies[0].hold.emplace().held = {true, false, false, false, true, true};
+  Ligament cord;
+  cord.name = "cord";
+  cord.path = {anchor("rod", {0, 0, 0.05}), anchor("wall", {0, 0, 0.1})};
+  cord.law = Ligament::Law::Linear;
+  cord.stiffness = 1e3;
+  cord.slack_length = has_weight ? 0.05 - 9.81e-3 : 0.05;
+  s.ligaments = {cord};
+  if (has_weight) s.loads = {gravity({0, 0, -9.81})};
+  return s;
+}
+
+// It swings about its upper end as a pendulum does: its weight pulls it upright.
+TEST(RigidBodyModes, WhatHangsIsHeldByItsWeight) {
+  EXPECT_FALSE(Simulation(hanging_rod(true)).stepper.loose());
+  EXPECT_TRUE(Simulation(hanging_rod(false)).stepper.loose());
+}
+
+// A slide that stands askew is told in the axes of the world.
+TEST(RigidBodyModes, AMotionThatAHoldLeavesFreeIsToldInTheWorldsAxes) {
+  Scenario s = scene(1);
+  s.analysis = Scenario::Analysis::Static;
+  s.bodies = {mass_body("slide", 1)};
+  s.bodies[0].inertia = kInertia.asDiagonal();
+  Hold& hold = s.bodies[0].hold.emplace();
+  hold.held = {false, true, true, true, true, true};
+  hold.axes = rotation_matrix({0, M_PI / 6, 0});
+  const auto loose = Simulation(s).stepper.loose();
+  ASSERT_TRUE(loose);
+  EXPECT_NE(loose->words.find("shift along (0.87 0.00 -0.50)"), std::string::npos) << loose->words;
 }
 
 }  // namespace articular::sim::rigid_body_modes_test

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/base/error.hpp"
+#include "tests/sim/support/contact_scene.hpp"
 #include "tests/sim/wrap/wrap_shapes.hpp"
 
 namespace articular::sim::body_geometry_test {
@@ -37,6 +38,25 @@ TEST(RigidMass, OfAnOpenSurfaceIsRefusedUnlessItIsGiven) {
   body.center_of_mass = Vec3(0, 0, 0.01);
   body.inertia = 1e-5 * Mat3::Identity();
   EXPECT_EQ(rigid_mass(body, tube).mass, 0.1);
+}
+
+// Its inside would be what lies around it.
+TEST(BodyGeometry, ASurfaceThatIsInsideOutIsRefusedAndAnOpenOneIsNot) {
+  const auto refusal = [](const MeshData& mesh) -> std::string {
+    const TemporaryFolder folder;
+    try {
+      read_geometry(mesh_body("bone", Body::Kind::Fixed, mesh, folder));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  MeshData ball = surface(wrap_test::ellipsoid(8, Vec3::Constant(0.03)));
+  EXPECT_EQ(refusal(ball), "");
+  ball.triangles.row(1).swap(ball.triangles.row(2));
+  EXPECT_NE(refusal(ball).find("of `bone` is inside out"), std::string::npos) << refusal(ball);
+  ball.triangles.conservativeResize(3, ball.triangles.cols() - 1);
+  EXPECT_EQ(refusal(ball), "");
 }
 
 }  // namespace articular::sim::body_geometry_test

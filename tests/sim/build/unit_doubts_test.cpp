@@ -70,6 +70,35 @@ TEST(UnitDoubts, AreOfCurvesThatBeginWhenTheRunIsOver) {
   }
 }
 
+// Cartilage of the scene: 10 kPa and 0.3 give λ + 2μ = 13.5 kPa.
+TEST(UnitDoubts, AreOfAPressureOrTractionBeyondTheModulus) {
+  for (const double factor : {0.9, 1.1}) {
+    Scenario s = usual();
+    s.bodies[0].material = linear(10e3, 0.3);
+    const double modulus = 10e3 * 0.7 / (1.3 * 0.4);
+    SurfaceLoad load;
+    load.at.tissue = "block";
+    load.at.region.box = {{-1, -1, 0.0099}, {1, 1, 0.0101}};
+    load.profile = {{0, 1}, {0, 2}};
+    load.stress = factor * modulus / 2;
+    s.loads = {load};
+    EXPECT_EQ(num_doubts(s), factor < 1 ? 0U : 1U);
+    load.stress = Vec3(0, -factor * modulus / 2, 0);
+    s.loads = {load};
+    EXPECT_EQ(num_doubts(s), factor < 1 ? 0U : 1U);
+  }
+}
+
+TEST(UnitDoubts, AreOfAMotionThatTurnsMoreThanOnce) {
+  for (const double turn : {6.28, 30.0}) {
+    Scenario s = usual();
+    MotionLoad load = shift("floor", 1, {0, 0, 0.01});
+    load.motion.rotation = {Vec3::Zero(), Vec3(0, turn, 0)};
+    s.loads = {load};
+    EXPECT_EQ(num_doubts(s), turn < 7 ? 0U : 1U) << turn;
+  }
+}
+
 TEST(UnitDoubts, AFloorMayBeAsLargeAsItLikes) {
   Scenario s = usual();
   s.bodies.push_back(box_body("plate", Body::Kind::Fixed, {50, 50, 1}, {0, 0, -2}));

@@ -329,6 +329,25 @@ Scenario muscle_block(TissueMaterial::Element element) {
   return s;
 }
 
+// Collagen that pulls as the heart does, and with a force that does not depend on the length.
+TEST(ActiveMuscle, CollagenPullsWithItsActiveStressInTimeWhateverTheGroundSubstanceIs) {
+  const fem::ForceLength curve({});
+  for (const std::optional<fem::ForceLength>& force_length : {std::optional(curve), {}}) {
+    Scenario s = muscle_block(TissueMaterial::Element::Smoothed);
+    s.bodies[0].material->law =
+        material_of(fem::TransverselyIsotropic<>(
+                        2e3, 0,
+                        fem::ToeLinearFibre({.c3 = 1e3, .c4 = 20, .c5 = 1e6, .toe_end = 1.1}), 1e6,
+                        fem::ActiveFibre({.stress = 1e5, .force_length = force_length})))
+            .law;
+    s.muscles[0].excitation = {{0, 0.02}, {0, 0.5}};
+    Simulation run(s);
+    run.advance(0.08);
+    const double factor = force_length ? curve.factor(1) : 1;
+    EXPECT_NEAR(run.force_on(0).z(), 0.5 * 1e5 * factor * 1e-4, 1e-3 * 5) << factor;
+  }
+}
+
 // Held at both ends at 0.8 of its best length: a σ_max n f(n) A, whatever the ground substance is.
 // Fibres that did not feel the volume folded such a block, where nothing but tension was stiff.
 TEST(ActiveMuscle, PullsWithItsActiveStressInTimeWhateverTheGroundSubstanceIs) {

@@ -164,6 +164,30 @@ TEST(LineProbe, ALigamentHasItsForceAndItsStrainFromSlack) {
   EXPECT_NEAR(Probes(run)("acl.force [N]"), 5000 * (strain - 0.03), 1e-8);
 }
 
+// Between flat ends that are drawn apart by a tenth the mean of F along them is 1.1.
+TEST(LineProbe, AMuscleOfFibresHasItsActivationAndItsMeanStretch) {
+  Scenario s = scene(0.1);
+  s.analysis = Scenario::Analysis::Static;
+  s.bodies = {stand("a"), stand("b"),
+              box_body("block", Body::Kind::Tissue, {0.01, 0.01, 0.03}, Vec3::Zero(), {2, 2, 6})};
+  s.bodies[2].material = material_of(fem::BlemkerMuscle<>(fem::MuscleFibre({}), {.c10 = 1e4}));
+  s.bodies[2].material->fibres = Fibres{Vec3::UnitZ()};
+  s.attachments = {attach("block", "a", {-1, -1, -0.0151}, {1, 1, -0.0149}),
+                   attach("block", "b", {-1, -1, 0.0149}, {1, 1, 0.0151})};
+  Muscle muscle;
+  muscle.name = "fibres";
+  muscle.tissue = "block";
+  muscle.excitation = {{0, 1}, {0, 0.5}};
+  s.muscles = {muscle};
+  s.loads = {shift("b", 1, {0, 0, 0.003})};
+  s.probes = {{"fibres", LineProbe{"fibres"}}};
+  Simulation run(s);
+  EXPECT_NEAR(Probes(run)("fibres.stretch [-]"), 1, 1e-12);
+  run.advance(1);
+  EXPECT_NEAR(Probes(run)("fibres.stretch [-]"), 1.1, 0.002);
+  EXPECT_NEAR(Probes(run)("fibres.activation [-]"), 0.5, 1e-12);
+}
+
 // A driven box that a line pulls at: the moment is about its middle, where that is by then.
 TEST(ReactionProbe, ADrivenBodyHasForceAndMomentAboutItsMiddle) {
   Scenario s = scene(0.1);

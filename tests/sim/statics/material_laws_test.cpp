@@ -115,7 +115,8 @@ TEST(MaterialLaws, FromTheWordsOfAFileToTheForceOfConfinedCompression) {
 }
 
 // The plate is driven to the stretch s while the fibres along z are activated to 0.8. What it
-// feels is the sum of ground, fibre and volume, with the isochoric stretch λ̄ = s^(2/3).
+// feels is the sum of ground and passive fibre, with the isochoric stretch λ̄ = s^(2/3), of active
+// fibre, with s, and of volume.
 TEST(MaterialLaws, ActiveStressFollowsTheLengthOfTheSarcomeres) {
   const std::string driven = R"(
 [[body]]
@@ -148,8 +149,8 @@ translation = ["0 0 0 mm", "0 0 @WAY mm"]
     const double stretch = std::pow(s, 2.0 / 3);
     const double ground = 4e3 * (stretch * stretch - 1 / stretch);
     const double passive = stretch > 1 ? 1e3 * std::expm1(10 * (stretch - 1)) : 0;
-    const double fibre = passive + 0.8 * 135.7e3 * curve.factor(stretch);
-    return ((ground + fibre) * 2 / 3 / s + 5e4 * (s - 1)) * kArea;
+    const double active = 0.8 * 135.7e3 * curve.factor(s);
+    return ((ground + passive) * 2 / 3 / s + active / s + 5e4 * (s - 1)) * kArea;
   };
   const fem::ForceLength published({});
   const fem::ForceLength other({.sarcomere_length = 2.1e-6,

@@ -110,18 +110,13 @@ TEST(Ledger, WorkOfFibresInTissueIsTheIntegralOverTheirActivation) {
       [&](double s) { return constants.max_stress * fem::MuscleFibre::active_integral(s); });
 }
 
-// With all calcium there f = 1 − exp(−b (λ̄ − λ0)): ∫ f dλ̄/λ̄ is an exponential integral.
+// With all calcium there f = 1 − exp(−b (λ − λ0)): ∫ f dλ/λ is an exponential integral.
 TEST(Ledger, WorkOfFibresWithAForceLengthIsTheIntegralOverTheirActivation) {
   const double T = 1e5, b = 4.75 * 1.85, zero = 1.58 / 1.85;
-  const fem::ToeLinearFibre fibre({.c3 = 1e3,
-                                   .c4 = 10,
-                                   .c5 = 1e5,
-                                   .toe_end = 1.3,
-                                   .active_stress = T,
-                                   .force_length = fem::ForceLength({})});
+  const fem::ToeLinearFibre fibre({.c3 = 1e3, .c4 = 10, .c5 = 1e5, .toe_end = 1.3});
+  const fem::ActiveFibre active({.stress = T, .force_length = fem::ForceLength({})});
   expect_work_of_fibres(
-      material_of(fem::TransverselyIsotropic<>(1e4, 0, fibre, 1e6)), [&](double stretch) {
-        const double s = std::pow(stretch, 2.0 / 3);  // λ̄
+      material_of(fem::TransverselyIsotropic<>(1e4, 0, fibre, 1e6, active)), [&](double s) {
         return T * (std::log(s / zero) -
                     std::exp(b * zero) * (std::expint(-b * s) - std::expint(-b * zero)));
       });

@@ -1,0 +1,116 @@
+#include "sim/build/scene_doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "sim/base/error.hpp"
+#include "sim/mesh/chord_depth.hpp"
+#include "sim/model/tissue.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Strain of a ligament at the start; they tear at a fifth of it.
+constexpr double kMostStrain = 0.5;
+
+class Doubts {
+ public:
+  Doubts(const Scenario& scenario, const Model& model, const std::vector<BodyGeometry>& geometry)
+      : scenario_(scenario), model_(model), geometry_(geometry) {}
+
+  std::vector<std::string> all() {
+    for (const Attachment& attachment : scenario_.attachments) look_at(attachment);
+    for (const Body& body : scenario_.bodies)
+      if (body.kind == Body::Kind::Tissue) look_at(body);
+    for (const LigamentModel& ligament : model_.ligaments) look_at(ligament);
+    for (const Probe& probe : scenario_.probes)
+      if (const auto* joint = std::get_if<JointProbe>(&probe.what)) look_at(probe, *joint);
+    return std::move(lines_);
+  }
+
+ private:
+  void doubt(const Location& where, const std::string& what) {
+    lines_.push_back(prefix(where) + what);
+  }
+
+  std::size_t index(const std::string& body) const {
+    return static_cast<std::size_t>(body_index(scenario_, body));
+  }
+  const Tissue& tissue(std::size_t body) const {
+    return model_.tissues[static_cast<std::size_t>(model_.bodies[body].tissue)];
+  }
+
+  /// Once for each two bodies.
+  void look_at(const Attachment& attachment) {
+    const std::size_t a = index(attachment.body), b = index(attachment.to);
+    const MeshData& bone = geometry_[b].mesh;
+    if (bone.triangles.cols() == 0 || !tied_.insert({a, b}).second) return;
+    const double gap = gap_between(tissue(a), bone, model_.bodies[b].rigid);
+    if (gap > element_size(tissue(a)))
+      doubt(attachment.where,
+            fmt::format("`{}` is tied to `{}` across a gap of {:.3g} mm: is it the right body, and "
+                        "do both meshes have the same unit?",
+                        attachment.body, attachment.to, 1e3 * gap));
+  }
+
+  /// From the nearest node that is tied; 0 where one lies within.
+  static double gap_between(const Tissue& tissue, const MeshData& bone, int rigid) {
+    const TriangleTree tree(bone.X, bone.triangles);
+    double gap = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
+      if (tissue.nodes[i].rigid != rigid) continue;
+      const Vec3 x = tissue.X.col(static_cast<Eigen::Index>(i));
+      gap = std::min(gap, tree.distance(x));
+      if (depth_inside(bone.X, bone.triangles, tree, x) > 0) return 0;
+    }
+    return gap;
+  }
+
+  void look_at(const Body& body) {
+    const std::vector<NodeRef>& nodes = tissue(index(body.name)).nodes;
+    if (std::all_of(nodes.begin(), nodes.end(), [](const NodeRef& n) { return n.rigid >= 0; }))
+      doubt(body.where,
+            fmt::format("every node of `{}` is attached to a body: it can't deform", body.name));
+  }
+
+  void look_at(const LigamentModel& ligament) {
+    const double length = model_.lines[static_cast<std::size_t>(ligament.line)].start_length;
+    const double strain = length / ligament.slack_length - 1;
+    if (strain > kMostStrain)
+      doubt(ligament.given.where,
+            fmt::format("ligament `{}` starts drawn out by {:.0f} %, from {:.4g} mm slack to "
+                        "{:.4g} mm",
+                        ligament.given.name, 100 * strain, 1e3 * ligament.slack_length,
+                        1e3 * length));
+  }
+
+  void look_at(const Probe& probe, const JointProbe& joint) {
+    const auto look = [&](const char* name, const Vec3& p, const Vec3& q) {
+      if (p.dot(q) < 0)
+        doubt(probe.where, fmt::format("`{}` of `{}` and of `{}` point opposite ways: the joint "
+                                       "coordinates `{}` turn by 180 degrees",
+                                       name, joint.proximal.body, joint.distal.body, probe.name));
+    };
+    look("lateral", joint.proximal.lateral, joint.distal.lateral);
+    look("up", joint.proximal.up, joint.distal.up);
+  }
+
+  const Scenario& scenario_;
+  const Model& model_;
+  const std::vector<BodyGeometry>& geometry_;
+  std::set<std::pair<std::size_t, std::size_t>> tied_;
+  std::vector<std::string> lines_;
+};
+
+}  // namespace
+
+std::vector<std::string> scene_doubts(const Scenario& scenario, const Model& model,
+                                      const std::vector<BodyGeometry>& geometry) {
+  return Doubts(scenario, model, geometry).all();
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/build/body_geometry.hpp"
+#include "sim/model/model.hpp"
+
+namespace articular::sim {
+
+/// What can be computed and is hardly meant: tissue tied to a bone across a gap of more than an
+/// element, tissue of which every node is tied, ligaments that start drawn out by half, joint
+/// axes that do not point the same way.
+/// @param geometry  of each body at the start
+/// @return one line each, with the place in the scenario
+std::vector<std::string> scene_doubts(const Scenario& scenario, const Model& model,
+                                      const std::vector<BodyGeometry>& geometry);
+
+}  // namespace articular::sim
