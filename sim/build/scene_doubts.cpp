@@ -17,6 +17,14 @@ namespace {
 /// Strain of a ligament at the start; they tear at a fifth of it.
 constexpr double kMostStrain = 0.5;
 
+/// Between what is tied, of the longest side of the tissue's box: horns of a meniscus end above the
+/// tibia.
+constexpr double kMostGap = 0.1;
+
+double longest_side(const Positions& X) {
+  return (X.rowwise().maxCoeff() - X.rowwise().minCoeff()).maxCoeff();
+}
+
 class Doubts {
  public:
   Doubts(const Scenario& scenario, const Model& model, const std::vector<BodyGeometry>& geometry)
@@ -50,7 +58,7 @@ class Doubts {
     const MeshData& bone = geometry_[b].mesh;
     if (bone.triangles.cols() == 0 || !tied_.insert({a, b}).second) return;
     const double gap = gap_between(tissue(a), bone, model_.bodies[b].rigid);
-    if (gap > element_size(tissue(a)))
+    if (gap > std::max(element_size(tissue(a)), kMostGap * longest_side(tissue(a).X)))
       doubt(attachment.where,
             fmt::format("`{}` is tied to `{}` across a gap of {:.3g} mm: is it the right body, and "
                         "do both meshes have the same unit?",
