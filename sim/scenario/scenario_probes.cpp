@@ -70,7 +70,8 @@ void keep_only(const TableReader& table, std::initializer_list<std::string_view>
 /// Names of probes, which may come later in the file: see check_forces().
 Names read_probe_names(const Node& node, const Context& context) {
   Names names;
-  for (const Node& element : read_list(node, "the names of probes with forces"))
+  for (const Node& element :
+       read_list(node, "a list of probes with forces, such as [\"medial\", \"lateral\"]"))
     names.push_back(context.name(read_text(element)));
   return names;
 }

@@ -264,6 +264,26 @@ TEST(RigidBodyModes, WhatHangsIsHeldByItsWeight) {
   EXPECT_TRUE(Simulation(hanging_rod(false)).stepper.loose());
 }
 
+/// A rod on a hinge so far above its middle [m].
+Scenario rod_on_a_hinge(double height) {
+  Scenario s = scene(1);
+  s.analysis = Scenario::Analysis::Static;
+  s.bodies = {mass_body("rod", 1)};
+  s.bodies[0].inertia = kInertia.asDiagonal();
+  Hold& hinge = s.bodies[0].hold.emplace();
+  hinge.held = {true, true, true, false, true, true};
+  hinge.at = Vec3(0, 0, height);
+  s.loads = {gravity({0, 0, -9.81})};
+  return s;
+}
+
+// Below its hinge it hangs, above it falls over: neither is without a force.
+TEST(RigidBodyModes, ARodIsFreeToTurnOnAHingeInItsMiddleAlone) {
+  EXPECT_FALSE(Simulation(rod_on_a_hinge(0.05)).stepper.loose());
+  EXPECT_TRUE(Simulation(rod_on_a_hinge(0)).stepper.loose());
+  EXPECT_FALSE(Simulation(rod_on_a_hinge(-0.05)).stepper.loose());
+}
+
 // A slide that stands askew is told in the axes of the world.
 TEST(RigidBodyModes, AMotionThatAHoldLeavesFreeIsToldInTheWorldsAxes) {
   Scenario s = scene(1);
