@@ -1,6 +1,7 @@
 #include "fem/solver/solver_choice.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace articular::fem {
@@ -15,7 +16,9 @@ constexpr int kMostFactored = 2'000, kMostFactoredVeryLocked = 10'000;
 // Compressible tissue in small steps: below so many blocks block Jacobi is as good as multigrid,
 // and cheaper. A nodal pressure, which it converges with at any rate, shifts that.
 constexpr double kCompressible = 0.4;
-constexpr int kFewForMultigrid = 300, kFewWithPressure = 500, kFewCompressible = 6'000;
+constexpr int kFewForMultigrid = 300, kFewWithPressure = 250, kFewCompressible = 6'000;
+// A slender or flat body of so few blocks is soon factored.
+constexpr int kFewAndFar = 500;
 constexpr int kStartFrom = 5;  // solutions
 
 // With contact the pattern changes again and again, and multigrid is set up anew each time. A
@@ -24,14 +27,20 @@ constexpr int kStartFrom = 5;  // solutions
 // or there is none, contact may take multigrid a hundred iterations (the knee at 1000 N), and a
 // factorization never does.
 constexpr int kMostFactoredInContact = 2'500, kMostFactoredAtRest = 6'000;
+// Pressures make factors several times as large. Tissue that contact holds all over takes block
+// Jacobi a hundred iterations, however slender it is, but for that of higher Poisson's ratios: from
+// so many blocks on they cost less.
+constexpr int kManyWithPressure = 400;
 constexpr double kShortWay = 40;
 
 // Block Jacobi passes on what happens by one element in an iteration. From so many elements on
 // everything else is several times as fast, and up to so few nothing is faster at any size below
 // such a Poisson's ratio. Between them the size decides; with contact, what is tied to something
 // fixed and not far from it is still block Jacobi's, but for friction, which asks for several
-// solutions with each matrix.
-constexpr double kFar = 25, kNear = 6, kNearlyIncompressible = 0.47;
+// solutions with each matrix. In steps in which waves get no farther than kStep it is block
+// Jacobi's whatever holds it.
+constexpr double kFar = 25, kNear = 6, kNearOfMany = 9, kStep = 3, kNearlyIncompressible = 0.47;
+constexpr int kManyNear = 1'000;
 
 /// How far that is: in a step no farther than waves travel.
 double way(const SolverProblem& problem) {
@@ -50,6 +59,13 @@ SolverChoice choose_with_contact(const SolverProblem& problem) {
         "contact changes the matrix, and what holds the tissue is near: nothing needs to be set "
         "up"};
   }
+  const bool is_held = is_held_within(std::numeric_limits<double>::infinity(), problem);
+  if (!problem.has_friction && problem.has_pressure && is_held &&
+      problem.largest_nu < kNearlyIncompressible && problem.num_blocks >= kManyWithPressure &&
+      problem.num_blocks <= kMostFactoredAtRest) {
+    return {SolverKind::ConjugateGradients, 0,
+            "contact changes the matrix and holds the tissue all over: nothing needs to be set up"};
+  }
   const bool short_steps = problem.in_time && problem.elements_a_step < kShortWay;
   if (problem.num_blocks <= (short_steps ? kMostFactoredInContact : kMostFactoredAtRest)) {
     return {problem.has_pressure ? SolverKind::SaddlePoint : SolverKind::Cholesky, 0,
@@ -64,8 +80,11 @@ SolverChoice choose_with_contact(const SolverProblem& problem) {
 
 bool is_for_block_jacobi(const SolverProblem& problem) {
   if (way(problem) > kFar) return false;
-  if (problem.largest_nu < kNearlyIncompressible && problem.reach < kNear &&
-      is_held_within(kNear, problem)) {
+  if (problem.in_time && way(problem) < kStep) return true;
+  const bool is_large = problem.has_pressure && problem.num_blocks >= kManyNear;
+  const double near = is_large ? kNearOfMany : kNear;
+  if (problem.largest_nu < kNearlyIncompressible && problem.reach < near &&
+      is_held_within(near, problem)) {
     return true;
   }
   if (!problem.has_pressure) {
@@ -99,8 +118,9 @@ SolverChoice choose_solver(const SolverProblem& problem) {
     return {SolverKind::ConjugateGradients, kept,
             "too few unknowns, or too short ways, for what a cycle of multigrid costs"};
   }
-  if (problem.has_pressure && problem.num_blocks < kFewWithPressure && way(problem) > kFar) {
-    return {SolverKind::SaddlePoint, 0, "a slender body of few unknowns is soon factored"};
+  if (problem.num_blocks < kFewAndFar && way(problem) > kFar) {
+    return {problem.has_pressure ? SolverKind::SaddlePoint : SolverKind::Cholesky, 0,
+            "a slender or flat body of few unknowns is soon factored"};
   }
   if (problem.has_pressure) {
     return {SolverKind::Multigrid, kept,

@@ -76,8 +76,9 @@ Eigen::Vector3i cells_of(Shape shape, double num_tets) {
   return cells;
 }
 
-/// A body that is tied at one end (slender, cubic), at one edge (flat) or at its middle (ball),
-/// under its weight; with contact it lies on a floor, and a plate presses it by 2 % of its height.
+/// A body that is tied at one end (slender, cubic: there in the middle), at one edge (flat) or at
+/// its middle (ball), under its weight; with contact it lies on a floor, and a plate presses it by
+/// 2 % of its height.
 Scenario scene_of(const Case& c, double num_tets, Solver solver) {
   const bool is_static = c.analysis == Analysis::Static;
   Scenario s = scene(is_static ? 0.5 : c.analysis == Analysis::Long ? kLongStep : kStep);
@@ -98,8 +99,11 @@ Scenario scene_of(const Case& c, double num_tets, Solver solver) {
   const double L = 0.5 * size.x(), far = 1;
   if (c.shape == Shape::Ball)
     s.attachments = {attach("body", "wall", {-far, -far, -0.4 * kWidth}, {far, far, 0.4 * kWidth})};
-  else
-    s.attachments = {attach("body", "wall", {-far, -far, -far}, {1e-6 - L, far, far})};
+  else {
+    // What is pressed is not tied too; one layer of elements leaves no choice.
+    const double reach = c.contact && c.shape == Shape::Cubic ? 0.3 * kWidth : far;
+    s.attachments = {attach("body", "wall", {-far, -far, -reach}, {1e-6 - L, far, reach})};
+  }
   // A cantilever's end goes down by 1.5 ρ g L⁴/(E d²): by about a tenth of its length.
   const double slender = size.x() / kWidth;
   s.loads = {gravity({0, 0, -0.1 * kYoung / (1.5 * 1000 * kWidth) / std::pow(slender, 3)})};

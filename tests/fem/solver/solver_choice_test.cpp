@@ -65,6 +65,42 @@ TEST(SolverChoice, SlenderBodiesAreNotIteratedOnElementByElement) {
   }
 }
 
+// Up to a few hundred blocks; beyond, multigrid.
+TEST(SolverChoice, SlenderBodiesOfFewUnknownsAreFactored) {
+  for (const bool pressure : {false, true}) {
+    SolverProblem beam = tissue(400, 0.45);
+    beam.has_pressure = pressure;
+    beam.reach = 800;
+    EXPECT_EQ(choose_solver(beam).kind, pressure ? SolverKind::SaddlePoint : SolverKind::Cholesky);
+    beam.num_blocks = beam.num_nodes = 2'000;
+    EXPECT_EQ(choose_solver(beam).kind, SolverKind::Multigrid);
+  }
+}
+
+// Waves that get no farther than two elements in a step leave nothing to a coarse level.
+TEST(SolverChoice, ShortStepsAreIteratedOnElementByElementWhateverTheSize) {
+  SolverProblem plate = tissue(5'000, 0.45);
+  plate.has_pressure = plate.in_time = true;
+  plate.reach = 500;
+  plate.elements_a_step = 2;
+  EXPECT_EQ(choose_solver(plate).kind, SolverKind::ConjugateGradients);
+  plate.elements_a_step = 8;
+  EXPECT_EQ(choose_solver(plate).kind, SolverKind::Multigrid);
+}
+
+// Contact holds it all over; factors with pressures are large.
+TEST(SolverChoice, HeldTissueWithPressuresInContactIsNotFactoredButNearIncompressibility) {
+  SolverProblem plate = tissue(2'000, 0.45);
+  plate.has_pressure = plate.has_contact = true;
+  plate.reach = 500;
+  EXPECT_EQ(choose_solver(plate).kind, SolverKind::ConjugateGradients);
+  plate.largest_nu = 0.49;
+  EXPECT_EQ(choose_solver(plate).kind, SolverKind::SaddlePoint);
+  plate.largest_nu = 0.45;
+  plate.num_nodes -= 10;  // bones
+  EXPECT_EQ(choose_solver(plate).kind, SolverKind::SaddlePoint);
+}
+
 TEST(SolverChoice, WhatIsHeldNearbyIsIteratedOnElementByElement) {
   SolverProblem layer = tissue(3'000, 0.45);
   EXPECT_EQ(choose_solver(layer).kind, SolverKind::Multigrid);
