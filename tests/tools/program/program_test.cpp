@@ -186,6 +186,11 @@ name = "bone"
 kind = "rigid"
 geometry = { box = { size = "2 2 2 mm", cells = [1, 1, 1], center = "20 0 0 mm" } }
 density = "2 g/cm^3"
+[[body]]
+name = "stone"
+kind = "rigid"
+geometry = { box = { size = "2 2 2 mm", cells = [1, 1, 1], center = "40 0 0 mm" } }
+density = "2 g/cm^3"
 [[attach]]
 body = "disc"
 to = "floor"
@@ -240,7 +245,7 @@ slack_length = "20 mm"
         "9.00  (-1.00  0.00  0.00)          2  8.00 mm, +12.50 %\n",
         "16.00  ( 0.00  0.00 -1.00)          0  20.00 mm, -20.00 %, 0.6 mm deep through `bone`\n",
         ", around `bone`\n",
-        "At the start, where nothing presses yet, nothing but inertia resists: "})
+        "At the start, where nothing presses yet, nothing but inertia resists: body `stone` can "})
     EXPECT_NE(result.out.find(row), std::string::npos) << row << "\n" << result.out;
 }
 
