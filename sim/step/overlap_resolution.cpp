@@ -50,8 +50,9 @@ double flush_depth(const Model& model, const ContactModel& contact) {
   return kFlush * least_size(model, contact);
 }
 
-/// A deeper overlap is set apart [m]. Tissue and layers give way by as much as contact may take. Two
-/// rigid bodies don't: a hundredth of an element of bone holds enough energy to throw a tool off.
+/// A deeper overlap is set apart [m]. Tissue and layers give way by as much as contact may take.
+/// Two rigid bodies don't: a hundredth of an element of bone holds enough energy to throw a tool
+/// off.
 double kept_depth(const Model& model, const ContactModel& contact) {
   const auto is_tissue = [&](int body) {
     return model.bodies[static_cast<std::size_t>(body)].tissue >= 0;

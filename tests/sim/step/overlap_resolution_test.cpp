@@ -172,10 +172,9 @@ TEST(OverlapResolution, ABodyThatCannotFindTheWayOutIsRefused) {
 TEST(OverlapResolution, RigidBodiesAreSetApartToRoundOffAndNothingFliesOff) {
   for (const double overlap : {1e-3, 1e-5}) {
     Scenario s = contact_scene(1e-5);
-    s.bodies = {
-        box_body("floor", Body::Kind::Fixed, {0.04, 0.04, 0.01}, {0, 0, -0.005}, {4, 4, 1}),
-        box_body("brick", Body::Kind::Rigid, {0.02, 0.02, 0.01}, {0, 0, 0.005 - overlap},
-                 {3, 3, 2})};
+    s.bodies = {box_body("floor", Body::Kind::Fixed, {0.04, 0.04, 0.01}, {0, 0, -0.005}, {4, 4, 1}),
+                box_body("brick", Body::Kind::Rigid, {0.02, 0.02, 0.01}, {0, 0, 0.005 - overlap},
+                         {3, 3, 2})};
     s.loads = {gravity({0, 0, -9.81})};
     Settled settled(s);
     ASSERT_EQ(settled.resolution.overlaps.size(), 1U);
