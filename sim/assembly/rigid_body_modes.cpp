@@ -247,7 +247,7 @@ void add_turning(const Model& model, const BodyMotions& body, const std::vector<
   const int rigid = model.bodies[static_cast<std::size_t>(body.body)].rigid;
   if (rigid < 0) return;
   Mat3 turns;  // by the motions
-  for (int k = 0; k < 3; ++k) turns.col(k) = body.moves[static_cast<std::size_t>(3 + k)][1];
+  for (int k = 0; k < 3; ++k) turns.col(k) = body.moves[static_cast<std::size_t>(k) + 3][1];
   stiffness += turns.transpose() * turning[static_cast<std::size_t>(rigid)] * turns;
 }
 
