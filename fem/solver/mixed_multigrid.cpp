@@ -55,6 +55,13 @@ void MixedMultigrid::repair(Outcome outcome, ThreadPool& pool) {
 }
 
 SolveReport MixedMultigrid::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, ThreadPool& pool) {
+  const SolveReport report = iterate_and_repair(b, x, pool);
+  if (!report.converged) built_ = false;  // a preconditioner that failed is not kept
+  return report;
+}
+
+SolveReport MixedMultigrid::iterate_and_repair(const Eigen::VectorXd& b, Eigen::VectorXd& x,
+                                               ThreadPool& pool) {
   SolveReport report;
   const double b_norm = b.norm();
   if (b_norm == 0 || x.size() != b.size()) x.setZero(b.size());
@@ -89,8 +96,9 @@ MixedMultigrid::Outcome MixedMultigrid::iterate(double goal, const Eigen::Vector
   const Eigen::Index n = r_.size();
   const double first_norm = r_.norm(), b_norm = b.norm();
   const int first = report.iterations;
-  const bool may_be_too_old = use_cycle_ && !is_current_ && !age_.is_new();
-  const int patience = may_be_too_old ? age_.patience(first_norm / goal) : max_iterations_;
+  const bool is_old = use_cycle_ && !is_current_;
+  const int patience =
+      is_old && !age_.is_new() ? age_.patience(first_norm / goal) : max_iterations_;
   extended_.setZero(n + system_.num_pressures());
   extended_.head(n) = r_;
   gmres_.start(extended_, std::min(kMostDirections, max_iterations_ - first));
@@ -117,7 +125,8 @@ MixedMultigrid::Outcome MixedMultigrid::iterate(double goal, const Eigen::Vector
     const double estimate = gmres_.add(z_u_, w_);
     ++report.iterations;
     const bool must_end = gmres_.is_full() || gmres_.is_exhausted() || !std::isfinite(estimate);
-    const bool too_old = report.iterations - first >= patience;
+    // To fill the space of directions costs more than to build anew.
+    const bool too_old = report.iterations - first >= patience || (is_old && must_end);
     if (estimate > target && !must_end && !too_old) continue;
     trial_ = x;
     gmres_.add_best_to(trial_);
@@ -134,7 +143,7 @@ MixedMultigrid::Outcome MixedMultigrid::iterate(double goal, const Eigen::Vector
       r_ = next_r_;
       report.relative_residual = norm / b_norm;
     }
-    if (use_cycle_ && outcome == Outcome::Ended && norm > 0) {
+    if (use_cycle_ && norm > 0 && norm <= goal) {
       age_.add(report.iterations - first, first_norm / norm);
     }
     return outcome;

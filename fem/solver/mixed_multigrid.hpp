@@ -35,6 +35,7 @@ class MixedMultigrid {
 
   bool build(ThreadPool& pool);
   void repair(Outcome outcome, ThreadPool& pool);
+  SolveReport iterate_and_repair(const Eigen::VectorXd& b, Eigen::VectorXd& x, ThreadPool& pool);
   Outcome iterate(double goal, const Eigen::VectorXd& b, Eigen::VectorXd& x, SolveReport& report,
                   ThreadPool& pool);
 

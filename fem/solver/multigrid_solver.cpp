@@ -66,6 +66,20 @@ class MultigridSolver final : public LinearSolver {
   SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) override {
     assert(ready_);
     if (with_pressure_) return mixed_.solve(b, x, *pool_);
+    const SolveReport report = iterate_and_repair(b, x);
+    if (!report.converged) built_ = false;  // a preconditioner that failed is not kept
+    return report;
+  }
+
+ private:
+  enum class Outcome {
+    Ended,       // at the goal, or out of iterations
+    Indefinite,  // A is not positive definite
+    Unfit,       // the preconditioner is not positive definite
+    TooOld       // it takes so long that a new one pays
+  };
+
+  SolveReport iterate_and_repair(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     assert(b.size() == r_.size());
     SolveReport report;
     const double b_norm = b.norm();
@@ -90,14 +104,6 @@ class MultigridSolver final : public LinearSolver {
       }
     }
   }
-
- private:
-  enum class Outcome {
-    Ended,       // at the goal, or out of iterations
-    Indefinite,  // A is not positive definite
-    Unfit,       // the preconditioner is not positive definite
-    TooOld       // it takes so long that a new one pays
-  };
 
   bool has_positive_diagonal() {
     for (int i = 0; i < A_.num_rows(); ++i) {
@@ -195,7 +201,9 @@ class MultigridSolver final : public LinearSolver {
       })[0]);
       ++iterations;
       if (norm <= goal || iterations >= max_iterations_) {
-        if (use_cycle_ && norm > 0) age_.add(iterations - first, first_norm / norm);
+        if (use_cycle_ && norm > 0 && norm <= goal) {
+          age_.add(iterations - first, first_norm / norm);
+        }
         return Outcome::Ended;
       }
       if (iterations - first >= patience) return Outcome::TooOld;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "fem/simd/element_kernels.hpp"
+#include "fem/sparse/blas.hpp"
 
 // Declared here: cblas.h may be that of another BLAS, which has no such functions.
 extern "C" char* openblas_get_corename();
@@ -35,6 +36,7 @@ std::string cholmod_version_text() {
 }  // namespace
 
 Processor processor() {
+  set_up_blas();
   return {name_of(best_instruction_set()), openblas_get_corename(), openblas_get_config(),
           cholmod_version_text()};
 }

@@ -1,7 +1,6 @@
 #include "fem/solver/solver_choice.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace articular::fem {
@@ -48,8 +47,12 @@ double way(const SolverProblem& problem) {
 }
 
 /// Of tissue that is tied to what stands or is driven, and to no bone that moves by itself.
+bool is_held(const SolverProblem& problem) {
+  return problem.is_held && problem.num_nodes == problem.num_blocks;
+}
+
 bool is_held_within(double elements, const SolverProblem& problem) {
-  return problem.is_held && problem.num_nodes == problem.num_blocks && way(problem) < elements;
+  return is_held(problem) && way(problem) < elements;
 }
 
 SolverChoice choose_with_contact(const SolverProblem& problem) {
@@ -59,8 +62,7 @@ SolverChoice choose_with_contact(const SolverProblem& problem) {
         "contact changes the matrix, and what holds the tissue is near: nothing needs to be set "
         "up"};
   }
-  const bool is_held = is_held_within(std::numeric_limits<double>::infinity(), problem);
-  if (!problem.has_friction && problem.has_pressure && is_held &&
+  if (!problem.has_friction && problem.has_pressure && is_held(problem) &&
       problem.largest_nu < kNearlyIncompressible && problem.num_blocks >= kManyWithPressure &&
       problem.num_blocks <= kMostFactoredAtRest) {
     return {SolverKind::ConjugateGradients, 0,

@@ -8,9 +8,6 @@
 #include <stdexcept>
 #include <string>
 
-// Declared here: cblas.h may be that of another BLAS, which has no such function.
-extern "C" void openblas_set_num_threads(int num_threads);
-
 /// CHOLMOD's objects with owners, and how many threads there are; for sources, and no other header.
 namespace articular::fem {
 
@@ -61,9 +58,5 @@ class OneThread {
  private:
   int levels_ = omp_get_max_active_levels();
 };
-
-/// OpenBLAS splits its sums by the number of threads: with one the answer has the same bits
-/// everywhere. The setting is that of the process; nothing else uses BLAS.
-inline void use_one_blas_thread() { openblas_set_num_threads(1); }
 
 }  // namespace articular::fem

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fem/sparse/cholmod_handles.hpp"
+#include "fem/sparse/blas.hpp"
 #include "fem/sparse/supernodes.hpp"
 
 namespace articular::fem {
@@ -111,7 +111,7 @@ struct SignedCholesky::Factor {
 };
 
 SignedCholesky::SignedCholesky(std::shared_ptr<ThreadPool> pool) : pool_(std::move(pool)) {
-  use_one_blas_thread();
+  set_up_blas();
 }
 SignedCholesky::~SignedCholesky() = default;
 SignedCholesky::SignedCholesky(SignedCholesky&&) noexcept = default;

@@ -1,7 +1,6 @@
 #include "sim/assembly/turning_stiffness.hpp"
 
-#include <span>
-
+#include "sim/lines/line_force.hpp"
 #include "sim/loads/gravity.hpp"
 #include "sim/scenario/curve.hpp"
 
@@ -28,16 +27,6 @@ struct Turning {
   }
 };
 
-void add_line(std::span<const WeightedPoint> path, const Configuration& now, double tension,
-              Turning& turning) {
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const Vec3 pull =
-        tension * (now.position(path[i + 1]) - now.position(path[i])).stableNormalized();
-    turning.add(path[i], pull);
-    turning.add(path[i + 1], -pull);
-  }
-}
-
 /// Bodies without a hold turn about their centers of mass.
 void add_weights_of_held_bodies(const Model& model, const Configuration& now, Turning& turning) {
   const Vec3 acceleration = gravity_at(model, now.t);
@@ -58,7 +47,9 @@ std::vector<Mat3> turning_stiffness(const Moment& now) {
   const auto num_rigid = static_cast<std::size_t>(model.layout.num_rigid);
   Turning turning{configuration, std::vector<Mat3>(num_rigid, Mat3::Zero())};
   for (std::size_t l = 0; l < model.lines.size(); ++l)
-    add_line(path_of(now, l), configuration, now.lines[l].tension, turning);
+    for_each_pull(
+        path_of(now, l), configuration, now.lines[l].tension,
+        [&](const WeightedPoint& point, const Vec3& force) { turning.add(point, force); });
   for (const ForceModel& force : model.forces)
     turning.add(force.point, value_at(force.profile, configuration.t) * force.force);
   add_weights_of_held_bodies(model, configuration, turning);

@@ -9,6 +9,7 @@
 
 #include "sim/base/error.hpp"
 #include "sim/mesh/chord_depth.hpp"
+#include "sim/mesh/extent.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
@@ -20,10 +21,6 @@ constexpr double kMostStrain = 0.5;
 /// Between what is tied, of the longest side of the tissue's box: horns of a meniscus end above the
 /// tibia.
 constexpr double kMostGap = 0.1;
-
-double longest_side(const Positions& X) {
-  return (X.rowwise().maxCoeff() - X.rowwise().minCoeff()).maxCoeff();
-}
 
 class Doubts {
  public:
@@ -57,23 +54,28 @@ class Doubts {
     const std::size_t a = index(attachment.body), b = index(attachment.to);
     const MeshData& bone = geometry_[b].mesh;
     if (bone.triangles.cols() == 0 || !tied_.insert({a, b}).second) return;
-    const double gap = gap_between(tissue(a), bone, model_.bodies[b].rigid);
-    if (gap > std::max(element_size(tissue(a)), kMostGap * longest_side(tissue(a).X)))
+    const double enough = std::max(element_size(tissue(a)), kMostGap * extent(tissue(a).X));
+    const double gap = gap_between(tissue(a), bone, model_.bodies[b].rigid, enough);
+    if (gap > enough)
       doubt(attachment.where,
             fmt::format("`{}` is tied to `{}` across a gap of {:.3g} mm: is it the right body, and "
                         "do both meshes have the same unit?",
                         attachment.body, attachment.to, 1e3 * gap));
   }
 
-  /// From the nearest node that is tied; 0 where one lies within.
-  static double gap_between(const Tissue& tissue, const MeshData& bone, int rigid) {
+  /// From the nearest node that is tied; 0 where one lies within, or as near as `enough`.
+  static double gap_between(const Tissue& tissue, const MeshData& bone, int rigid, double enough) {
     const TriangleTree tree(bone.X, bone.triangles);
+    std::vector<Vec3> tied;
+    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+      if (tissue.nodes[i].rigid == rigid)
+        tied.push_back(tissue.X.col(static_cast<Eigen::Index>(i)));
+    const auto is_near = [&](const Vec3& x) { return tree.is_within(x, enough); };
+    if (std::any_of(tied.begin(), tied.end(), is_near)) return 0;
     double gap = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
-      if (tissue.nodes[i].rigid != rigid) continue;
-      const Vec3 x = tissue.X.col(static_cast<Eigen::Index>(i));
-      gap = std::min(gap, tree.distance(x));
+    for (const Vec3& x : tied) {  // what lies deep within asks every triangle: last
       if (depth_inside(bone.X, bone.triangles, tree, x) > 0) return 0;
+      gap = std::min(gap, tree.distance(x));
     }
     return gap;
   }

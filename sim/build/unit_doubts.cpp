@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "sim/base/error.hpp"
+#include "sim/mesh/extent.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
@@ -27,11 +28,6 @@ constexpr double kMostTurn = 2 * std::numbers::pi * (1 + 1e-9);  // [rad]
 
 bool is_usual(double value, const Usual& range) {
   return value >= range.least && value <= range.most;
-}
-
-/// The longest side of the box around it [m].
-double extent(const Positions& X) {
-  return X.cols() > 0 ? (X.rowwise().maxCoeff() - X.rowwise().minCoeff()).maxCoeff() : 0;
 }
 
 const std::vector<double>& times_of(const Load& load) {
@@ -78,17 +74,29 @@ void doubt_surface_loads(const Scenario& scenario, const Model& model, const Dou
     const double stress =
         largest_factor(load->profile) *
         (pressure != nullptr ? std::abs(*pressure) : std::get<Vec3>(load->stress).norm());
-    for (const BodyModel& body : model.bodies) {
-      if (body.name != load->at.tissue) continue;
-      const double modulus =
-          constrained_modulus(model.tissues[static_cast<std::size_t>(body.tissue)]);
-      if (stress > modulus)
-        doubt(load->where,
-              fmt::format("the {} of {:.3g} kPa on `{}` is {:.2g} times its modulus in confined "
-                          "compression",
-                          pressure != nullptr ? "pressure" : "traction", 1e-3 * stress, body.name,
-                          stress / modulus));
-    }
+    const auto body = static_cast<std::size_t>(body_index(scenario, load->at.tissue));
+    const double modulus =
+        constrained_modulus(model.tissues[static_cast<std::size_t>(model.bodies[body].tissue)]);
+    if (stress > modulus)
+      doubt(load->where,
+            fmt::format("the {} of {:.3g} kPa on `{}` is {:.2g} times its modulus in confined "
+                        "compression",
+                        pressure != nullptr ? "pressure" : "traction", 1e-3 * stress,
+                        load->at.tissue, stress / modulus));
+  }
+}
+
+/// Radians are read as degrees, and degrees as radians.
+template <class Doubt>
+void doubt_turns(const Scenario& scenario, const Doubt& doubt) {
+  for (const Load& load : scenario.loads) {
+    const auto* const motion = std::get_if<MotionLoad>(&load);
+    if (motion == nullptr) continue;
+    double most = 0;  // [rad]
+    for (const Vec3& rotation : motion->motion.rotation) most = std::max(most, rotation.norm());
+    if (most > kMostTurn)
+      doubt(motion->where, fmt::format("a motion turns `{}` by {:.4g} degrees", motion->body,
+                                       most * 180 / std::numbers::pi));
   }
 }
 
@@ -121,14 +129,7 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
     if (muscle.tissue.empty() && !is_usual(muscle.max_force, kForce))
       doubt(muscle.where, fmt::format("muscle `{}` has a largest force of {:.3g} N", muscle.name,
                                       muscle.max_force));
-  for (const Load& load : scenario.loads)
-    if (const auto* motion = std::get_if<MotionLoad>(&load))
-      for (const Vec3& rotation : motion->motion.rotation)
-        if (rotation.norm() > kMostTurn) {
-          doubt(motion->where, fmt::format("a motion turns `{}` by {:.4g} degrees", motion->body,
-                                           rotation.norm() * 180 / std::numbers::pi));
-          break;
-        }
+  doubt_turns(scenario, doubt);
   doubt_surface_loads(scenario, model, doubt);
   doubt_times(scenario, doubt);
   return doubts;

@@ -24,6 +24,16 @@ double damping_factor(const ContactPairState& pair_state, const ContactPairState
   return factor.dot(depths) / depths.sum();
 }
 
+/// Around the neighbours of each smoothing group, the largest.
+Eigen::VectorXd largest_beside(const Eigen::Matrix3Xi& groups, const Eigen::VectorXd& pressures) {
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(pressures.size());
+  for (const auto& face : groups.colwise())
+    for (int i = 0; i < 3; ++i)
+      largest[face[i]] =
+          std::max({largest[face[i]], pressures[face[(i + 1) % 3]], pressures[face[(i + 2) % 3]]});
+  return largest;
+}
+
 }  // namespace
 
 Vec3 pressure_integrals(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
@@ -81,12 +91,14 @@ Eigen::VectorXd group_areas(const Collider& collider, const PressureLoad& load) 
 Eigen::VectorXd group_pressures(const Collider& collider, const PressureLoad& load) {
   const Eigen::VectorXd areas = group_areas(collider, load);
   Eigen::VectorXd pressures = Eigen::VectorXd::Zero(areas.size());
-  for (Eigen::Index g = 0; g < areas.size(); ++g) {
-    if (!(load.force[g] > 0)) continue;
-    pressures[g] = load.force[g] / std::max(load.covered[g], kLeastShare * areas[g]);
-    if (load.covered[g] < kBlankShare * areas[g])
+  for (Eigen::Index g = 0; g < areas.size(); ++g)
+    if (load.force[g] > 0)
+      pressures[g] = load.force[g] / std::max(load.covered[g], kLeastShare * areas[g]);
+  const Eigen::VectorXd beside = largest_beside(collider.groups, pressures);
+  for (Eigen::Index g = 0; g < areas.size(); ++g)
+    if (load.force[g] > 0 &&
+        (load.covered[g] < kBlankShare * areas[g] || pressures[g] > kMostPeak * beside[g]))
       pressures[g] = std::numeric_limits<double>::quiet_NaN();
-  }
   return pressures;
 }
 

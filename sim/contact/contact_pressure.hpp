@@ -23,11 +23,14 @@
 /// a projection with a lumped mass matrix, no larger than p is anywhere on these patches. As
 /// averaged depths may make any p on a sliver, the mean is over kLeastShare of the group's area at
 /// least: where the patches cover less, p falls to nothing with what they cover. Below kBlankShare
-/// it is blank: there a mesh of that size says nothing of p.
+/// it is blank: there a mesh of that size says nothing of p. So it is where p is more than
+/// kMostPeak times what it is around any neighbour: one node does not resolve a peak.
 namespace articular::sim {
 
 /// Of the area around a node.
 inline constexpr double kLeastShare = 0.25, kBlankShare = 0.05;
+/// Of the largest pressure around a neighbour.
+inline constexpr double kMostPeak = 4;
 /// Nodes of which at least kLeastShare carries, to tell the pressures of a contact: fewer span no
 /// area.
 inline constexpr int kResolvedNodes = 3;

@@ -8,18 +8,6 @@
 namespace articular::sim {
 namespace {
 
-struct Segment {
-  Vec3 direction = Vec3::Zero();
-  double length = 0;
-};
-
-Segment segment(std::span<const WeightedPoint> path, std::size_t i,
-                const Configuration& configuration) {
-  const Vec3 d = configuration.position(path[i + 1]) - configuration.position(path[i]);
-  const double length = d.norm();
-  return {length > 0 ? Vec3(d / length) : Vec3::Zero(), length};
-}
-
 void muscle_tension(const MuscleModel& muscle, double activation, LineState& s) {
   const Muscle& m = muscle.given;
   const double l0 = muscle.optimal_length, speed = m.max_velocity * l0;
@@ -61,6 +49,13 @@ void ligament_tension(const LigamentModel& ligament, LineState& s) {
 
 }  // namespace
 
+Segment segment(std::span<const WeightedPoint> path, std::size_t i,
+                const Configuration& configuration) {
+  const Vec3 d = configuration.position(path[i + 1]) - configuration.position(path[i]);
+  const double length = d.norm();
+  return {length > 0 ? Vec3(d / length) : Vec3::Zero(), length};
+}
+
 LineState line_state(const Model& model, const Line& line, std::span<const WeightedPoint> path,
                      const Configuration& configuration) {
   LineState s;
@@ -80,26 +75,19 @@ LineState line_state(const Model& model, const Line& line, std::span<const Weigh
 
 void add_line_force(std::span<const WeightedPoint> path, const Configuration& configuration,
                     double tension, Eigen::VectorXd& f) {
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const Vec3 pull = tension * segment(path, i, configuration).direction;
-    add_force(configuration, path[i], pull, f);
-    add_force(configuration, path[i + 1], -pull, f);
-  }
+  for_each_pull(path, configuration, tension, [&](const WeightedPoint& point, const Vec3& force) {
+    add_force(configuration, point, force, f);
+  });
 }
 
 Vec3 moment_of_line(std::span<const WeightedPoint> path, const Configuration& configuration,
                     int rigid, const Vec3& about) {
   Vec3 moment = Vec3::Zero();
-  const auto pull = [&](const WeightedPoint& point, const Vec3& force) {
+  for_each_pull(path, configuration, 1, [&](const WeightedPoint& point, const Vec3& force) {
     for (std::size_t k = 0; k < point.nodes.size(); ++k)
       if (point.nodes[k].rigid == rigid)
         moment += point.weights[k] * (configuration.position(point.nodes[k]) - about).cross(force);
-  };
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const Vec3 direction = segment(path, i, configuration).direction;
-    pull(path[i], direction);
-    pull(path[i + 1], -direction);
-  }
+  });
   return moment;
 }
 

@@ -8,6 +8,27 @@
 /// Muscles and ligaments as lines through points: one tension along the whole path.
 namespace articular::sim {
 
+/// From one point of a line to the next.
+struct Segment {
+  Vec3 direction = Vec3::Zero();  // of length one; zero where the points coincide
+  double length = 0;              // [m]
+};
+
+/// From point i of a path to the next.
+Segment segment(std::span<const WeightedPoint> path, std::size_t i,
+                const Configuration& configuration);
+
+/// visit(point, force) for both ends of each segment of a line under a tension [N].
+template <class Visit>
+void for_each_pull(std::span<const WeightedPoint> path, const Configuration& configuration,
+                   double tension, const Visit& visit) {
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Vec3 pull = tension * segment(path, i, configuration).direction;
+    visit(path[i], pull);
+    visit(path[i + 1], -pull);
+  }
+}
+
 struct LineState {
   double length = 0, rate = 0;  // [m], [m/s]
   double tension = 0;           // [N]

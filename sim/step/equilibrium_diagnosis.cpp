@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "sim/contact/contact_overview.hpp"
+
 namespace articular::sim {
 namespace {
 
@@ -96,6 +98,27 @@ std::string softest_motion(const Model& model, const SoftMotion& softest, double
           : std::string());
 }
 
+/// Tissue that is tied to a body, and beside that pressed onto it: what is tied can't give way.
+std::string tied_and_pressed(const Model& model) {
+  std::string words;
+  std::size_t told = 0;
+  for (const ContactOverview& pair : contact_overviews(model)) {
+    if (pair.num_close_faces == 0 || told == kMostTold) continue;
+    const ContactModel contact = model.contacts[pair.contact];
+    const auto [tissue, other] = model.bodies[static_cast<std::size_t>(contact.a)].tissue >= 0
+                                     ? std::pair(contact.a, contact.b)
+                                     : std::pair(contact.b, contact.a);
+    words += fmt::format(
+        "\n  `{}` is tied to `{}` at {} nodes, and {} faces beside them lie within half an element "
+        "of it and may press on it: tie those too, or let the two not touch "
+        "(`articular check --contact`)",
+        body_name(model, tissue), body_name(model, other), pair.num_tied_nodes,
+        pair.num_close_faces);
+    ++told;
+  }
+  return words;
+}
+
 }  // namespace
 
 EquilibriumDiagnosis diagnose_equilibrium(const Moment& now,
@@ -117,6 +140,7 @@ EquilibriumDiagnosis diagnose_equilibrium(const Moment& now,
   }
   const std::size_t last = std::min(kLastIterations, tries.size());
   diagnosis.details += what_flips(model, tries.last(last));
+  diagnosis.details += tied_and_pressed(model);
   diagnosis.details +=
       diagnosis.is_nearly_free
           ? "\n  to add: a ligament, an attachment or `hold` that resists this motion; where it is "

@@ -283,4 +283,45 @@ TEST(MultigridWithPressure, ReportsIndefiniteAndBrokenMatrices) {
   EXPECT_TRUE(solve(*solver, box, x).converged);
 }
 
+/// Nodes get units of 1 to 10^6 m, or with −1 those that they had.
+void change_units(double sign, SmoothedBox& box) {
+  const auto unit = [&](int i) { return std::pow(10.0, sign * (i % 7)); };
+  for (int i = 0; i < box.K.num_blocks(); ++i) {
+    for (BlockMatrix* A : {&box.K, &box.plain}) {
+      for (int s = A->row_begin()[i]; s < A->row_begin()[i + 1]; ++s) {
+        A->block(s) *= unit(i) * unit(A->column()[s]);
+      }
+    }
+    for (int s = box.G.row_begin()[i]; s < box.G.row_begin()[i + 1]; ++s) {
+      box.G.block(s) *= unit(i);
+    }
+  }
+}
+
+// A cycle of a matrix that it could not solve with, or hardly, is no measure of what one should
+// take: the next matrix gets its own.
+TEST(MultigridWithPressure, KeepsNothingOfAMatrixThatItFailedWith) {
+  SmoothedBox box = smoothed_box(cube(6), 0.499);
+  const int fresh = iterations(smoothed_box(cube(6), 0.499));
+  const auto solver = make_multigrid(kTolerance, fresh + 2);
+  Eigen::VectorXd x;
+  change_units(1, box);
+  EXPECT_FALSE(solve(*solver, box, x).converged);
+  change_units(-1, box);
+  EXPECT_TRUE(solve(*solver, box, x).converged);
+}
+
+TEST(MultigridWithPressure, ReplacesACycleThatFillsTheSpaceOfDirections) {
+  SmoothedBox box = smoothed_box(cube(6), 0.499);
+  const int fresh = iterations(smoothed_box(cube(6), 0.499));
+  const auto solver = make_multigrid(kTolerance, 5 * kMostIterations);
+  Eigen::VectorXd x;
+  change_units(1, box);
+  EXPECT_GT(solve(*solver, box, x).iterations, 80);
+  change_units(-1, box);
+  const SolveReport easy = solve(*solver, box, x);
+  EXPECT_TRUE(easy.converged);
+  EXPECT_LE(easy.iterations, 82 + fresh);
+}
+
 }  // namespace articular::fem::multigrid_pressure_test

@@ -60,6 +60,15 @@ TEST_P(HostileTest, Converges) {
   EXPECT_EQ(report.repairs, 0);
 }
 
+// A cycle of a matrix that it could not solve with is no measure of what one should take.
+TEST(Multigrid, KeepsNothingOfAMatrixThatItFailedWith) {
+  Eigen::VectorXd x;
+  const int fresh = solve(*make_multigrid(kTolerance, kMostIterations), cube(6), x).iterations;
+  const auto solver = make_multigrid(kTolerance, fresh + 2);
+  EXPECT_FALSE(solve(*solver, cube(6, 0.4999), x).converged);
+  EXPECT_TRUE(solve(*solver, cube(6), x).converged);
+}
+
 INSTANTIATE_TEST_SUITE_P(Multigrid, HostileTest, testing::Range(0, 10));
 
 class PreconditionerTest : public testing::Test {

@@ -299,6 +299,7 @@ TEST(ContactPressure, AtACreaseIsTheLargestOfWhatIsKnownOfItsSides) {
   const auto pressure_of = [&](const std::array<double, 3>& p) {  // < 0: of a sliver
     PressureLoad load = no_load(pressed.now, collider);
     const Eigen::VectorXd areas = group_areas(collider, load);
+    load.force = load.covered = areas;  // 1 Pa around all other nodes
     for (std::size_t i = 0; i < 3; ++i) {
       const int g = sides[i];
       load.covered[g] = (p[i] < 0 ? 0.9 * kBlankShare : 1.1 * kLeastShare) * areas[g];
@@ -311,6 +312,39 @@ TEST(ContactPressure, AtACreaseIsTheLargestOfWhatIsKnownOfItsSides) {
   EXPECT_NEAR(pressure_of(other_blank), 2, 1e-12);
   EXPECT_TRUE(std::isnan(pressure_of(blank)));
   EXPECT_EQ(pressure_of(nothing), 0);
+}
+
+// One node of the block's top has a pressure of its own among others with 1 Pa, and then a row of
+// them.
+TEST(ContactPressure, APeakAroundOneNodeIsBlankAndARidgeIsNot) {
+  const Pressed pressed(under_a_plate_from(0));
+  const Collider& collider = pressed.collider(0);
+  const auto is_in_the_middle = [&](int g) {
+    const auto x = collider.X.col(collider.group_node[static_cast<std::size_t>(g)]);
+    return (x - Vec3::Zero()).norm() < 1e-9;
+  };
+  const auto is_in_the_row = [&](int g) {
+    const auto x = collider.X.col(collider.group_node[static_cast<std::size_t>(g)]);
+    return std::abs(x[0]) + std::abs(x[2]) < 1e-9;
+  };
+  const auto pressures = [&](double p, double others, const auto& is_loaded) {
+    PressureLoad load = no_load(pressed.now, collider);
+    load.covered = group_areas(collider, load);
+    load.force = others * load.covered;
+    for (int g = 0; g < load.force.size(); ++g)
+      if (is_loaded(g)) load.force[g] = p * load.covered[g];
+    return node_pressures(collider, load);
+  };
+  for (const double p : {0.9 * kMostPeak, 1.1 * kMostPeak}) {
+    const Eigen::VectorXd peak = pressures(p, 1, is_in_the_middle),
+                          ridge = pressures(p, 1, is_in_the_row);
+    EXPECT_EQ(peak.array().isNaN().count(), p < kMostPeak ? 0 : 1);
+    if (p < kMostPeak) {
+      EXPECT_NEAR(peak.maxCoeff(), p, 1e-12 * p);
+    }
+    EXPECT_NEAR(ridge.maxCoeff(), p, 1e-12 * p);
+  }
+  EXPECT_EQ(pressures(1, 0, is_in_the_middle).array().isNaN().count(), 1);
 }
 
 TEST(ContactPressure, IsNotToldOfAContactThatIsNowhereResolved) {

@@ -116,6 +116,23 @@ TEST(EquilibriumDiagnosis, NamesWhatOpensAndClosesAndHowOften) {
       << diagnosis.details;
 }
 
+// The slope is tied to the frame by its bottom; a plate of the frame's own lies under it, a quarter
+// of an element below the faces beside what is tied.
+TEST(EquilibriumDiagnosis, NamesTissueThatIsTiedAndPressedOntoTheSameBody) {
+  const auto details_of = [](double below) {
+    Scenario s = plate_on_a_slope(1000);
+    s.attachments = {attach("slope", "frame", {-1, -1, -1}, {-0.019, 1, 1})};
+    s.bodies[2] = box_body("frame", Body::Kind::Fixed, {0.2, 0.2, 0.01}, {0, 0, -0.009 - below});
+    s.contacts.push_back({"slope", "frame", {}});
+    Simulation run(s);
+    return diagnose_equilibrium(run.stepper.now(), std::nullopt, {}).details;
+  };
+  const std::string near = details_of(0.0005), far = details_of(0.01);
+  EXPECT_NE(near.find("`slope` is tied to `frame` at 30 nodes"), std::string::npos) << near;
+  EXPECT_NE(near.find("`articular check --contact`"), std::string::npos) << near;
+  EXPECT_EQ(far.find("is tied to"), std::string::npos) << far;
+}
+
 // A force of 1 N on a motion with 1 N/m goes a metre; with 1e6 N/m nowhere.
 TEST(EquilibriumDiagnosis, CallsAMotionNearlyFreeByHowFarTheLargestForceCarriesIt) {
   Simulation run(plate_on_a_slope(1000));
