@@ -26,10 +26,11 @@ constexpr int kStartFrom = 5;  // solutions
 // or there is none, contact may take multigrid a hundred iterations (the knee at 1000 N), and a
 // factorization never does.
 constexpr int kMostFactoredInContact = 2'500, kMostFactoredAtRest = 6'000;
-// Pressures make factors several times as large. Tissue that contact holds all over takes block
-// Jacobi a hundred iterations, however slender it is, but for that of higher Poisson's ratios: from
-// so many blocks on they cost less.
-constexpr int kManyWithPressure = 400;
+// Tissue that contact holds all over takes block Jacobi some hundred iterations, but for that of
+// higher Poisson's ratios. Along it they grow with the elements, as do the columns of a factor,
+// each of which costs the square of the blocks across: from such ratios on iterations cost less.
+// Pressures make factors several times as large.
+constexpr double kWide = 100, kWideWithPressure = 20;
 constexpr double kShortWay = 40;
 
 // Block Jacobi passes on what happens by one element in an iteration. From so many elements on
@@ -51,6 +52,12 @@ bool is_held(const SolverProblem& problem) {
   return problem.is_held && problem.num_nodes == problem.num_blocks;
 }
 
+/// Square of the blocks across it by the elements along it.
+double wideness(const SolverProblem& problem) {
+  const double across = problem.num_blocks / problem.along;
+  return across * across / problem.along;
+}
+
 bool is_held_within(double elements, const SolverProblem& problem) {
   return is_held(problem) && way(problem) < elements;
 }
@@ -62,9 +69,9 @@ SolverChoice choose_with_contact(const SolverProblem& problem) {
         "contact changes the matrix, and what holds the tissue is near: nothing needs to be set "
         "up"};
   }
-  if (!problem.has_friction && problem.has_pressure && is_held(problem) &&
-      problem.largest_nu < kNearlyIncompressible && problem.num_blocks >= kManyWithPressure &&
-      problem.num_blocks <= kMostFactoredAtRest) {
+  const bool is_wide = wideness(problem) > (problem.has_pressure ? kWideWithPressure : kWide);
+  if (!problem.has_friction && is_held(problem) && is_wide &&
+      problem.largest_nu < kNearlyIncompressible && problem.num_blocks <= kMostFactoredAtRest) {
     return {SolverKind::ConjugateGradients, 0,
             "contact changes the matrix and holds the tissue all over: nothing needs to be set up"};
   }

@@ -19,6 +19,7 @@ struct SolverProblem {
   /// How far it is from a force to what holds the tissue, in elements, times how slender the way is
   /// [-]: what iterations without a coarse level grow with. A cube held at a side: cells along it.
   double reach = 10;
+  double along = 10;    // the longest side of the tissue, in elements [-]
   bool is_held = true;  // all tissue is tied to what does not move freely
 };
 

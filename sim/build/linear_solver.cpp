@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "sim/mesh/extent.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
@@ -53,8 +54,10 @@ fem::SolverProblem problem_of(const Scenario& scenario, const Model& model) {
   problem.has_friction = has_friction(model);
   problem.in_time = !model.is_static;
   problem.reach = 0;
+  problem.along = 1;
   for (const Tissue& tissue : model.tissues) {
     problem.reach = std::max(problem.reach, reach_of(tissue));
+    problem.along = std::max(problem.along, extent(tissue.X) / element_size(tissue));
     problem.is_held = problem.is_held && is_tied(tissue);
     problem.has_pressure |= tissue.elements.smoothed() != nullptr;
     problem.largest_nu = std::max(problem.largest_nu, poisson_ratio(tissue));

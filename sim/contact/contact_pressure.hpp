@@ -30,7 +30,7 @@ namespace articular::sim {
 /// Of the area around a node.
 inline constexpr double kLeastShare = 0.25, kBlankShare = 0.05;
 /// Of the largest pressure around a neighbour.
-inline constexpr double kMostPeak = 4;
+inline constexpr double kMostPeak = 2.5;
 /// Nodes of which at least kLeastShare carries, to tell the pressures of a contact: fewer span no
 /// area.
 inline constexpr int kResolvedNodes = 3;

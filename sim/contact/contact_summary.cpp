@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -95,8 +96,8 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
   }
 }
 
-/// The pressures of a body's surface in the summary. @return around how many nodes they are
-/// resolved
+/// The pressures of a body's surface in the summary: those of faces too only where all corners have
+/// one. @return around how many nodes they are resolved
 int add_pressures(const CountedLoad& on_body, const Collider& collider, ContactSummary& sum) {
   const Eigen::VectorXd pressures = group_pressures(collider, on_body.all),
                         areas = group_areas(collider, on_body.all);
@@ -106,10 +107,15 @@ int add_pressures(const CountedLoad& on_body, const Collider& collider, ContactS
     if (on_body.all.covered[g] >= kLeastShare * areas[g]) ++num_resolved;
     sum.max_pressure = std::max(sum.max_pressure, pressures[g]);
   }
-  for (Eigen::Index f = 0; f < on_body.through.size(); ++f)
-    if (on_body.through[f] > 0)
-      sum.max_face_pressure =
-          std::max(sum.max_face_pressure, on_body.through[f] / on_body.all.face_area[f]);
+  for (Eigen::Index f = 0; f < on_body.through.size(); ++f) {
+    if (!(on_body.through[f] > 0)) continue;
+    const auto corners = collider.groups.col(f);
+    if (std::any_of(corners.begin(), corners.end(),
+                    [&](int g) { return std::isnan(pressures[g]); }))
+      continue;
+    sum.max_face_pressure =
+        std::max(sum.max_face_pressure, on_body.through[f] / on_body.all.face_area[f]);
+  }
   return num_resolved;
 }
 
@@ -123,7 +129,8 @@ ContactSummary finished(const Model& model, SummarySums sums) {
   };
   const int num_resolved = std::max(add_pressures(sums.on_a, collider(pair.a), sum),
                                     add_pressures(sums.on_b, collider(pair.b), sum));
-  sum.is_resolved = !(sum.normal_force > 0) || num_resolved >= kResolvedNodes;
+  sum.is_resolved =
+      !(sum.normal_force > 0) || (num_resolved >= kResolvedNodes && sum.max_face_pressure > 0);
   return sum;
 }
 

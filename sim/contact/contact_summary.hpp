@@ -10,18 +10,19 @@ namespace articular::sim {
 /// What one contact pair carries; force and moment on body a, of a body with itself none.
 struct ContactSummary {
   ContactId contact = 0;
-  Vec3 force = Vec3::Zero();     // [N]
-  Vec3 center = Vec3::Zero();    // ∫ p x dA / ∫ p dA [m]; where nothing carries, the origin
-  Vec3 moment = Vec3::Zero();    // about that centre [N m]
-  double area = 0;               // [m²] rest area of the nodes that carry
-  double normal_force = 0;       // ∫ p dA over it [N]
-  double max_pressure = 0;       // [Pa] around a node of either body, see contact_pressure.hpp
-  double max_face_pressure = 0;  // [Pa] normal force through a face, of either body, by its area
-  bool is_resolved = true;       // or too few nodes have a pressure to tell the largest
-  double max_depth = 0;          // [m] mean depth at a node
-  Vec3 deepest = Vec3::Zero();   // that node [m]
-  double max_point_depth = 0;    // [m] of any point: facets can't follow a curve
-  double energy = 0;             // [J]
+  Vec3 force = Vec3::Zero();   // [N]
+  Vec3 center = Vec3::Zero();  // ∫ p x dA / ∫ p dA [m]; where nothing carries, the origin
+  Vec3 moment = Vec3::Zero();  // about that centre [N m]
+  double area = 0;             // [m²] rest area of the nodes that carry
+  double normal_force = 0;     // ∫ p dA over it [N]
+  double max_pressure = 0;     // [Pa] around a node of either body, see contact_pressure.hpp
+  /// [Pa] normal force through a face, of either body, by its area: of faces without blank corners
+  double max_face_pressure = 0;
+  bool is_resolved = true;      // or too few nodes have a pressure to tell the largest
+  double max_depth = 0;         // [m] mean depth at a node
+  Vec3 deepest = Vec3::Zero();  // that node [m]
+  double max_point_depth = 0;   // [m] of any point: facets can't follow a curve
+  double energy = 0;            // [J]
 };
 
 /// What contact with all others puts on the surface of one body.

@@ -88,12 +88,22 @@ TEST(SolverChoice, ShortStepsAreIteratedOnElementByElementWhateverTheSize) {
   EXPECT_EQ(choose_solver(plate).kind, SolverKind::Multigrid);
 }
 
-// Contact holds it all over; factors with pressures are large.
-TEST(SolverChoice, HeldTissueWithPressuresInContactIsNotFactoredButNearIncompressibility) {
+// Contact holds it all over. What a factor costs grows with the square of the blocks across.
+TEST(SolverChoice, HeldTissueInContactIsFactoredWhereItIsSlenderOrNearlyIncompressible) {
   SolverProblem plate = tissue(2'000, 0.45);
   plate.has_pressure = plate.has_contact = true;
   plate.reach = 500;
+  plate.along = 30;  // 67 blocks across
   EXPECT_EQ(choose_solver(plate).kind, SolverKind::ConjugateGradients);
+  plate.has_pressure = false;
+  EXPECT_EQ(choose_solver(plate).kind, SolverKind::ConjugateGradients);
+  plate.along = 40;  // 50
+  EXPECT_EQ(choose_solver(plate).kind, SolverKind::Cholesky);
+  plate.has_pressure = true;
+  EXPECT_EQ(choose_solver(plate).kind, SolverKind::ConjugateGradients);
+  plate.along = 80;  // 25
+  EXPECT_EQ(choose_solver(plate).kind, SolverKind::SaddlePoint);
+  plate.along = 30;
   plate.largest_nu = 0.49;
   EXPECT_EQ(choose_solver(plate).kind, SolverKind::SaddlePoint);
   plate.largest_nu = 0.45;
@@ -113,6 +123,7 @@ TEST(SolverChoice, WhatIsHeldNearbyIsIteratedOnElementByElement) {
   EXPECT_EQ(choose_solver(layer).kind, SolverKind::Cholesky);
   layer.has_friction = false;
   layer.reach = 200;
+  layer.along = 60;
   EXPECT_EQ(choose_solver(layer).kind, SolverKind::Cholesky);
   layer.reach = 12;
   layer.num_nodes -= 10;  // bones

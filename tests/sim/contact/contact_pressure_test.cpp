@@ -299,7 +299,8 @@ TEST(ContactPressure, AtACreaseIsTheLargestOfWhatIsKnownOfItsSides) {
   const auto pressure_of = [&](const std::array<double, 3>& p) {  // < 0: of a sliver
     PressureLoad load = no_load(pressed.now, collider);
     const Eigen::VectorXd areas = group_areas(collider, load);
-    load.force = load.covered = areas;  // 1 Pa around all other nodes
+    load.covered = areas;
+    load.force = 2 * areas;  // 2 Pa around all other nodes
     for (std::size_t i = 0; i < 3; ++i) {
       const int g = sides[i];
       load.covered[g] = (p[i] < 0 ? 0.9 * kBlankShare : 1.1 * kLeastShare) * areas[g];
@@ -345,6 +346,23 @@ TEST(ContactPressure, APeakAroundOneNodeIsBlankAndARidgeIsNot) {
     EXPECT_NEAR(ridge.maxCoeff(), p, 1e-12 * p);
   }
   EXPECT_EQ(pressures(1, 0, is_in_the_middle).array().isNaN().count(), 1);
+}
+
+// A thorn of the plate in the middle of the block.
+TEST(ContactPressure, OfFacesAroundALonePeakIsNotTheLargest) {
+  const double p = kStiffness * kDepth;
+  const TemporaryFolder folder;
+  Scenario s = under_a_plate_from(-0.5);
+  const MeshData plate = bent(std::get<BoxGeometry>(s.bodies[1].geometry), [](Vec3 X) {
+    if (X.head<2>().norm() < 1e-9 && X.z() < 0) X.z() -= 20 * kDepth;
+    return X;
+  });
+  s.bodies[1] = mesh_body("plate", Body::Kind::Fixed, plate, folder);
+  const Pressed pressed(s);
+  EXPECT_GT(pressed.at_nodes(0).array().isNaN().count(), 0);
+  EXPECT_GT(face_pressures(pressed.loads[0]).maxCoeff(), kMostPeak * p);
+  EXPECT_LT(pressed.summary().max_face_pressure, 1.1 * p);
+  EXPECT_GT(pressed.summary().max_face_pressure, 0.99 * p);
 }
 
 TEST(ContactPressure, IsNotToldOfAContactThatIsNowhereResolved) {
