@@ -16,7 +16,8 @@ constexpr int kMostFactored = 2'000, kMostFactoredVeryLocked = 10'000;
 // and cheaper. A nodal pressure, which it converges with at any rate, shifts that.
 constexpr double kCompressible = 0.4;
 constexpr int kFewForMultigrid = 300, kFewWithPressure = 250, kFewCompressible = 6'000;
-// A slender or flat body of so few blocks is soon factored.
+// So few blocks are soon factored: those of a slender or flat body, and of nearly incompressible
+// tissue in contact.
 constexpr int kFewAndFar = 500;
 constexpr int kStartFrom = 5;  // solutions
 
@@ -40,6 +41,9 @@ constexpr double kShortWay = 40;
 // solutions with each matrix. In steps in which waves get no farther than kStep it is block
 // Jacobi's whatever holds it.
 constexpr double kFar = 25, kNear = 6, kNearOfMany = 9, kStep = 3, kNearlyIncompressible = 0.47;
+// Nearly incompressible tissue in contact takes block Jacobi several times as many iterations,
+// unless mass helps: in steps in which waves get no farther than kStepOfMass.
+constexpr double kNearInContact = 8, kStepOfMass = 100;
 constexpr int kManyNear = 1'000;
 
 /// How far that is: in a step no farther than waves travel.
@@ -62,16 +66,34 @@ bool is_held_within(double elements, const SolverProblem& problem) {
   return is_held(problem) && way(problem) < elements;
 }
 
+bool is_nearly_incompressible(const SolverProblem& problem) {
+  return problem.largest_nu >= kNearlyIncompressible;
+}
+
+/// That factors of it, with contact, cost more than iterations.
+bool is_wide(const SolverProblem& problem) {
+  if (!is_nearly_incompressible(problem)) {
+    return wideness(problem) > (problem.has_pressure ? kWideWithPressure : kWide);
+  }
+  return problem.has_pressure && problem.reach > kFar && wideness(problem) > kWide;  // a plate
+}
+
+/// Elements up to which what holds it is near enough for iterations with contact.
+double near_in_contact(const SolverProblem& problem) {
+  const bool mass_helps = problem.in_time && problem.elements_a_step < kStepOfMass;
+  if (mass_helps || !is_nearly_incompressible(problem)) return kFar;
+  return !problem.in_time && problem.num_blocks < kFewAndFar ? 0 : kNearInContact;
+}
+
 SolverChoice choose_with_contact(const SolverProblem& problem) {
-  if (!problem.has_friction && is_held_within(kFar, problem)) {
+  if (!problem.has_friction && is_held_within(near_in_contact(problem), problem)) {
     return {
         SolverKind::ConjugateGradients, 0,
         "contact changes the matrix, and what holds the tissue is near: nothing needs to be set "
         "up"};
   }
-  const bool is_wide = wideness(problem) > (problem.has_pressure ? kWideWithPressure : kWide);
-  if (!problem.has_friction && is_held(problem) && is_wide &&
-      problem.largest_nu < kNearlyIncompressible && problem.num_blocks <= kMostFactoredAtRest) {
+  if (!problem.has_friction && is_held(problem) && is_wide(problem) &&
+      problem.num_blocks <= kMostFactoredAtRest) {
     return {SolverKind::ConjugateGradients, 0,
             "contact changes the matrix and holds the tissue all over: nothing needs to be set up"};
   }
@@ -92,8 +114,7 @@ bool is_for_block_jacobi(const SolverProblem& problem) {
   if (problem.in_time && way(problem) < kStep) return true;
   const bool is_large = problem.has_pressure && problem.num_blocks >= kManyNear;
   const double near = is_large ? kNearOfMany : kNear;
-  if (problem.largest_nu < kNearlyIncompressible && problem.reach < near &&
-      is_held_within(near, problem)) {
+  if (!is_nearly_incompressible(problem) && problem.reach < near && is_held_within(near, problem)) {
     return true;
   }
   if (!problem.has_pressure) {

@@ -103,9 +103,17 @@ TEST(SolverChoice, HeldTissueInContactIsFactoredWhereItIsSlenderOrNearlyIncompre
   EXPECT_EQ(choose_solver(plate).kind, SolverKind::ConjugateGradients);
   plate.along = 80;  // 25
   EXPECT_EQ(choose_solver(plate).kind, SolverKind::SaddlePoint);
-  plate.along = 30;
+  plate.along = 40;
   plate.largest_nu = 0.49;
   EXPECT_EQ(choose_solver(plate).kind, SolverKind::SaddlePoint);
+  plate.along = 30;
+  EXPECT_EQ(choose_solver(plate).kind, SolverKind::ConjugateGradients);
+  plate.reach = 20;  // a cube
+  EXPECT_EQ(choose_solver(plate).kind, SolverKind::SaddlePoint);
+  plate.reach = 500;
+  plate.has_pressure = false;
+  EXPECT_EQ(choose_solver(plate).kind, SolverKind::Cholesky);
+  plate.has_pressure = true;
   plate.largest_nu = 0.45;
   plate.num_nodes -= 10;  // bones
   EXPECT_EQ(choose_solver(plate).kind, SolverKind::SaddlePoint);
@@ -119,6 +127,21 @@ TEST(SolverChoice, WhatIsHeldNearbyIsIteratedOnElementByElement) {
   layer.has_contact = true;
   layer.reach = 12;
   EXPECT_EQ(choose_solver(layer).kind, SolverKind::ConjugateGradients);
+  layer.largest_nu = 0.49;  // unless it is nearer, or mass helps
+  EXPECT_EQ(choose_solver(layer).kind, SolverKind::Cholesky);
+  layer.reach = 7;
+  EXPECT_EQ(choose_solver(layer).kind, SolverKind::ConjugateGradients);
+  layer.num_blocks = layer.num_nodes = 300;
+  EXPECT_EQ(choose_solver(layer).kind, SolverKind::Cholesky);
+  layer.num_blocks = layer.num_nodes = 3'000;
+  layer.reach = 12;
+  layer.in_time = true;
+  layer.elements_a_step = 50;
+  EXPECT_EQ(choose_solver(layer).kind, SolverKind::ConjugateGradients);
+  layer.elements_a_step = 500;
+  EXPECT_EQ(choose_solver(layer).kind, SolverKind::Cholesky);
+  layer.in_time = false;
+  layer.largest_nu = 0.45;
   layer.has_friction = true;
   EXPECT_EQ(choose_solver(layer).kind, SolverKind::Cholesky);
   layer.has_friction = false;
