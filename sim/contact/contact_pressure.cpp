@@ -34,6 +34,19 @@ Eigen::VectorXd largest_beside(const Eigen::Matrix3Xi& groups, const Eigen::Vect
   return largest;
 }
 
+/// The smoothing groups of peaks that one node alone has, and those around: their means are over
+/// the same faces.
+std::vector<char> around_lone_peaks(const Eigen::Matrix3Xi& groups,
+                                    const Eigen::VectorXd& pressures) {
+  const Eigen::VectorXd beside = largest_beside(groups, pressures);
+  std::vector<char> result(static_cast<std::size_t>(pressures.size()), 0);
+  for (const auto& face : groups.colwise())
+    if (std::any_of(face.begin(), face.end(),
+                    [&](int g) { return pressures[g] > kMostPeak * beside[g]; }))
+      for (const int g : face) result[static_cast<std::size_t>(g)] = 1;
+  return result;
+}
+
 }  // namespace
 
 Vec3 pressure_integrals(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
@@ -94,10 +107,10 @@ Eigen::VectorXd group_pressures(const Collider& collider, const PressureLoad& lo
   for (Eigen::Index g = 0; g < areas.size(); ++g)
     if (load.force[g] > 0)
       pressures[g] = load.force[g] / std::max(load.covered[g], kLeastShare * areas[g]);
-  const Eigen::VectorXd beside = largest_beside(collider.groups, pressures);
+  const std::vector<char> around_peak = around_lone_peaks(collider.groups, pressures);
   for (Eigen::Index g = 0; g < areas.size(); ++g)
     if (load.force[g] > 0 &&
-        (load.covered[g] < kBlankShare * areas[g] || pressures[g] > kMostPeak * beside[g]))
+        (load.covered[g] < kBlankShare * areas[g] || around_peak[static_cast<std::size_t>(g)] != 0))
       pressures[g] = std::numeric_limits<double>::quiet_NaN();
   return pressures;
 }

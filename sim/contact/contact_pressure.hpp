@@ -24,7 +24,8 @@
 /// averaged depths may make any p on a sliver, the mean is over kLeastShare of the group's area at
 /// least: where the patches cover less, p falls to nothing with what they cover. Below kBlankShare
 /// it is blank: there a mesh of that size says nothing of p. So it is where p is more than
-/// kMostPeak times what it is around any neighbour: one node does not resolve a peak.
+/// kMostPeak times what it is around any neighbour, as one node does not resolve a peak, and around
+/// those neighbours.
 namespace articular::sim {
 
 /// Of the area around a node.
