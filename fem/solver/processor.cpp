@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 
 #include "fem/simd/element_kernels.hpp"
-#include "fem/sparse/blas.hpp"
 
 // Declared here: cblas.h may be that of another BLAS, which has no such functions.
 extern "C" char* openblas_get_corename();

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "fem/sparse/blas.hpp"
+
 namespace articular::fem {
 
 /// What of this processor the last bits of results depend on: the instructions that our kernels use
@@ -23,8 +25,8 @@ void use_portable_kernels();
 /// What the environment must say to these libraries before the program starts. The kernels of
 /// Prescott need no more than SSE3. Of the C library's functions, exp and log among them, there are
 /// versions with fused products and sums, which round otherwise.
-inline constexpr const char *kPortableBlas = "Prescott",
-                            *kPortableBlasVariable = "OPENBLAS_CORETYPE",
+inline constexpr const char *kPortableBlas = kOldestBlasKernels,
+                            *kPortableBlasVariable = kBlasKernelsVariable,
                             *kPortableLibc = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4",
                             *kPortableLibcVariable = "GLIBC_TUNABLES";
 

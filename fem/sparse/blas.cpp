@@ -15,9 +15,6 @@ char* openblas_get_corename();
 namespace articular::fem {
 namespace {
 
-constexpr const char* kVariable = "OPENBLAS_CORETYPE";
-constexpr std::string_view kFallback = "Prescott";
-
 /// As OPENBLAS_CORETYPE says it; null: the processor has no more than the fallback needs.
 const char* newest_kernels() {
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
@@ -30,16 +27,17 @@ const char* newest_kernels() {
 }
 
 void replace_fallback() {
-  if (std::getenv(kVariable) != nullptr || openblas_get_corename() != kFallback) return;
+  if (std::getenv(kBlasKernelsVariable) != nullptr) return;
+  if (openblas_get_corename() != std::string_view(kOldestBlasKernels)) return;
   const char* const kernels = newest_kernels();
   if (kernels == nullptr || gotoblas_dynamic_quit == nullptr || gotoblas_dynamic_init == nullptr) {
     return;
   }
   // OpenBLAS reads the variable where it chooses; programs that we start choose for themselves.
-  setenv(kVariable, kernels, 1);
+  setenv(kBlasKernelsVariable, kernels, 1);
   gotoblas_dynamic_quit();
   gotoblas_dynamic_init();
-  unsetenv(kVariable);
+  unsetenv(kBlasKernelsVariable);
 }
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 namespace articular::fem {
 
+/// Where OpenBLAS reads which kernels to take, and the oldest of them.
+inline constexpr const char *kBlasKernelsVariable = "OPENBLAS_CORETYPE",
+                            *kOldestBlasKernels = "Prescott";
+
 /// Makes of OpenBLAS what this module expects of it; before its first call of BLAS. Both settings
 /// are those of the process, and nothing else in it uses BLAS.
 ///

@@ -240,12 +240,19 @@ TEST(RigidBodyModes, OfMoreThanAHundredCoupledBodiesNothingIsSaid) {
   EXPECT_FALSE(Simulation(row_of_masses(101, false)).stepper.loose());
 }
 
-/// A rod that hangs from the wall on a ligament at its upper end. It moves in a plane.
-Scenario hanging_rod(bool has_weight) {
+/// One rigid body in a static scene.
+Scenario one_body(const std::string& name) {
   Scenario s = scene(1);
   s.analysis = Scenario::Analysis::Static;
-  s.bodies = {mass_body("rod", 1), stand("wall")};
+  s.bodies = {mass_body(name, 1)};
   s.bodies[0].inertia = kInertia.asDiagonal();
+  return s;
+}
+
+/// A rod that hangs from the wall on a ligament at its upper end. It moves in a plane.
+Scenario hanging_rod(bool has_weight) {
+  Scenario s = one_body("rod");
+  s.bodies.push_back(stand("wall"));
   s.bodies[0].hold.emplace().held = {true, false, false, false, true, true};
   Ligament cord;
   cord.name = "cord";
@@ -266,10 +273,7 @@ TEST(RigidBodyModes, WhatHangsIsHeldByItsWeight) {
 
 /// A rod on a hinge so far above its middle [m].
 Scenario rod_on_a_hinge(double height) {
-  Scenario s = scene(1);
-  s.analysis = Scenario::Analysis::Static;
-  s.bodies = {mass_body("rod", 1)};
-  s.bodies[0].inertia = kInertia.asDiagonal();
+  Scenario s = one_body("rod");
   Hold& hinge = s.bodies[0].hold.emplace();
   hinge.held = {true, true, true, false, true, true};
   hinge.at = Vec3(0, 0, height);
@@ -286,10 +290,7 @@ TEST(RigidBodyModes, ARodIsFreeToTurnOnAHingeInItsMiddleAlone) {
 
 // A slide that stands askew is told in the axes of the world.
 TEST(RigidBodyModes, AMotionThatAHoldLeavesFreeIsToldInTheWorldsAxes) {
-  Scenario s = scene(1);
-  s.analysis = Scenario::Analysis::Static;
-  s.bodies = {mass_body("slide", 1)};
-  s.bodies[0].inertia = kInertia.asDiagonal();
+  Scenario s = one_body("slide");
   Hold& hold = s.bodies[0].hold.emplace();
   hold.held = {false, true, true, true, true, true};
   hold.axes = rotation_matrix({0, M_PI / 6, 0});
