@@ -19,6 +19,9 @@ ContactHooks contact_hooks(const Model& model, ContactSearch& search, Dynamics& 
     search.find(where, margin);
     dynamics.set_candidates(search.candidates());
   };
+  hooks.cover = [&, find = hooks.find](const Configuration& where, double motion) {
+    if (search.motion_since(where) + motion > 0.5 * margin) find(where, motion);
+  };
   hooks.covered = [&] {
     const double stray = search.motion_since(dynamics.now().configuration);
     const bool covered = stray <= 0.5 * margin;

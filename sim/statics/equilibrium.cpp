@@ -59,7 +59,8 @@ Mat3 inverse_tangent_map(const Vec3& theta) {
 class Equilibrium::Solver {
  public:
   Solver(const Model& model, Dynamics& dynamics, const StepSettings& settings);
-  bool solve(Eigen::VectorXd& y, double t, double damping, const Conditions& conditions);
+  bool solve(Eigen::VectorXd& y, double t, double damping, const Conditions& conditions,
+             const ContactCover& cover);
   bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
   bool linearise(double damping);
   bool respond(const Eigen::VectorXd& f, Eigen::VectorXd& x);
@@ -125,6 +126,7 @@ class Equilibrium::Solver {
   PressurePrediction prediction_;
   PredictedPressures taken_;  // by the last correction
   Conditions conditions_;
+  const ContactCover* cover_ = nullptr;  // of the solution that goes on
   std::exception_ptr error_;
   sundials::Context context_;
   sundials::Vector solution_, u_scale_, r_scale_;
@@ -267,6 +269,7 @@ double Equilibrium::Solver::line_search(const Eigen::VectorXd& direction) {
       model_.contacts.empty() ? std::numeric_limits<double>::infinity() : model_.trusted_motion;
   const double motion = largest_displacement(direction);
   const double most = motion > trusted ? trusted / motion : 1;
+  if (*cover_) (*cover_)(dynamics_.now().configuration, most * motion);
   return searched_part(most, direction.dot(r_before_), [&](double part) {
     trial_ = before_ + part * direction;
     return direction.dot(searched_residual(part));
@@ -388,8 +391,9 @@ bool Equilibrium::Solver::balance_within_bounds() {
 }
 
 bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping,
-                                const Conditions& conditions) {
+                                const Conditions& conditions, const ContactCover& cover) {
   conditions_ = conditions;
+  cover_ = &cover;
   taken_ = {};
   start_ = y;
   t_ = t;
@@ -457,9 +461,9 @@ Equilibrium::Equilibrium(const Model& model, Dynamics& dynamics, const StepSetti
     : solver_(std::make_unique<Solver>(model, dynamics, settings)) {}
 Equilibrium::~Equilibrium() = default;
 
-bool Equilibrium::solve(Eigen::VectorXd& y, double t, double damping,
-                        const Conditions& conditions) {
-  return solver_->solve(y, t, damping, conditions);
+bool Equilibrium::solve(Eigen::VectorXd& y, double t, double damping, const Conditions& conditions,
+                        const ContactCover& cover) {
+  return solver_->solve(y, t, damping, conditions, cover);
 }
 bool Equilibrium::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y) {
   return solver_->yield(f, damping, y);

@@ -22,6 +22,10 @@ struct NewtonIteration {
 /// Told of each iteration, towards the loads of t [s]; true asks to stop: Interruption is thrown.
 using IterationWatch = std::function<bool(double t, const NewtonIteration&)>;
 
+/// Told before things move from where they are: afterwards contacts are known wherever they may go.
+/// @param motion  [m] that nothing moves farther than
+using ContactCover = std::function<void(const Configuration& where, double motion)>;
+
 /// Equilibrium of forces by KINSOL: Newton's iteration on the displacements u of nodes and rigid
 /// bodies (rotations: rotation vectors) from where they are,
 ///
@@ -44,9 +48,10 @@ class Equilibrium {
   /// @param t        [s] of loads and motions
   /// @param damping  d [1/s²]
   /// @param conditions  but for soft contact and pressures, which the iteration chooses
+  /// @param cover    empty: nothing can touch, or contacts are to stay those that were found
   /// @return false when the iteration did not converge; y is as before
   [[nodiscard]] bool solve(Eigen::VectorXd& y, double t, double damping,
-                           const Conditions& conditions = {});
+                           const Conditions& conditions = {}, const ContactCover& cover = {});
   /// Moves y by (K + d M)⁻¹ f, where the last Dynamics::evaluate() was.
   /// @param f        block forces [N]
   /// @param damping  d [1/s²]

@@ -88,7 +88,7 @@ class LoadStep {
 
   bool solve(Eigen::VectorXd& y, double damping) {
     if (is_exhausted()) return false;
-    const bool solved = equilibrium_.solve(y, t_, damping);
+    const bool solved = equilibrium_.solve(y, t_, damping, {}, contacts_.cover);
     int k = 0;
     for (const NewtonIteration& newton : equilibrium_.iterations())
       convergence_.push_back({t_, solution_, damping, k++, newton});

@@ -18,10 +18,12 @@ struct ConvergenceRow {
   NewtonIteration newton;
 };
 
-/// What a load step needs of contact search. Both may be empty: nothing can touch.
+/// What a load step needs of contact search. All may be empty: nothing can touch.
 struct ContactHooks {
   /// @param motion  [m] how far things may move until the next time
   std::function<void(const Configuration& where, double motion)> find;
+  /// Looks again where things may leave, by this motion, what the last find() covers.
+  ContactCover cover;
   /// Contacts found where find() looked hold at the state evaluated last.
   std::function<bool()> covered;
 };

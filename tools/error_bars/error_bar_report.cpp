@@ -6,24 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tools/study/csv_cell.hpp"
+
 namespace articular::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
-std::string csv_cell(double value, int digits) {
-  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "";
-}
 
 /// "1.500" of the size 1.5; "failed".
 std::string size_text(const CoarserRun& run) {

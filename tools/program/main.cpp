@@ -13,6 +13,7 @@
 #include "sim/base/version.hpp"
 #include "tools/anatomy/anatomy.hpp"
 #include "tools/collide/collide_command.hpp"
+#include "tools/fit/fit_command.hpp"
 #include "tools/mesh/mesh_command.hpp"
 #include "tools/plot/plot_command.hpp"
 #include "tools/process/interruption.hpp"
@@ -54,6 +55,7 @@ int run_program(int argc, char** argv) {
   articular::tools::add_render_command(app, exit_code);
   articular::tools::add_plot_command(app, exit_code);
   articular::tools::add_study_command(app, exit_code);
+  articular::tools::add_fit_command(app, exit_code);
   articular::tools::add_verify_command(app, exit_code);
   articular::tools::add_collide_command(app, exit_code);
   articular::tools::add_mesh_command(app, exit_code);

@@ -9,6 +9,7 @@
 #include "tools/run/commands.hpp"
 #include "tools/run/contact_doctor.hpp"
 #include "tools/run/contact_table.hpp"
+#include "tools/run/override_files.hpp"
 #include "tools/run/scene_table.hpp"
 
 namespace articular::tools {
@@ -48,7 +49,8 @@ void add_check_command(CLI::App& app, int& exit_code) {
       "Writes nothing, and runs nothing but for --diagnose. Exit code 0: `run` will start; 2: it "
       "would not; 3: bodies overlap so that `run` could not set them apart, or a step failed.");
   command->callback([arguments, &exit_code] {
-    const sim::Scenario scenario = sim::read_scenario(arguments->scenario, arguments->overrides);
+    const sim::Scenario scenario =
+        sim::read_scenario(arguments->scenario, with_override_files(arguments->overrides));
     const sim::Model model = sim::build_model(scenario);
     for (const std::string& warning : model.warnings) fmt::print("warning: {}\n", warning);
     sim::Stepper stepper(model, sim::step_settings(scenario));

@@ -14,6 +14,7 @@
 #include "sim/output/output_size.hpp"
 #include "sim/scenario/preset.hpp"
 #include "tools/run/commands.hpp"
+#include "tools/run/override_files.hpp"
 #include "tools/run/term_costs.hpp"
 
 namespace articular::tools {
@@ -283,7 +284,8 @@ void add_explain_command(CLI::App& app, int& exit_code) {
                     "times where things are at the start");
   command->callback([arguments, &exit_code] {
     const double before = heap_in_use();
-    const sim::Scenario scenario = sim::read_scenario(arguments->scenario, arguments->overrides);
+    const sim::Scenario scenario =
+        sim::read_scenario(arguments->scenario, with_override_files(arguments->overrides));
     const sim::Model model = sim::build_model(scenario);
     const double model_bytes = heap_in_use() - before;
     Json json = explain(scenario, model);

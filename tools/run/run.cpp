@@ -12,6 +12,7 @@
 #include "tools/error_bars/measure_error_bars.hpp"
 #include "tools/process/interruption.hpp"
 #include "tools/run/commands.hpp"
+#include "tools/run/override_files.hpp"
 #include "tools/run/portable_start.hpp"
 #include "tools/run/progress.hpp"
 #include "tools/study/study_prepare.hpp"
@@ -144,7 +145,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--set", arguments->overrides,
                    "Override a value by its path, e.g. --set duration='0.1 s' "
-                   "--set body.disc_left.material.young_modulus='3 MPa'")
+                   "--set body.disc_left.material.young_modulus='3 MPa'; @FILE: those in its lines")
       ->allow_extra_args(false);
   command
       ->add_option(
@@ -171,7 +172,10 @@ void add_run_command(CLI::App& app, int& exit_code) {
       "Prints the names of these files; with --error-bars also DIR/error_bars.csv and its table. "
       "The\n"
       "coarser runs stay in DIR/error-bars/; --threads are shared among them.");
-  command->callback([arguments, &exit_code] { exit_code = run_scenario(*arguments); });
+  command->callback([arguments, &exit_code] {
+    arguments->overrides = with_override_files(arguments->overrides);
+    exit_code = run_scenario(*arguments);
+  });
 }
 
 }  // namespace articular::tools

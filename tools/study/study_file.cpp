@@ -10,61 +10,12 @@ namespace {
 using sim::Node;
 using sim::TableReader;
 
-constexpr int kMostCaseThreads = 256, kMostRepeats = 1000;
+constexpr int kMostRepeats = 1000;
 constexpr std::size_t kMostReferences = 3;
-
-/// A value as TOML writes it, so that an override reads the same again.
-std::string toml_text(const Node& node) {
-  if (const std::string* text = node.text()) {
-    std::string quoted = "\"";
-    for (const char c : *text) {
-      if (c == '"' || c == '\\') quoted += '\\';
-      quoted += c;
-    }
-    return quoted + '"';
-  }
-  if (const auto* integer = std::get_if<std::int64_t>(&node.value))
-    return fmt::format("{}", *integer);
-  if (const auto* number = std::get_if<double>(&node.value)) return fmt::format("{}", *number);
-  if (const auto* boolean = std::get_if<bool>(&node.value)) return *boolean ? "true" : "false";
-  std::vector<std::string> parts;
-  if (const Node::List* list = node.list()) {
-    for (const Node& element : *list) parts.push_back(toml_text(element));
-    return fmt::format("[{}]", fmt::join(parts, ", "));
-  }
-  if (const sim::TomlTable* table = node.table()) {
-    for (const sim::Member& member : table->members)
-      parts.push_back(fmt::format("\"{}\" = {}", member.key, toml_text(member.node)));
-    return fmt::format("{{ {} }}", fmt::join(parts, ", "));
-  }
-  sim::fail(node, "a date is no value of a scenario");
-}
 
 /// As a name of a case: `0.5 ms`, `[8, 2, 2]`.
 std::string short_name(const Node& node) {
   return node.text() != nullptr ? *node.text() : toml_text(node);
-}
-
-std::vector<std::string> read_texts(const Node& node) {
-  std::vector<std::string> texts;
-  for (const Node& element : sim::read_list(node, "a list of texts"))
-    texts.push_back(sim::read_text(element));
-  return texts;
-}
-
-/// `set`, `threads` and `prepare` of a table.
-StudySettings read_settings(const TableReader& table) {
-  StudySettings settings;
-  if (const Node* set = table.find("set")) {
-    if (set->table() == nullptr)
-      sim::fail(*set, "expected a table of paths and values, { \"integrator.step\" = \"1 ms\" }");
-    for (const sim::Member& member : set->table()->members)
-      settings.overrides.push_back(member.key + "=" + toml_text(member.node));
-  }
-  if (const Node* threads = table.find("threads"))
-    settings.threads = sim::read_integer(*threads, 1, kMostCaseThreads);
-  table.may("prepare", settings.prepare, read_texts);
-  return settings;
 }
 
 template <class Entry>
@@ -155,14 +106,6 @@ void check_references(const Node& root, const Study& study) {
 }
 
 }  // namespace
-
-StudySettings operator+(StudySettings settings, const StudySettings& more) {
-  settings.overrides.insert(settings.overrides.end(), more.overrides.begin(), more.overrides.end());
-  if (more.threads) settings.threads = more.threads;
-  if (!more.prepare.empty()) settings.prepare = more.prepare;
-  settings.reproducible |= more.reproducible;
-  return settings;
-}
 
 Study read_study(const std::filesystem::path& file) {
   const Node root = sim::read_toml(file);

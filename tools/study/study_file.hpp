@@ -5,20 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "tools/study/study_settings.hpp"
+
 /// STUDY.toml: a scenario, what to vary in it, what to look at, and what is right. tools/README.md
 /// has the format.
 namespace articular::tools {
-
-/// What distinguishes a run of the scenario from the scenario as it is written.
-struct StudySettings {
-  std::vector<std::string> overrides;  // of `articular run --set`, PATH=VALUE
-  std::optional<int> threads;
-  std::vector<std::string> prepare;  // arguments of an `articular` command that makes its meshes
-  bool reproducible = false;         // of `articular run`; no key says so
-};
-
-/// These settings and, over them, those of `more`.
-StudySettings operator+(StudySettings settings, const StudySettings& more);
 
 /// One thing to vary. Its choices have names such as "0.5 ms" or "smoothed".
 struct StudyKnob {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/sim/support/scene.hpp"
+#include "tests/sim/support/contact_scene.hpp"
 
 namespace articular::sim::load_step_test {
 
@@ -76,6 +76,37 @@ TEST(LoadStep, SmoothedTissueThatIsHeldAtBothEndsIsNotLoose) {
   run.advance(0.3);
   EXPECT_EQ(run.state.energy.settling_loss, 0);
   EXPECT_TRUE(run.stepper.indifferent().empty());
+}
+
+constexpr double kValley = 0.1, kBall = 5e-3;  // radii [m]
+
+/// A ball with an elastic layer in the valley z = x²/2R, pressed down with 10 N and aside with a
+/// tenth of it.
+Scenario ball_in_a_valley(const TemporaryFolder& folder) {
+  Scenario s = contact_scene(1);
+  s.analysis = Scenario::Analysis::Static;
+  const MeshData valley = bent({{0.2, 0.04, 0.004}, {60, 4, 1}, {0, 0, -0.002}}, [](const Vec3& X) {
+    return Vec3(X.x(), X.y(), X.z() + 0.5 * X.x() * X.x() / kValley);
+  });
+  Body ball = ball_body(1000, {kBall, 1e-3, {0, 0, kBall}});
+  ball.layer = Layer{1e-3, 5e6, 0.3};
+  ball.hold.emplace().held = {false, true, false, true, true, true};
+  s.bodies = {ball, mesh_body("valley", Body::Kind::Fixed, valley, folder)};
+  s.loads = {ForceLoad{anchor("ball", {0, 0, kBall}), {1, 0, -10}, {}, {}}};
+  return s;
+}
+
+// It rests where the valley is as steep as the force, far beyond what was found when it began:
+// contacts are found as the iteration goes on.
+TEST(LoadStep, ABodyMaySlideFarInOneStep) {
+  const TemporaryFolder folder;
+  Simulation run(ball_in_a_valley(folder));
+  run.advance(1);
+  const double slope = 0.1, x = slope * kValley - kBall * slope / std::hypot(1, slope);
+  EXPECT_NEAR(run.now().poses[0].p.x(), x, 0.02 * x);
+  EXPECT_EQ(run.state.counts.rejected_motion, 0);
+  EXPECT_EQ(run.state.counts.rejected_newton, 0);
+  EXPECT_LT(run.state.counts.newton_iterations, 60);
 }
 
 }  // namespace articular::sim::load_step_test

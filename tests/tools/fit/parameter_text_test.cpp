@@ -1,0 +1,39 @@
+// Values of parameters as overrides of a scenario.
+#include "tools/fit/parameter_text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace articular::tools::parameter_text_test {
+
+FitParameter parameter(const std::string& name, const std::string& path, const std::string& unit) {
+  FitParameter p;
+  p.name = name;
+  p.path = path;
+  p.unit = unit;
+  return p;
+}
+
+TEST(ParameterText, StandsInBracesWithASum) {
+  Fit fit;
+  fit.parameters = {parameter("up", "", "mm"),
+                    parameter("strain", "ligament.a.reference_strain", ""),
+                    parameter("slack", "ligament.b.slack_length", "mm")};
+  const FitRun run{"run",
+                   {{"ligament.a.path.0.point=\"-8 {up + 8} { up-2.5 } mm\"",
+                     "body.x={ \"mesh\" = 1 }", "load.0.force=\"{up} 0 0 N\""},
+                    {},
+                    {},
+                    false}};
+  EXPECT_EQ(overrides_of(fit, run, Eigen::Vector3d(1.5, 0.02, 30.25)),
+            (std::vector<std::string>{"ligament.a.path.0.point=\"-8 9.5 -1 mm\"",
+                                      "body.x={ \"mesh\" = 1 }", "load.0.force=\"1.5 0 0 N\"",
+                                      "ligament.a.reference_strain=0.02",
+                                      "ligament.b.slack_length=\"30.25 mm\""}));
+}
+
+TEST(ParameterText, NamesAreFoundInBracesAlone) {
+  EXPECT_EQ(names_in_braces("{ a } {b_2 - 1e-3} { \"c\" = 1 } {d e} {3}"),
+            (std::vector<std::string>{"a", "b_2"}));
+}
+
+}  // namespace articular::tools::parameter_text_test

@@ -1,0 +1,210 @@
+#include "tools/fit/fit_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+#include "tools/fit/parameter_text.hpp"
+
+namespace articular::tools {
+namespace {
+
+using sim::Node;
+using sim::TableReader;
+
+constexpr const char* kOnlyRun = "run";
+constexpr double kStepPerSpread = 0.05;
+
+/// "2 mm" as 2 and "mm"; a bare number has no unit.
+struct NumberWithUnit {
+  double number;
+  std::string unit;
+};
+
+NumberWithUnit read_with_unit(const Node& node) {
+  if (node.text() == nullptr) return {sim::read_number(node, sim::kAny), ""};
+  const std::string& text = *node.text();
+  NumberWithUnit result{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result.number);
+  const std::size_t unit = text.find_first_not_of(' ', static_cast<std::size_t>(end - text.data()));
+  if (error != std::errc() || unit == std::string::npos || end == text.data() + unit)
+    sim::fail(node, "expected a number, or a number with a unit such as \"2 mm\", found " +
+                        sim::found(node));
+  result.unit = text.substr(unit);
+  return result;
+}
+
+sim::MeasuredUnit unit_of(const Node& node, const std::string& unit) {
+  if (unit.empty()) return {};
+  try {
+    return sim::parse_any_unit(unit);
+  } catch (const std::invalid_argument& error) {
+    sim::fail(node, error.what());
+  }
+}
+
+/// The number of a value in the unit of the parameter.
+double in_unit(const Node& node, const std::string& unit) {
+  const NumberWithUnit value = read_with_unit(node);
+  const sim::MeasuredUnit own = unit_of(node, value.unit), wanted = unit_of(node, unit);
+  if (own.dimension != wanted.dimension || value.unit.empty() != unit.empty())
+    sim::fail(node, unit.empty() ? "expected a bare number, as `start` is one"
+                                 : fmt::format("expected a value in `{}`, as `start`", unit));
+  return value.unit == unit ? value.number : value.number * own.size / wanted.size;
+}
+
+bool is_name(const std::string& text) {
+  const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  return std::isalpha(static_cast<unsigned char>(text[0])) != 0 &&
+         std::all_of(text.begin(), text.end(), is_word);
+}
+
+FitParameter read_parameter(const Node& node) {
+  const TableReader table(
+      node, "[[parameter]]",
+      {"name", "path", "start", "spread", "lowest", "highest", "difference_step"});
+  FitParameter parameter;
+  parameter.name = sim::read_text(table.at("name"));
+  if (!is_name(parameter.name))
+    sim::fail(table.at("name"), "expected a name of letters, digits and _, such as `acl_strain`");
+  table.may("path", parameter.path, sim::read_text);
+  const NumberWithUnit start = read_with_unit(table.at("start"));
+  parameter.start = start.number;
+  parameter.unit = start.unit;
+  unit_of(table.at("start"), start.unit);
+  const auto read = [&](const Node& n) { return in_unit(n, parameter.unit); };
+  const auto read_positive = [&](const Node& n) {
+    const double value = in_unit(n, parameter.unit);
+    if (!(value > 0)) sim::fail(n, "must be positive, found " + sim::found(n));
+    return value;
+  };
+  table.may("spread", parameter.spread, read_positive);
+  table.may("lowest", parameter.lowest, read);
+  table.may("highest", parameter.highest, read);
+  if (parameter.spread) parameter.step = kStepPerSpread * *parameter.spread;
+  table.may("difference_step", parameter.step, read_positive);
+  if (!(parameter.step > 0))
+    sim::fail(node,
+              "expected `spread` (standard deviation of what is known of it without the "
+              "measurements) or `difference_step` (by how much it is changed to see what follows)");
+  if (!(parameter.highest - parameter.lowest > 2 * parameter.step))
+    sim::fail(node, "expected `lowest` and `highest` to be more than two difference steps apart");
+  if (parameter.start < parameter.lowest || parameter.start > parameter.highest)
+    sim::fail(table.at("start"), "must lie between `lowest` and `highest`");
+  return parameter;
+}
+
+std::vector<FitRun> read_runs(const TableReader& document) {
+  const StudySettings common = read_settings(document);
+  std::vector<FitRun> runs;
+  for (const Node& node : sim::entries(document, "run")) {
+    const TableReader table(node, "[[run]]", {"name", "set", "threads", "prepare"});
+    FitRun run{sim::read_text(table.at("name")), common + read_settings(table)};
+    for (const FitRun& other : runs)
+      if (other.name == run.name)
+        sim::fail(table.at("name"), fmt::format("a second run is called `{}`", run.name));
+    runs.push_back(std::move(run));
+  }
+  if (runs.empty()) runs.push_back({kOnlyRun, common});
+  return runs;
+}
+
+std::size_t read_run_name(const Node& node, const std::vector<FitRun>& runs) {
+  const std::string name = sim::read_text(node);
+  std::vector<std::string> names;
+  for (const FitRun& run : runs) names.push_back(run.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    sim::fail(node, fmt::format("no [[run]] `{}`{}", name, sim::suggestion(name, names)));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::vector<std::string> read_columns(const Node& node) {
+  if (node.text() != nullptr) return {sim::read_text(node)};
+  std::vector<std::string> columns;
+  for (const Node& element : sim::read_list(node, "a column of history.csv, or a list of them"))
+    columns.push_back(sim::read_text(element));
+  return columns;
+}
+
+FitMeasurement read_measurement(const Node& node, const std::vector<FitRun>& runs) {
+  const TableReader table(node, "[[measurement]]",
+                          {"name", "run", "column", "at", "minus", "value", "at_most", "at_least",
+                           "spread", "held_out"});
+  FitMeasurement measurement;
+  measurement.name = sim::read_text(table.at("name"));
+  if (const Node* run = table.find("run"))
+    measurement.run = read_run_name(*run, runs);
+  else if (runs.size() > 1)
+    table.at("run");
+  measurement.columns = read_columns(table.at("column"));
+  measurement.at = sim::read_quantity(table.at("at"), sim::kTime, sim::kNotNegative);
+  table.may("minus", measurement.minus, sim::as_quantity(sim::kTime, sim::kNotNegative));
+  const Node& target = table.exactly_one({"value", "at_most", "at_least"});
+  measurement.value = sim::read_number(target, sim::kAny);
+  if (&target == table.find("at_most")) measurement.target = FitTarget::AtMost;
+  if (&target == table.find("at_least")) measurement.target = FitTarget::AtLeast;
+  measurement.spread = sim::read_number(table.at("spread"), sim::kPositive);
+  table.may("held_out", measurement.held_out, sim::read_boolean);
+  return measurement;
+}
+
+template <class Entry>
+void check_new_name(const Node& node, const std::string& name, const std::vector<Entry>& so_far) {
+  if (std::any_of(so_far.begin(), so_far.end(), [&](const Entry& e) { return e.name == name; }))
+    sim::fail(node.find("name") != nullptr ? *node.find("name") : node,
+              fmt::format("a second one is called `{}`", name));
+}
+
+/// Every parameter changes something, and every name in braces is one.
+void check_use(const Node& root, const Fit& fit) {
+  std::vector<std::string> used;
+  for (const FitRun& run : fit.runs)
+    for (const std::string& text : run.settings.overrides)
+      for (const std::string& name : names_in_braces(text)) used.push_back(name);
+  const std::vector<std::string> names = parameter_names(fit.parameters);
+  for (const std::string& name : used)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw sim::InputError(root.where, fmt::format("`set`: no [[parameter]] `{}`{}", name,
+                                                    sim::suggestion(name, names)));
+  for (const FitParameter& parameter : fit.parameters)
+    if (parameter.path.empty() && std::find(used.begin(), used.end(), parameter.name) == used.end())
+      throw sim::InputError(
+          root.where, fmt::format("parameter `{0}` changes nothing; expected its `path`, or a "
+                                  "`set` with {{{0}}} in a value",
+                                  parameter.name));
+}
+
+}  // namespace
+
+Fit read_fit(const std::filesystem::path& file) {
+  const Node root = sim::read_toml(file);
+  const TableReader document(root, "fit",
+                             {"title", "scenario", "set", "threads", "prepare", "time_limit",
+                              "parameter", "run", "measurement"});
+  Fit fit;
+  fit.file = file;
+  fit.name = file.stem().string();
+  fit.title = fit.name;
+  document.may("title", fit.title, sim::read_text);
+  fit.scenario = file.parent_path() / sim::read_text(document.at("scenario"));
+  document.may("time_limit", fit.time_limit, sim::as_quantity(sim::kTime, sim::kPositive));
+  fit.runs = read_runs(document);
+  for (const Node& node : sim::read_list(document.at("parameter"), "[[parameter]] tables")) {
+    FitParameter parameter = read_parameter(node);
+    check_new_name(node, parameter.name, fit.parameters);
+    fit.parameters.push_back(std::move(parameter));
+  }
+  for (const Node& node : sim::read_list(document.at("measurement"), "[[measurement]] tables")) {
+    FitMeasurement measurement = read_measurement(node, fit.runs);
+    check_new_name(node, measurement.name, fit.measurements);
+    fit.measurements.push_back(std::move(measurement));
+  }
+  if (std::all_of(fit.measurements.begin(), fit.measurements.end(),
+                  [](const FitMeasurement& m) { return m.held_out; }))
+    sim::fail(document.at("measurement"), "all are held out: expected one to fit");
+  check_use(root, fit);
+  return fit;
+}
+
+}  // namespace articular::tools

@@ -1,0 +1,89 @@
+#include "tools/fit/fit_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/error.hpp"
+#include "sim/base/message_text.hpp"
+
+namespace articular::tools {
+namespace {
+
+std::string column_unit(const std::string& column) {
+  const std::size_t at = column.rfind(" [");
+  return at == std::string::npos ? "" : column.substr(at);
+}
+
+const std::vector<double>& column_of(const std::string& name, const RunHistory& history,
+                                     const std::string& what) {
+  const auto found = std::find(history.names.begin(), history.names.end(), name);
+  if (found == history.names.end())
+    throw sim::InputError(fmt::format("{}: history.csv has no column `{}`{}", what, name,
+                                      sim::suggestion(name, history.names)));
+  return history.columns[static_cast<std::size_t>(found - history.names.begin())];
+}
+
+/// Where a time lies in a run: `share` of the way from row `before` to the next one.
+struct Moment {
+  std::size_t before = 0;
+  double share = 0;
+};
+
+Moment moment_of(double time, const std::vector<double>& times, const std::string& what) {
+  // A time that is written in decimals may differ in its last bit from the sum of the steps.
+  const double slack = 1e-9 * (std::abs(times.back()) + std::abs(time));
+  if (time < times.front() - slack || time > times.back() + slack)
+    throw sim::InputError(
+        fmt::format("{}: expected a time from {:g} to {:g} s, which the run has, "
+                    "found {:g} s",
+                    what, times.front(), times.back(), time));
+  const auto after = std::lower_bound(times.begin() + 1, times.end() - 1, time - slack);
+  const auto i = static_cast<std::size_t>(after - times.begin());
+  const double share = (time - times[i - 1]) / (times[i] - times[i - 1]);
+  return {i - 1, std::clamp(share, 0.0, 1.0)};
+}
+
+double value_at(const std::vector<double>& values, const Moment& moment) {
+  constexpr double kOnARow = 1e-6;  // its neighbour may be empty
+  if (moment.share < kOnARow) return values[moment.before];
+  if (moment.share > 1 - kOnARow) return values[moment.before + 1];
+  return (1 - moment.share) * values[moment.before] + moment.share * values[moment.before + 1];
+}
+
+double sum_at(const FitMeasurement& measurement, double time, const RunHistory& history,
+              const std::string& what) {
+  double sum = 0;
+  for (const std::string& name : measurement.columns) {
+    if (column_unit(name) != column_unit(measurement.columns.front()))
+      throw sim::InputError(fmt::format("{}: columns `{}` and `{}` have different units", what,
+                                        measurement.columns.front(), name));
+    const std::vector<double>& values = column_of(name, history, what);
+    const double value = value_at(values, moment_of(time, history.columns[0], what));
+    if (!std::isfinite(value))
+      throw sim::InputError(fmt::format("{}: column `{}` is empty at {:g} s", what, name, time));
+    sum += value;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double measured_value(const FitMeasurement& measurement, const RunHistory& history,
+                      const std::string& fit_file) {
+  const std::string what = fmt::format("{}: measurement `{}`", fit_file, measurement.name);
+  if (history.columns[0].size() < 2)
+    throw sim::InputError(fmt::format("{}: history.csv has one row alone", what));
+  const double value = sum_at(measurement, measurement.at, history, what);
+  return measurement.minus ? value - sum_at(measurement, *measurement.minus, history, what) : value;
+}
+
+double misfit(const FitMeasurement& measurement, double value) {
+  const double difference = (value - measurement.value) / measurement.spread;
+  if (measurement.target == FitTarget::AtMost) return std::max(0.0, difference);
+  if (measurement.target == FitTarget::AtLeast) return std::min(0.0, difference);
+  return difference;
+}
+
+}  // namespace articular::tools
