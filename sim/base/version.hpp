@@ -2,6 +2,7 @@
 
 namespace articular::sim {
 
-inline constexpr char kVersion[] = "0.1.0";
+/// As project(VERSION) in CMakeLists.txt says it.
+extern const char* const kVersion;
 
 }  // namespace articular::sim

@@ -1,0 +1,7 @@
+#include "sim/base/version.hpp"
+
+namespace articular::sim {
+
+const char* const kVersion = ARTICULAR_VERSION;
+
+}  // namespace articular::sim
