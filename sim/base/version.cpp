@@ -3,5 +3,6 @@
 namespace articular::sim {
 
 const char* const kVersion = ARTICULAR_VERSION;
+const char* const kReleaseDate = ARTICULAR_RELEASE_DATE;
 
 }  // namespace articular::sim
