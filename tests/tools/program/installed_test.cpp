@@ -78,8 +78,9 @@ TEST_F(Installed, FindsItsMesher) {
 }
 
 TEST_F(Installed, HasManualPageAndCompletionsWhereTheyAreLookedFor) {
-  for (const auto& [file, format] : {std::pair{"man/man1/articular.1", "man"},
-                                     std::pair{"bash-completion/completions/articular", "bash"},
+  EXPECT_EQ(run_shell(*folder, "gzip -dc prefix/share/man/man1/articular.1.gz").out,
+            run_installed("manual man").out);
+  for (const auto& [file, format] : {std::pair{"bash-completion/completions/articular", "bash"},
                                      std::pair{"zsh/vendor-completions/_articular", "zsh"},
                                      std::pair{"fish/vendor_completions.d/articular.fish", "fish"}})
     EXPECT_EQ(content(*folder / (std::string("prefix/share/") + file)),
