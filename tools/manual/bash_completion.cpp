@@ -23,6 +23,11 @@ _articular_files() {
     for ending; do compgen -f -X "!*$ending" -- "$word"; done
   } | sort -u)
 }
+
+# _articular_names NAMES: adds those that go on from what is typed.
+_articular_names() {
+  mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$1" -- "$word")
+}
 )bash";
 
 /// Sets `word`, the one to be completed; `option`, that before it; `key`, as far as it stands
@@ -53,6 +58,7 @@ std::string offer(const CompletedValue& value) {
   for (const std::string& word : value.words) call += " " + word;
   for (const std::string& ending : value.endings) call += " " + ending;
   if (value.files) call += " ''";
+  if (!value.listing.empty()) call += "; _articular_names \"$(" + value.listing + ")\"";
   return value.empty() ? ":" : call;
 }
 

@@ -18,6 +18,12 @@ bool has_word(const std::string& text, const std::string& word) {
   return std::regex_search(text, std::regex("\\b" + word + "\\b"));
 }
 
+/// `articular scenarios` prints lines "NAME KIND TITLE".
+std::string listing_command(bool studies) {
+  return std::string("articular scenarios 2> /dev/null | sed -n '/^[^ ]* *study /") +
+         (studies ? "" : "!") + "s/ .*//p'";
+}
+
 template <class T>
 void append(const std::vector<T>& more, std::vector<T>& list) {
   list.insert(list.end(), more.begin(), more.end());
@@ -35,6 +41,8 @@ CompletedValue completed_value(const Argument& argument) {
   completed.folders = has_word(argument.value, "DIR");
   completed.endings = all_in(argument.description, "(?:^|[ (])(\\.[a-z0-9]+)\\b");
   completed.files = completed.endings.empty() && has_word(argument.value, "FILE");
+  if (argument.description.find("see `articular scenarios`") != std::string::npos)
+    completed.listing = listing_command(argument.names.back() == "study");
   return completed;
 }
 
@@ -46,6 +54,7 @@ CompletedValue completed_positional(const Command& command) {
     append(one.endings, all.endings);
     all.files = all.files || one.files;
     all.folders = all.folders || one.folders;
+    if (!one.listing.empty()) all.listing = one.listing;
   }
   return all;
 }

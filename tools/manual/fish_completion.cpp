@@ -31,6 +31,7 @@ std::string fish_offer(const CompletedValue& value) {
     words = "(__fish_complete_suffix " + fish_list(value.endings) + ")";
   else if (value.folders)
     words = "(__fish_complete_directories)";
+  if (!value.listing.empty()) words += " (" + value.listing + ")";
   return words.empty() ? " -f" : " -f -a " + in_fish_quotes(words);
 }
 

@@ -26,11 +26,25 @@ std::string joined(const std::vector<std::string>& parts, const char* between) {
   return fmt::format("{}", fmt::join(parts, between));
 }
 
+/// Files, or what a command lists.
+constexpr const char* kNames = R"zsh(_articular_names() {  # PATTERN COMMAND
+  local names=(${(f)"$(eval $2)"})
+  _alternative "files:file:_files -g \"$1\"" "names:name:($names)"
+}
+
+)zsh";
+
 /// One ending in parentheses zsh would take for qualifiers.
+std::string file_pattern(const std::vector<std::string>& endings) {
+  return endings.size() == 1 ? "*" + endings.front() : "*(" + joined(endings, "|") + ")";
+}
+
 std::string action(const CompletedValue& value) {
   if (!value.words.empty()) return "(" + joined(value.words, " ") + ")";
-  if (value.endings.size() == 1) return "_files -g \"*" + value.endings.front() + "\"";
-  if (!value.endings.empty()) return "_files -g \"*(" + joined(value.endings, "|") + ")\"";
+  if (!value.listing.empty())
+    return fmt::format("_articular_names \"{}\" \"{}\"", file_pattern(value.endings),
+                       value.listing);
+  if (!value.endings.empty()) return "_files -g \"" + file_pattern(value.endings) + "\"";
   if (value.files) return "_files";
   return value.folders ? "_files -/" : " ";
 }
@@ -94,7 +108,7 @@ std::string functions(const Command& command, const std::string& function) {
 std::string zsh_completion(const Command& program) {
   return "#compdef articular\n"
          "# Completion of articular for zsh, as `articular manual zsh` prints it.\n\n" +
-         functions(program, "_articular") +
+         std::string(kNames) + functions(program, "_articular") +
          "if [ \"$funcstack[1]\" = _articular ]; then  # from a folder in $fpath\n"
          "  _articular \"$@\"\nelse\n  compdef _articular articular\nfi\n";
 }

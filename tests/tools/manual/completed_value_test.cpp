@@ -37,6 +37,17 @@ TEST(CompletedValue, AFolderMayBeOneOfSeveralThings) {
   EXPECT_FALSE(completed("DIRECTION").folders);
 }
 
+TEST(CompletedValue, ShippedScenariosServeForAFileButNotStudies) {
+  const std::string description =
+      "File (.toml), or the name of a shipped one: see `articular scenarios`";
+  const auto listed = [&](const std::string& name) {
+    return completed_value({{name}, "TEXT", description, true, false}).listing;
+  };
+  EXPECT_NE(listed("scenario").find("study /!s"), std::string::npos);
+  EXPECT_NE(listed("study").find("study /s"), std::string::npos);
+  EXPECT_EQ(completed("TEXT", "Scenario file (.toml)").listing, "");
+}
+
 TEST(CompletedValue, AFlagHasNone) { EXPECT_TRUE(completed("", "Writes a table (.csv)").empty()); }
 
 }  // namespace
