@@ -41,8 +41,8 @@ std::string file_pattern(const std::vector<std::string>& endings) {
 
 std::string action(const CompletedValue& value) {
   if (!value.words.empty()) return "(" + joined(value.words, " ") + ")";
-  if (!value.listing.empty())
-    return fmt::format("_articular_names \"{}\" \"{}\"", file_pattern(value.endings),
+  if (!value.listing.empty())  // after a blank, with these arguments and no others
+    return fmt::format(" _articular_names \"{}\" \"{}\"", file_pattern(value.endings),
                        value.listing);
   if (!value.endings.empty()) return "_files -g \"" + file_pattern(value.endings) + "\"";
   if (value.files) return "_files";

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tests/tools/support/program.hpp"
+#include "tools/manual/shell_completion.hpp"
 
 namespace articular::manual_test {
 
@@ -91,6 +92,23 @@ TEST(BashCompletion, GoesOnBehindAnEqualsSign) {
   EXPECT_EQ(offered(folder, "run a.toml --set accuracy = b"), Words{"balanced"});
   EXPECT_EQ(offered(folder, "run a.toml --set acc"),
             (Words{"accuracy=accurate", "accuracy=balanced", "accuracy=fast"}));
+}
+
+// Whatever program this is: `articular scenarios` of a stand-in lists a scenario and a study.
+TEST(BashCompletion, OffersShippedScenariosBesideFilesButNoStudies) {
+  const TemporaryFolder folder;
+  const tools::Argument scenario{
+      {"scenario"}, "TEXT", "File (.toml), or a name: see `articular scenarios`", true, false};
+  const tools::Command run{"run", "", "", {scenario}, {}, {}};
+  folder.file("completion.bash", tools::bash_completion({"articular", "", "", {}, {}, {run}}));
+  folder.file("articular",
+              "#!/bin/sh\necho 'knee/flexion  static  A'\necho 'knee/cost  study  B'\n");
+  folder.file("kneeling.toml", "");
+  const ProgramResult result = run_shell(
+      folder,
+      "chmod +x articular; PATH=$PWD:$PATH bash -c 'source completion.bash; COMP_CWORD=2; "
+      "COMP_WORDS=(articular run kne); _articular; printf \"%s\\n\" \"${COMPREPLY[@]}\"'");
+  EXPECT_EQ(lines_of(result.out), (Words{"kneeling.toml", "knee/flexion"})) << result.err;
 }
 
 TEST(FishCompletion, OffersSubcommandsAndWords) {
