@@ -72,11 +72,11 @@ struct Cases {
 void add_cases(const Command& command, const std::string& path, Cases& cases) {
   std::string names, subcommands;
   for (const Argument& option : command.options) {
+    const std::string offered = offer(completed_value(option));
     for (const std::string& name : option.names) {
       names += " " + name;
-      if (option.value.empty()) continue;
-      cases.values += fmt::format("    {}) {}; return ;;\n", quoted(path + " " + name),
-                                  offer(completed_value(option)));
+      if (!option.value.empty())
+        cases.values += fmt::format("    '{} {}') {}; return ;;\n", path, name, offered);
     }
   }
   for (const Command& below : command.commands) {
