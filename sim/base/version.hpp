@@ -2,6 +2,10 @@
 
 namespace articular::sim {
 
-inline constexpr char kVersion[] = "0.1.0";
+/// As project(VERSION) in CMakeLists.txt says it.
+extern const char* const kVersion;
+
+/// The day of this version, as CITATION.cff says it: "2026-11-26".
+extern const char* const kReleaseDate;
 
 }  // namespace articular::sim

@@ -47,7 +47,8 @@ void add_mandible(CLI::App& anatomy, int& exit_code) {
   mandible->add_option("--size", options->size_mm, "Element size of the discs in mm (0.3 to 2.5)")
       ->capture_default_str();
   mandible->add_option("--out", options->folder, "Folder for the files, made if it is not there")
-      ->required();
+      ->required()
+      ->type_name("DIR");
   mandible->callback([options, &exit_code] {
     run([&] { return mandible_anatomy(options->size_mm); }, options->folder);
     exit_code = 0;
@@ -69,7 +70,8 @@ void add_knee(CLI::App& anatomy, int& exit_code) {
                    "Elements through their thickness (2 to 6)")
       ->capture_default_str();
   knee->add_option("--out", options->folder, "Folder for the files, made if it is not there")
-      ->required();
+      ->required()
+      ->type_name("DIR");
   knee->callback([options, &exit_code] {
     run([&] { return knee_anatomy(options->resolution); }, options->folder);
     exit_code = 0;

@@ -221,5 +221,5 @@ function(articular_install name)
   install(FILES ${PROJECT_SOURCE_DIR}/tools/cmake/${package}-config.cmake ${version_file}
     DESTINATION ${cmake_folder} COMPONENT ${name})
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/articular/${name}
-    COMPONENT ${name} FILES_MATCHING PATTERN *.hpp PATTERN *.inl.hpp EXCLUDE PATTERN simd_*.hpp EXCLUDE)
+    COMPONENT ${name} FILES_MATCHING PATTERN *.hpp PATTERN *.inl.hpp EXCLUDE PATTERN simd_*.hpp EXCLUDE PATTERN figures EXCLUDE)
 endfunction()

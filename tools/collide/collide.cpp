@@ -139,15 +139,21 @@ Example: two frames of a run, then the whole of it
   articular collide out/two/two.pvd:lower out/two/two.pvd:upper --pairs out/two/pairs.csv)";
 
 void add_options(CLI::App& command, CollideOptions& options) {
-  command.add_option("meshes", options.meshes, "One mesh, or two: A B")
+  command
+      .add_option("meshes", options.meshes,
+                  "One mesh of tetrahedra (.vtu, .vtk, .inp, .pvd), or two: A B")
       ->required()
       ->type_name("A [B]")
       ->expected(1, -1);  // an unquoted pattern gives many, which gets a message of its own
   command.add_flag("--self", options.self, "Of two meshes, search each against itself as well");
-  command.add_option("--narrow", options.narrow,
-                     "Test of a triangle and a tetrahedron: sat (separating axes) or gjk [sat]");
-  command.add_option("--method", options.method,
-                     "blocks, or article: the BucketTree of the article, with gjk [blocks]");
+  command
+      .add_option("--narrow", options.narrow,
+                  "Test of a triangle and a tetrahedron: sat (separating axes) or gjk [sat]")
+      ->type_name("sat|gjk");
+  command
+      .add_option("--method", options.method,
+                  "blocks, or article: the BucketTree of the article, with gjk [blocks]")
+      ->type_name("blocks|article");
   command.add_option("--pairs", options.pairs, "Write the pairs found as a table (.csv)")
       ->type_name("FILE");
   command

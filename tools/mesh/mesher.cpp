@@ -17,14 +17,20 @@ namespace {
 
 constexpr double kMesherUnit = 1e-3;  // [m]; positions go to the mesher in mm
 
+/// In a build it lies beside this program; installed, where programs lie that only others start.
 std::filesystem::path mesher_program() {
-  std::filesystem::path mesher = this_program().parent_path() / "articular-mesher";
+  const std::filesystem::path folder = this_program().parent_path();
+  const std::filesystem::path beside = folder / "articular-mesher";
+  const std::filesystem::path installed =
+      folder.parent_path() / "libexec" / "articular" / "articular-mesher";
   std::error_code error;
-  if (!std::filesystem::exists(mesher, error))
-    throw sim::SystemError(mesher.string() +
-                           ": the mesher is missing; a release build makes it (tools/build release "
-                           "articular), where libcgal-dev is installed");
-  return mesher;
+  for (const std::filesystem::path& mesher : {beside, installed})
+    if (std::filesystem::exists(mesher, error)) return mesher;
+  throw sim::SystemError(fmt::format(
+      "the mesher is missing: neither {} nor {} is there. Debian's package is "
+      "articular-mesher; a release build makes it (tools/build release articular) where "
+      "libcgal-dev is installed",
+      beside.string(), installed.string()));
 }
 
 bool send_request(int socket, const Shell& shell, const MesherSettings& settings) {

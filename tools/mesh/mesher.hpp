@@ -22,9 +22,9 @@ struct TetMesh {
 /// Thrown when the user asked to stop.
 struct MeshingInterrupted {};
 
-/// Fills a shell with tetrahedra: starts `articular-mesher`, which stands beside this program, and
-/// ends it on an error or interruption. Meshes of the same shell differ in a few tetrahedra of a
-/// thousand from one time to the next.
+/// Fills a shell with tetrahedra: starts `articular-mesher`, which lies beside this program or,
+/// where this is installed, in ../libexec/articular, and ends it on an error or interruption.
+/// Meshes of the same shell differ in a few tetrahedra of a thousand from one time to the next.
 /// @param name         of the file, for messages
 /// @param unit         metres per unit of the file, likewise
 /// @param interrupted  asked several times a second

@@ -14,6 +14,7 @@
 #include "tools/anatomy/anatomy.hpp"
 #include "tools/collide/collide_command.hpp"
 #include "tools/fit/fit_command.hpp"
+#include "tools/manual/manual_command.hpp"
 #include "tools/mesh/mesh_command.hpp"
 #include "tools/plot/plot_command.hpp"
 #include "tools/process/interruption.hpp"
@@ -60,6 +61,7 @@ int run_program(int argc, char** argv) {
   articular::tools::add_collide_command(app, exit_code);
   articular::tools::add_mesh_command(app, exit_code);
   articular::anatomy::add_anatomy_command(app, exit_code);
+  articular::tools::add_manual_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

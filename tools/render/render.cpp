@@ -106,7 +106,10 @@ void add_render_command(CLI::App& app, int& exit_code) {
                   "(.toml): bodies, attached nodes, ends of muscles and ligaments before any run")
       ->required()
       ->type_name("DIR|SCENARIO");
-  command.add_option("--field", options->field, "What colours the tissue [von_mises]");
+  command.add_option("--field", options->field, "What colours the tissue [von_mises]")
+      ->type_name(
+          "von_mises|contact_pressure|displacement|velocity|contact_force|volume_ratio|strain_"
+          "energy_density|fibre_stretch");
   CLI::Option* const frame =
       command.add_option("--frame", options->frame, "Number of the frame to draw [the last]");
   command.add_flag("--all", options->all, "Draw every frame")->excludes(frame);
@@ -124,8 +127,8 @@ void add_render_command(CLI::App& app, int& exit_code) {
                   "touches with, skull:contact")
       ->delimiter(',')
       ->type_name("PART,...");
-  command.add_option("--view", options->view,
-                     "front, back, left, right, top, bottom [three-quarter]");
+  command.add_option("--view", options->view, "Where the picture is taken from [three-quarter]")
+      ->type_name("front|back|left|right|top|bottom|three-quarter");
   command.add_option("--up", options->up,
                      "Upward axis: y (knee: z anterior) [z (jaw: x left, y posterior)]");
   command

@@ -33,7 +33,8 @@ void add_check_command(CLI::App& app, int& exit_code) {
                                          "that overlap at the start");
   command->add_option("scenario", arguments->scenario, "Scenario file (.toml)")->required();
   command->add_option("--set", arguments->overrides, "Override a value, as in run")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   command->add_flag("--contact", arguments->contact,
                     "Say of each pair that may touch how stiff contact is, which side is the "
                     "non-mortar side and how near the bodies are; what is tied and may touch too; "

@@ -277,7 +277,8 @@ void add_explain_command(CLI::App& app, int& exit_code) {
       "explain", "Say what of a scenario is modelled, what is left out, and what it will need");
   command->add_option("scenario", arguments->scenario, "Scenario file (.toml)")->required();
   command->add_option("--set", arguments->overrides, "Override a value, as in run")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   command->add_flag("--json", arguments->json, "Machine-readable");
   command->add_flag("!--no-costs", arguments->costs,
                     "Without times and memory, which are measured: each term is evaluated a few "

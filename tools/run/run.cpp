@@ -140,13 +140,16 @@ void add_run_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("run", "Run a scenario and write its results");
   command->add_option("scenario", arguments->scenario, "Scenario file (.toml)")->required();
-  command->add_option("--out", arguments->out,
-                      "Folder of the results (default: output.directory, else out/NAME)");
+  command
+      ->add_option("--out", arguments->out,
+                   "Folder of the results (default: output.directory, else out/NAME)")
+      ->type_name("DIR");
   command
       ->add_option("--set", arguments->overrides,
                    "Override a value by its path, e.g. --set duration='0.1 s' "
                    "--set body.disc_left.material.young_modulus='3 MPa'; @FILE: those in its lines")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   command
       ->add_option(
           "--threads", arguments->threads,

@@ -408,7 +408,7 @@ TEST(Program, HelpNamesEverySubcommand) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   for (const char* command : {"run", "check", "explain", "render", "plot", "study", "verify",
-                              "collide", "mesh", "anatomy"}) {
+                              "collide", "mesh", "anatomy", "manual"}) {
     EXPECT_NE(result.out.find(std::string("  ") + command + " "), std::string::npos) << command;
     const ProgramResult own = run_program(folder, std::string(command) + " --help");
     EXPECT_EQ(own.exit_code, 0) << command;
