@@ -1,11 +1,19 @@
 #include "tools/render/clip.hpp"
 
+#include <vtkCellArray.h>
+#include <vtkClipClosedSurface.h>
 #include <vtkClipPolyData.h>
+#include <vtkFeatureEdges.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
+#include <vtkPlaneCollection.h>
 #include <vtkTableBasedClipDataSet.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "fem/base/types.hpp"
@@ -23,6 +31,52 @@ vtkSmartPointer<vtkPlane> plane_of(const Clip& clip, double unit) {
   plane->SetOrigin(origin.data());
   plane->SetNormal(normal.data());
   return plane;
+}
+
+vtkSmartPointer<vtkPolyData> clipped_faces(vtkPolyData& surface, const Clip& clip, double unit) {
+  vtkNew<vtkClipPolyData> cut;
+  cut->SetInputData(&surface);
+  cut->SetClipFunction(plane_of(clip, unit));
+  cut->Update();
+  return cut->GetOutput();
+}
+
+bool is_closed(vtkPolyData& surface) {
+  vtkNew<vtkFeatureEdges> edges;
+  edges->SetInputData(&surface);
+  edges->BoundaryEdgesOn();
+  edges->NonManifoldEdgesOn();
+  edges->FeatureEdgesOff();
+  edges->ManifoldEdgesOff();
+  edges->ColoringOff();
+  edges->Update();
+  return edges->GetOutput()->GetNumberOfCells() == 0;
+}
+
+/// The faces on the cut get points of their own: the edge around them is sharp, and light does not
+/// run over it.
+vtkSmartPointer<vtkPolyData> with_own_points_on(vtkPlane& plane, vtkPolyData& surface) {
+  const double round_off = 1e-6 * surface.GetLength();
+  vtkNew<vtkPoints> points;
+  points->DeepCopy(surface.GetPoints());
+  std::map<vtkIdType, vtkIdType> own;
+  vtkNew<vtkCellArray> faces;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType face = 0; face < surface.GetNumberOfCells(); ++face) {
+    surface.GetCellPoints(face, corners);
+    const bool on_cut = std::all_of(corners->begin(), corners->end(), [&](vtkIdType i) {
+      return std::abs(plane.EvaluateFunction(surface.GetPoint(i))) < round_off;
+    });
+    faces->InsertNextCell(static_cast<int>(corners->GetNumberOfIds()));
+    for (const vtkIdType i : *corners) {
+      if (on_cut && !own.contains(i)) own[i] = points->InsertNextPoint(surface.GetPoint(i));
+      faces->InsertCellPoint(on_cut ? own.at(i) : i);
+    }
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points);
+  result->SetPolys(faces);
+  return result;
 }
 
 }  // namespace
@@ -54,7 +108,7 @@ Clip parse_clip(const std::string& text) {
 
 vtkSmartPointer<vtkPointSet> clipped(vtkPointSet& set, const Clip& clip, double unit) {
   if (auto* const surface = vtkPolyData::SafeDownCast(&set))
-    return clipped_surface(*surface, clip, unit);
+    return clipped_faces(*surface, clip, unit);
   vtkNew<vtkTableBasedClipDataSet> cut;
   cut->SetInputData(&set);
   cut->SetClipFunction(plane_of(clip, unit));
@@ -62,12 +116,18 @@ vtkSmartPointer<vtkPointSet> clipped(vtkPointSet& set, const Clip& clip, double 
   return cut->GetOutput();
 }
 
-vtkSmartPointer<vtkPolyData> clipped_surface(vtkPolyData& surface, const Clip& clip, double unit) {
-  vtkNew<vtkClipPolyData> cut;
-  cut->SetInputData(&surface);
-  cut->SetClipFunction(plane_of(clip, unit));
-  cut->Update();
-  return cut->GetOutput();
+vtkSmartPointer<vtkPolyData> clipped_solid(vtkPolyData& surface, const Clip& clip, double unit) {
+  if (is_closed(surface)) {
+    const auto plane = plane_of(clip, unit);
+    vtkNew<vtkPlaneCollection> planes;
+    planes->AddItem(plane);
+    vtkNew<vtkClipClosedSurface> cut;
+    cut->SetInputData(&surface);
+    cut->SetClippingPlanes(planes);
+    cut->Update();
+    return with_own_points_on(*plane, *cut->GetOutput());
+  }
+  return clipped_faces(surface, clip, unit);
 }
 
 }  // namespace articular::tools

@@ -18,10 +18,10 @@ struct Clip {
 /// @param text  "y<12mm", "x > -3 mm" @throws InputError for another one
 Clip parse_clip(const std::string& text);
 
-/// @param unit  of the set's coordinates [m]. Tetrahedra are cut, so that the cut has faces with
-/// the values there.
+/// With all values. Tetrahedra are cut, so that the cut has faces with the values there; of
+/// surfaces what is hollow stays so. @param unit  of the set's coordinates [m]
 vtkSmartPointer<vtkPointSet> clipped(vtkPointSet& set, const Clip& clip, double unit);
-/// Faces are cut, and what is hollow stays so.
-vtkSmartPointer<vtkPolyData> clipped_surface(vtkPolyData& surface, const Clip& clip, double unit);
+/// Without values, as if it were full: a closed surface gets faces on the cut.
+vtkSmartPointer<vtkPolyData> clipped_solid(vtkPolyData& surface, const Clip& clip, double unit);
 
 }  // namespace articular::tools

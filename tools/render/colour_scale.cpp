@@ -115,7 +115,11 @@ const ColourMap& chosen_map(const std::string& asked, bool two_sided) {
 
 ColourScale field_scale(const Survey& survey, const std::optional<AskedRange>& range,
                         const std::string& map) {
-  const bool two_sided = survey.lowest < survey.rest || survey.is_difference;
+  // Round-off and overshoot beyond rest are said in the legend, and take no half of the colours.
+  constexpr double kHardly = 0.02;
+  const bool two_sided =
+      survey.is_difference ||
+      survey.rest - survey.lowest > kHardly * std::max(0.0, survey.highest - survey.rest);
   const ColourMap& colours = chosen_map(map, two_sided);
   ColourScale scale;
   scale.title = (survey.is_difference ? "difference of " : "") + title_of(survey);

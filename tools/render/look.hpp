@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "tools/render/clip.hpp"
@@ -16,5 +17,9 @@ struct Look {
   std::map<std::string, double> opacity;  // of parts, where it is not the usual one
   std::optional<Clip> clip;
 };
+
+/// @throws InputError for an opacity out of range, and one of no body of these
+void check_opacity(const std::map<std::string, double>& opacity,
+                   const std::set<std::string>& bodies);
 
 }  // namespace articular::tools

@@ -12,7 +12,6 @@
 #include "tools/render/changed_run.hpp"
 #include "tools/render/film_frames.hpp"
 #include "tools/render/movie.hpp"
-#include "tools/render/nearest.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/picture_name.hpp"
 #include "tools/render/render_scene.hpp"
@@ -27,8 +26,9 @@ namespace fs = std::filesystem;
 /// Runs that are drawn together, panel beside panel, at the times of the first one's frames.
 struct Sequence {
   std::vector<DrawnRun> panels;
-  fs::path folder;   // of its pictures
-  std::string name;  // of its pictures, see picture_name()
+  std::vector<std::string> titles;  // of the panels, so that each can be told from the others
+  fs::path folder;                  // of its pictures
+  std::string name;                 // of its pictures, see picture_name()
 };
 
 void check(const RenderOptions& options) {
@@ -47,12 +47,6 @@ void check(const RenderOptions& options) {
     throw sim::InputError(fmt::format("--speed {:g}: expected more than 0", *options.speed));
   if (options.speed && options.movie.empty())
     throw sim::InputError("--speed is that of a film; expected --movie FILE as well");
-  for (const auto& [part, opacity] : options.opacity)
-    if (!(opacity > 0 && opacity <= 1))
-      throw sim::InputError(
-          fmt::format("--opacity {}={:g}: expected more than 0 and at most 1; "
-                      "--hide {} leaves it out",
-                      part, opacity, part));
 }
 
 std::string folder_name(const Series& series) {
@@ -73,7 +67,11 @@ void make_names_unique(std::vector<Sequence>& sequences) {
   }
 }
 
-std::vector<Sequence> sequences_of(const RenderOptions& options) {
+std::string title_above(const Series& series) {
+  return series.summary.title.empty() ? series.name : series.summary.title;
+}
+
+std::vector<DrawnRun> opened_runs(const RenderOptions& options) {
   std::vector<DrawnRun> runs;
   for (const fs::path& run : options.runs) {
     if (run.extension() == ".toml")
@@ -81,27 +79,48 @@ std::vector<Sequence> sequences_of(const RenderOptions& options) {
     runs.push_back(as_written(open_series(run, {options.only, options.hidden})));
     if (options.deformation != 1) runs.back() = exaggerated(runs.back(), options.deformation);
   }
+  return runs;
+}
+
+/// One after the other.
+std::vector<Sequence> single_runs(std::vector<DrawnRun> runs, const fs::path& out) {
   std::vector<Sequence> sequences;
-  if (!options.side_by_side && !options.difference) {
-    for (DrawnRun& run : runs) {
-      const fs::path own = run.series.directory / "render";
-      const std::string name = run.series.name;
-      sequences.push_back({{std::move(run)}, options.out.empty() ? own : options.out, name});
-    }
-    make_names_unique(sequences);
-    return sequences;
+  for (DrawnRun& run : runs) {
+    const Series& series = run.series;
+    Sequence sequence{{}, {title_above(series)}, out, series.name};
+    if (out.empty()) sequence.folder = series.directory / "render";
+    sequence.panels.push_back(std::move(run));
+    sequences.push_back(std::move(sequence));
   }
-  const fs::path folder = options.out.empty() ? fs::path(".") : options.out;
-  if (options.difference) {
-    const std::string name = folder_name(runs[1].series) + "-minus-" + folder_name(runs[0].series);
-    sequences.push_back({{difference(runs[0], runs[1])}, folder, name});
-  } else {
-    std::string name;
-    for (const DrawnRun& run : runs)
-      name += (name.empty() ? "" : "-beside-") + folder_name(run.series);
-    sequences.push_back({std::move(runs), folder, name});
-  }
+  make_names_unique(sequences);
   return sequences;
+}
+
+Sequence runs_side_by_side(std::vector<DrawnRun> runs, const fs::path& folder) {
+  Sequence sequence{{}, {}, folder, ""};
+  for (const DrawnRun& run : runs) {
+    const std::string label = folder_name(run.series);
+    sequence.titles.push_back(title_above(run.series) + " (" + label + ")");
+    sequence.name += (sequence.name.empty() ? "" : "-beside-") + label;
+  }
+  sequence.panels = std::move(runs);
+  return sequence;
+}
+
+Sequence difference_of_runs(const DrawnRun& first, const DrawnRun& second, const fs::path& folder) {
+  const std::string a = folder_name(first.series), b = folder_name(second.series);
+  return {{difference(first, second)},
+          {title_above(first.series) + ": " + b + " minus " + a},
+          folder,
+          b + "-minus-" + a};
+}
+
+std::vector<Sequence> sequences_of(const RenderOptions& options) {
+  std::vector<DrawnRun> runs = opened_runs(options);
+  const fs::path folder = options.out.empty() ? fs::path(".") : options.out;
+  if (options.difference) return {difference_of_runs(runs[0], runs[1], folder)};
+  if (options.side_by_side) return {runs_side_by_side(std::move(runs), folder)};
+  return single_runs(std::move(runs), options.out);
 }
 
 /// The numbers of the frames to draw as pictures.
@@ -123,28 +142,13 @@ std::set<int> chosen_frames(const Series& series, const RenderOptions& options) 
   return numbers;
 }
 
-void check_opacity(const RenderOptions& options, const std::vector<Sequence>& sequences) {
+std::set<std::string> bodies_of(const std::vector<Sequence>& sequences) {
   std::set<std::string> names;
   for (const Sequence& sequence : sequences)
     for (const DrawnRun& run : sequence.panels)
       for (const sim::SeriesEntry& part : run.series.frames.front().parts)
         if (part.part != "lines") names.insert(part.part);
-  for (const auto& [part, opacity] : options.opacity)
-    if (!names.contains(part))
-      throw sim::InputError("--opacity: " + unknown_name("body", part, names));
-}
-
-/// Of a panel, so that each can be told from the others.
-std::string panel_title(const Sequence& sequence, std::size_t panel, const RenderOptions& options) {
-  const Series& series = sequence.panels[panel].series;
-  const std::string title = series.summary.title.empty() ? series.name : series.summary.title;
-  if (options.difference) {
-    const auto folder = [&](std::size_t i) {
-      return fs::weakly_canonical(options.runs[i]).filename().string();
-    };
-    return title + ": " + folder(1) + " minus " + folder(0);
-  }
-  return sequence.panels.size() > 1 ? title + " (" + folder_name(series) + ")" : title;
+  return names;
 }
 
 Image draw_frame(RenderScene& scene, const Setting& setting, const Sequence& sequence,
@@ -161,7 +165,7 @@ Image draw_frame(RenderScene& scene, const Setting& setting, const Sequence& seq
   }
   std::vector<Panel> panels;
   for (std::size_t i = 0; i < frames.size(); ++i)
-    panels.push_back({frames[i], panel_title(sequence, i, options), moments[i],
+    panels.push_back({frames[i], sequence.titles[i], moments[i],
                       setting.survey.middle ? *setting.survey.middle
                                             : middle_of(frames[i], setting.axes, options.focus)});
   return scene.draw(panels);
@@ -248,7 +252,7 @@ int render(const RenderOptions& options) {
   if (setting.look.paper.transparent && !options.movie.empty())
     throw sim::InputError("--background transparent: a film has none; expected a colour");
   const std::vector<Sequence> sequences = sequences_of(options);
-  check_opacity(options, sequences);
+  check_opacity(options.opacity, bodies_of(sequences));
   for (const Sequence& sequence : sequences) chosen_frames(sequence.panels.front().series, options);
   setting.num_panels = static_cast<int>(sequences.front().panels.size());
   setting.directions = sequences.front().panels.front().series.summary.directions;

@@ -249,37 +249,68 @@ void add_scale_bar(const Sheet& sheet, const Rect& foot, double pixel, const std
 
 namespace {
 
-constexpr double kAxisLength = 2.6;  // of the page's text
+/// One axis as it is drawn from the origin, with its name. [pixel]
+struct DrawnAxis {
+  double x, y;  // of its tip
+  double label_x, label_y;
+  Align align;
+  std::string name;
+  double left, right;  // how far line and name reach
+};
 
-std::string name_of_axis(const Directions& directions, std::size_t k) {
-  return directions[k].empty() ? std::string(1, static_cast<char>('x' + k)) : directions[k];
-}
-
-}  // namespace
-
-double axes_width(const Page& page, const Directions& directions) {
-  double widest = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    widest = std::max(widest, text_width(name_of_axis(directions, k), kSmall * page.text, false));
-  return 2 * (kAxisLength + 0.4) * page.text + widest;
-}
-
-void add_axes(const Sheet& sheet, const Rect& rect, const ViewAxes& axes,
-              const Directions& directions) {
-  const double text = sheet.page.text, length = kAxisLength * text;
-  const double x = rect.x + 0.5 * rect.width, y = rect.y + 4.5 * text;
-  constexpr double kTooShort = 0.1;
+std::vector<DrawnAxis> drawn_axes(const Page& page, const ViewAxes& axes,
+                                  const Directions& directions) {
+  constexpr double kLength = 2.6, kGap = 0.45, kAbove = 0.7;  // of the page's text
+  constexpr double kTooShort = 0.1;                           // of its length
+  std::vector<DrawnAxis> result;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 axis = Vec3::Unit(static_cast<int>(k));
     const double right = axis.dot(axes.right), up = axis.dot(axes.up);
     if (std::hypot(right, up) < kTooShort) continue;
-    add_line(sheet, {{x, y}, {x + length * right, y + length * up}}, 0.12 * text);
-    const double shift = 0.45 * text / std::hypot(right, up);
-    // Beside a steep axis a word would run over it: it stands above or below.
+    DrawnAxis drawn{};
+    drawn.name = directions[k].empty() ? std::string(1, static_cast<char>('x' + k)) : directions[k];
+    drawn.x = kLength * page.text * right;
+    drawn.y = kLength * page.text * up;
+    // Beside a steep axis a name would run over it: it stands above or below.
     const bool steep = std::abs(up) > std::abs(right);
-    const Align align = steep ? Align::Centre : (right > 0 ? Align::Left : Align::Right);
-    add_text(sheet, name_of_axis(directions, k), x + (length + (steep ? 0 : shift)) * right,
-             y + length * up + (steep ? std::copysign(0.7 * text, up) : 0), {kSmall, false, align});
+    drawn.align = steep ? Align::Centre : (right > 0 ? Align::Left : Align::Right);
+    drawn.label_x = drawn.x + (steep ? 0 : std::copysign(kGap * page.text, right));
+    drawn.label_y = drawn.y + (steep ? std::copysign(kAbove * page.text, up) : 0);
+    const double width = text_width(drawn.name, kSmall * page.text, false);
+    const double before = steep ? 0.5 * width : (right > 0 ? 0 : width);
+    drawn.left = std::min({0.0, drawn.x, drawn.label_x - before});
+    drawn.right = std::max({0.0, drawn.x, drawn.label_x - before + width});
+    result.push_back(std::move(drawn));
+  }
+  return result;
+}
+
+/// Of all of them.
+std::pair<double, double> reach_of(const std::vector<DrawnAxis>& axes) {
+  double left = 0, right = 0;
+  for (const DrawnAxis& axis : axes) {
+    left = std::min(left, axis.left);
+    right = std::max(right, axis.right);
+  }
+  return {left, right};
+}
+
+}  // namespace
+
+double axes_width(const Page& page, const ViewAxes& axes, const Directions& directions) {
+  const auto [left, right] = reach_of(drawn_axes(page, axes, directions));
+  return right - left;
+}
+
+void add_axes(const Sheet& sheet, const Rect& rect, const ViewAxes& axes,
+              const Directions& directions) {
+  const double text = sheet.page.text;
+  const std::vector<DrawnAxis> drawn = drawn_axes(sheet.page, axes, directions);
+  const auto [left, right] = reach_of(drawn);
+  const double x = rect.x + 0.5 * (rect.width - (right - left)) - left, y = rect.y + 4.5 * text;
+  for (const DrawnAxis& axis : drawn) {
+    add_line(sheet, {{x, y}, {x + axis.x, y + axis.y}}, 0.12 * text);
+    add_text(sheet, axis.name, x + axis.label_x, y + axis.label_y, {kSmall, false, axis.align});
   }
 }
 

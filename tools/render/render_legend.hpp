@@ -51,7 +51,7 @@ void add_line_legends(const Sheet& sheet, const Rect& foot, const std::vector<Co
 void add_scale_bar(const Sheet& sheet, const Rect& foot, double pixel, const std::string& unit);
 
 /// The width that add_axes() needs. [pixel]
-double axes_width(const Page& page, const Directions& directions);
+double axes_width(const Page& page, const ViewAxes& axes, const Directions& directions);
 
 /// At the lower end of the rectangle: x, y and z, or what they are called. One that points to the
 /// eye or away from it has no length and is left out.

@@ -24,7 +24,6 @@ constexpr int kSupersampling = 2;
 constexpr Rgb kIvory = {0.94, 0.90, 0.80};
 constexpr Rgb kPlainTissue = {0.80, 0.52, 0.47};
 constexpr Rgb kPlainLine = {0.80, 0.84, 0.88};
-constexpr Rgb kCutBone = {0.80, 0.74, 0.62};
 constexpr double kBoneOpacity = 0.3;                        // where it would hide what is coloured
 constexpr double kOutlineWidth = 0.09, kEdgeWidth = 0.045;  // of the page's text
 
@@ -36,7 +35,7 @@ double metres_of(const std::string& unit) {
 
 /// Left empty where no scale stands beside the scene.
 double strip_width(const Page& page, const Setting& setting) {
-  return std::max(axes_width(page, setting.directions),
+  return std::max(axes_width(page, setting.axes, setting.directions),
                   setting.field ? legend_width(page, *setting.field) : 0);
 }
 
@@ -46,8 +45,9 @@ RenderScene::RenderScene(Setting setting)
     : setting_(std::move(setting)),
       fine_(finer(setting_.page, kSupersampling)),
       layout_(lay_out(fine_, setting_.num_panels, strip_width(fine_, setting_))),
-      line_radius_(0.0065 * setting_.survey.diagonal),
+      line_radius_(0.0065 * setting_.survey.size.norm()),
       sheet_(vtkSmartPointer<vtkRenderer>::New()),
+      labels_(vtkSmartPointer<vtkRenderer>::New()),
       window_(vtkSmartPointer<vtkRenderWindow>::New()) {
   const Survey& seen = setting_.survey;
   if (!seen.of_lines) {
@@ -59,8 +59,10 @@ RenderScene::RenderScene(Setting setting)
   window_->SetAlphaBitPlanes(1);  // for depth peeling,
   window_->SetMultiSamples(0);    // which excludes the window's own smoothing
   window_->SetSize(fine_.width, fine_.height);
-  window_->SetNumberOfLayers(2);
+  window_->SetNumberOfLayers(3);
   window_->AddRenderer(sheet_);
+  labels_->SetLayer(2);
+  window_->AddRenderer(labels_);
   for (int i = 0; i < setting_.num_panels; ++i) {
     panels_.push_back(vtkSmartPointer<vtkRenderer>::New());
     vtkRenderer& panel = *panels_.back();
@@ -173,14 +175,6 @@ RenderScene::Surface RenderScene::add_skin(vtkRenderer& panel, const Part& part,
   property.SetSpecularPower(25);
   property.SetOpacity(opacity);
   if (opacity < 1) translucent_.push_back(&actor);
-  if (setting_.look.clip && part.kind == PartKind::Bone) {
-    // A bone is a surface: its inner side, in one colour, looks as if it were full.
-    vtkNew<vtkProperty> inside;
-    set_colour(*inside, kCutBone);
-    inside->LightingOff();
-    inside->SetOpacity(opacity);
-    actor.SetBackfaceProperty(inside);
-  }
   return Surface::Lit;
 }
 
@@ -205,7 +199,8 @@ void RenderScene::add_tubes(vtkRenderer& panel, LineKind kind, vtkPolyData& tube
   const auto& clip = setting_.look.clip;
   vtkSmartPointer<vtkPolyData> shown = &tubes;
   if (tubes.GetNumberOfCells() > 0 && clip)
-    shown = clipped_surface(tubes, *clip, metres_of(setting_.survey.length_unit));
+    shown =
+        vtkPolyData::SafeDownCast(clipped(tubes, *clip, metres_of(setting_.survey.length_unit)));
   if (shown->GetNumberOfCells() == 0) return;
   vtkActor& actor = add_surface(panel, *shown);
   actor.GetProperty()->EdgeVisibilityOff();  // a tube is no mesh of the model
@@ -276,7 +271,7 @@ void RenderScene::add_labels(vtkRenderer& panel, const Rect& rect) {
   }
   std::sort(placed.begin(), placed.end(),
             [](const Placed& a, const Placed& b) { return a.y > b.y; });
-  const Sheet sheet{*sheet_, fine_, setting_.look.paper.ink};
+  const Sheet sheet{*labels_, fine_, setting_.look.paper.ink};
   for (std::size_t i = 0; i < placed.size(); ++i) {
     Placed& label = placed[i];
     for (std::size_t j = 0; j < i; ++j)  // those above, from the top down
@@ -314,7 +309,6 @@ void RenderScene::draw_mask() {
     property.SetColor(c, c, c);
     property.LightingOff();
     property.EdgeVisibilityOff();
-    actor.SetBackfaceProperty(nullptr);
   };
   for (const auto& panel : panels_) {
     vtkActorCollection& actors = *panel->GetActors();
@@ -352,6 +346,7 @@ Image RenderScene::draw(const std::vector<Panel>& panels) {
   coloured_.clear();
   translucent_.clear();
   sheet_->RemoveAllViewProps();
+  labels_->RemoveAllViewProps();
   for (std::size_t i = 0; i < panels.size(); ++i) {
     vtkRenderer& panel = *panels_[i];
     panel.RemoveAllViewProps();

@@ -86,7 +86,7 @@ class RenderScene {
   std::optional<ColourScale> activation_, tension_;
   std::optional<Marks> marks_;
   std::vector<vtkActor*> coloured_, translucent_;  // of what is being drawn
-  vtkSmartPointer<vtkRenderer> sheet_;
+  vtkSmartPointer<vtkRenderer> sheet_, labels_;    // behind the panels and before them
   std::vector<vtkSmartPointer<vtkRenderer>> panels_;
   vtkSmartPointer<vtkRenderWindow> window_;
 };

@@ -8,6 +8,7 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <set>
 
 #include "sim/base/error.hpp"
@@ -133,12 +134,17 @@ Survey survey_of(const Frame& frame, const std::string& unit, const std::string&
   return result;
 }
 
-void require_focus(const std::filesystem::path& scenario, const Frame& frame,
-                   const std::string& focus) {
-  std::set<std::string> names;
-  for (const Part& part : frame.parts) names.insert(part.name);
+void require_known_parts(const RenderOptions& options, const Frame& frame) {
+  std::set<std::string> names, bodies;
+  for (const Part& part : frame.parts) {
+    names.insert(part.name);
+    if (part.kind != PartKind::Lines) bodies.insert(part.name);
+  }
+  check_opacity(options.opacity, bodies);
+  const std::string& focus = options.focus;
   if (!focus.empty() && !names.contains(focus))
-    throw sim::InputError({scenario.string()}, "--focus: " + unknown_name("part", focus, names));
+    throw sim::InputError({options.runs.front().string()},
+                          "--focus: " + unknown_name("part", focus, names));
 }
 
 }  // namespace
@@ -154,12 +160,14 @@ int render_setup(const RenderOptions& options) {
   const Frame frame = start_of(model, now, unit);
   if (frame.parts.empty())
     throw sim::InputError({file.string()}, "no body of this scenario has a mesh to draw");
-  require_focus(file, frame, options.focus);
+  require_known_parts(options, frame);
 
   Setting setting;
   setting.page = page_of(options.size, options.dpi);
   setting.look = {paper_of(options.background), options.mesh_edges, options.opacity, std::nullopt};
   if (!options.clip.empty()) setting.look.clip = parse_clip(options.clip);
+  std::copy(scenario.output.directions.begin(), scenario.output.directions.end(),
+            setting.directions.begin());
   setting.axes = view_axes(options.view, options.up, setting.directions);
   setting.survey = survey_of(frame, scenario.output.length_unit.name, options.focus, setting.axes);
 

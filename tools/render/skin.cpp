@@ -59,7 +59,13 @@ Skin skin_of(const Part& part, const FieldValues& values, double factor,
   skin.has_values = !values.numbers.empty();
   skin.per_cell = values.per_cell;
   if (skin.has_values) add_shown(*set, values, factor);
-  if (clip) set = clipped(*set, *clip, unit);
+  if (clip) {
+    vtkPolyData* const surface = vtkPolyData::SafeDownCast(set);
+    if (surface != nullptr && !skin.has_values)
+      set = clipped_solid(*surface, *clip, unit);
+    else
+      set = clipped(*set, *clip, unit);
+  }
   vtkNew<vtkGeometryFilter> boundary;
   boundary->SetInputData(set);
   boundary->Update();

@@ -89,8 +89,11 @@ void add_values(const Part& part, Survey& result) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   result.lowest = is_first ? *low : std::min(result.lowest, *low);
   result.highest = is_first ? *high : std::max(result.highest, *high);
-  result.high_percentile =
-      std::max(result.high_percentile, percentile_of(std::move(values), result.rest));
+  // A line has one value, which is no peak of a mesh.
+  const double high_end =
+      result.of_lines ? std::max(std::abs(*low - result.rest), std::abs(*high - result.rest))
+                      : percentile_of(values, result.rest);
+  result.high_percentile = std::max(result.high_percentile, high_end);
 }
 
 }  // namespace

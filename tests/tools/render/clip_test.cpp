@@ -41,4 +41,25 @@ TEST(Clip, CutsTetrahedraWithTheirValues) {
   EXPECT_NEAR(tip->GetPointData()->GetArray("field")->GetRange()[0], 10, 1e-9);
 }
 
+// Four faces of a tetrahedron are closed, three are not.
+TEST(Clip, FillsTheCutOfAClosedSurfaceOnly) {
+  Positions x(3, 4);
+  x << 0, 2e-3, 0, 0, 0, 0, 2e-3, 0, 0, 0, 0, 2e-3;
+  Triangles closed(3, 4);
+  closed << 0, 0, 0, 1, 2, 1, 3, 2, 1, 3, 2, 3;
+  const auto faces_on_cut = [&](const Triangles& faces) {
+    const auto set = sim::make_surface(x, 1e-3, faces);
+    const auto tip = clipped_solid(*vtkPolyData::SafeDownCast(set), parse_clip("x>1mm"), 1e-3);
+    int count = 0;
+    for (vtkIdType face = 0; face < tip->GetNumberOfCells(); ++face) {
+      double bounds[6];
+      tip->GetCellBounds(face, bounds);
+      count += bounds[1] < 1 + 1e-6 ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_GT(faces_on_cut(closed), 0);
+  EXPECT_EQ(faces_on_cut(closed.leftCols(3)), 0);
+}
+
 }  // namespace articular::tools::render_test

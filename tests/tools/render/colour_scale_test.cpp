@@ -33,13 +33,18 @@ TEST(FieldScale, EndsAtARoundNumberInAUnitOfItsSize) {
 }
 
 TEST(FieldScale, GoesToBothSidesOfRestWhereValuesDo) {
-  Survey survey = stress_up_to(1.1);
+  Survey survey = stress_up_to(0);
   survey.field = "volume_ratio";
   survey.unit = "1";
   survey.rest = 1;
   survey.lowest = 0.8;
+  survey.highest = 1.1;
   survey.high_percentile = 0.2;
   EXPECT_EQ(range_text(field_scale(survey, {}, "")), "0.8 to 1.2");
+  survey.lowest = 0.9999;  // hardly
+  const ColourScale one_sided = field_scale(survey, {}, "");
+  EXPECT_EQ(range_text(one_sided), "1 to 1.1");
+  EXPECT_DOUBLE_EQ(*one_sided.lowest_below, 0.9999);
 }
 
 TEST(FieldScale, SaysWhatLiesBeyondItsEnds) {

@@ -6,6 +6,22 @@
 
 namespace articular::tools::render_test {
 
+// The longest names, in any view: as wide as axes and names reach, and no word is cut.
+TEST(Legend, HasRoomForTheNamesOfItsAxes) {
+  const Page page{1600, 1000, 25, std::nullopt};
+  const Directions words = {"medial", "posterior", "superior"};
+  for (const char* const view :
+       {"front", "back", "left", "right", "top", "bottom", "three-quarter"}) {
+    const ViewAxes axes = view_axes(view, "", words);
+    EXPECT_GT(axes_width(page, axes, words), axes_width(page, axes, {})) << view;
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::abs(axes.to_eye[static_cast<int>(k)]) < 0.9)
+        longest = std::max(longest, text_width(words[k], 0.9 * page.text, false));
+    EXPECT_GE(axes_width(page, axes, words), longest) << view;
+  }
+}
+
 TEST(Legend, LabelsAreRoundNumbersInside) {
   EXPECT_EQ(round_labels(0, 100), (std::vector<double>{0, 20, 40, 60, 80, 100}));
   for (int k = 0; k < 61; ++k) {

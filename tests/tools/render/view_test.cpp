@@ -47,7 +47,7 @@ TEST(View, IsFromWhereItsNameSays) {
 }
 
 TEST(View, FollowsTheDirectionsThatAScenarioStates) {
-  // x anterior, y superior: the left is −z... seen from it, the front is on the left.
+  // x anterior, y superior, so that left is −z.
   const Directions directions = {"anterior", "superior", "right"};
   const ViewAxes front = view_axes("front", "", directions);
   EXPECT_EQ(front.to_eye, Vec3::UnitX());
