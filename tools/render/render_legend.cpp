@@ -147,6 +147,10 @@ void add_text(const Sheet& sheet, const std::string& text, double x, double y,
   vtkTextProperty& property = *actor->GetTextProperty();
   shape_text(property, font_size(style.size * sheet.page.text), style.bold);
   property.SetColor(sheet.ink[0], sheet.ink[1], sheet.ink[2]);
+  if (style.ground) {
+    property.SetBackgroundColor((*style.ground)[0], (*style.ground)[1], (*style.ground)[2]);
+    property.SetBackgroundOpacity(0.75);
+  }
   if (style.align == Align::Left) property.SetJustificationToLeft();
   if (style.align == Align::Centre) property.SetJustificationToCentered();
   if (style.align == Align::Right) property.SetJustificationToRight();

@@ -2,6 +2,7 @@
 
 #include <vtkRenderer.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ enum class Align { Left, Centre, Right };
 struct TextStyle {
   double size = 1;  // of the page's text
   bool bold = false;
-  Align align = Align::Left;  // of x; y is the middle of the line
+  Align align = Align::Left;                 // of x; y is the middle of the line
+  std::optional<Rgb> ground = std::nullopt;  // laid thinly behind text that stands over a scene
 };
 
 void add_text(const Sheet& sheet, const std::string& text, double x, double y,

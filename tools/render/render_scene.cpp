@@ -277,7 +277,8 @@ void RenderScene::add_labels(vtkRenderer& panel, const Rect& rect) {
     for (std::size_t j = 0; j < i; ++j)  // those above, from the top down
       if (std::abs(label.x - placed[j].x) < label.half_width + placed[j].half_width)
         label.y = std::min(label.y, placed[j].y - 1.1 * kSize * fine_.text);
-    add_text(sheet, label.text, label.x, label.y, {kSize, true, Align::Centre});
+    add_text(sheet, label.text, label.x, label.y,
+             {kSize, true, Align::Centre, setting_.look.paper.ground});
   }
 }
 
