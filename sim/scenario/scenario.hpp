@@ -403,6 +403,7 @@ struct Output {
   std::optional<std::filesystem::path> directory;
   bool contact_surfaces = false;  // a file of its own for the surface that each body touches with
   std::optional<double> checkpoint_interval;  // [s]; none: see run.cpp
+  std::vector<std::string> directions;        // words for +x, +y, +z, for pictures; empty: none
 };
 
 struct Scenario {

@@ -1,4 +1,5 @@
 // Title, times, presets, integrator, detection and output of a scenario, and the record of them.
+#include <Eigen/LU>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -65,10 +66,42 @@ std::filesystem::path read_directory(const Node& node) {
   return directory;
 }
 
+/// What +x, +y and +z are in the body: one of each pair, in any order, and right-handed.
+std::vector<std::string> read_directions(const Node& node) {
+  enum Across { kSide, kDepth, kHeight };  // and the sign of left, posterior, superior
+  constexpr int kAnySide = 0;              // medial is left or right, by what is modelled
+  std::vector<std::string> words;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();  // rows: side, depth, height; columns: x, y, z
+  bool given[] = {false, false, false};
+  int side = 1;
+  for (const Node& entry : read_list(node, "a list of three directions", 3)) {
+    const auto [axis, sign] =
+        read_choice<std::pair<Across, int>>(entry, {{"left", {kSide, 1}},
+                                                    {"right", {kSide, -1}},
+                                                    {"medial", {kSide, kAnySide}},
+                                                    {"lateral", {kSide, kAnySide}},
+                                                    {"posterior", {kDepth, 1}},
+                                                    {"anterior", {kDepth, -1}},
+                                                    {"superior", {kHeight, 1}},
+                                                    {"inferior", {kHeight, -1}}});
+    if (given[axis])
+      fail(node, "expected one direction to a side, one to the front or back, and one up or down");
+    given[axis] = true;
+    if (axis == kSide) side = sign;
+    axes(axis, static_cast<int>(words.size())) = sign == kAnySide ? 1 : sign;
+    words.push_back(*entry.text());
+  }
+  if (side != kAnySide && axes.determinant() < 0)
+    fail(node,
+         "expected a body that is no mirror image: with these directions left and right are "
+         "exchanged");
+  return words;
+}
+
 void read_output(const Node& node, Output& output) {
-  const TableReader table(
-      node, "[output]",
-      {"interval", "length_unit", "directory", "contact_surfaces", "checkpoint_interval"});
+  const TableReader table(node, "[output]",
+                          {"interval", "length_unit", "directory", "contact_surfaces",
+                           "checkpoint_interval", "directions"});
   table.may("interval", output.interval, as_quantity(kTime, kPositive));
   if (const Node* unit = table.find("length_unit")) {
     output.length_unit.metres =
@@ -78,6 +111,7 @@ void read_output(const Node& node, Output& output) {
   table.may("directory", output.directory, read_directory);
   table.may("contact_surfaces", output.contact_surfaces, read_boolean);
   table.may("checkpoint_interval", output.checkpoint_interval, as_quantity(kTime, kPositive));
+  table.may("directions", output.directions, read_directions);
 }
 
 nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
@@ -200,6 +234,7 @@ std::string settings_as_json(const Scenario& scenario) {
   if (output.directory) json["output"]["directory"] = output.directory->string();
   if (output.checkpoint_interval)
     json["output"]["checkpoint_interval_s"] = *output.checkpoint_interval;
+  if (!output.directions.empty()) json["output"]["directions"] = output.directions;
   // Text that is not UTF-8 (a file name may be anything) is replaced rather than refused.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

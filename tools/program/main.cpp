@@ -19,7 +19,7 @@
 #include "tools/plot/plot_command.hpp"
 #include "tools/process/interruption.hpp"
 #include "tools/process/standard_streams.hpp"
-#include "tools/render/render.hpp"
+#include "tools/render/render_command.hpp"
 #include "tools/run/commands.hpp"
 #include "tools/study/study_command.hpp"
 #include "tools/verify/verify_command.hpp"

@@ -7,6 +7,8 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <sstream>
 #include <string>
 #include <system_error>
 
@@ -27,16 +29,38 @@ class IgnoreBrokenPipe {
   void (*previous_)(int);
 };
 
+bool is_installed(const std::string& program) {
+  std::istringstream folders(std::getenv("PATH") != nullptr ? std::getenv("PATH") : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (::access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
 }  // namespace
+
+std::filesystem::path movie_file(const std::filesystem::path& asked) {
+  if (asked.has_extension()) return asked;
+  std::filesystem::path file = asked;
+  file += is_installed("ffmpeg") ? ".mp4" : ".ogv";
+  return file;
+}
+
+void check_movie(const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  if (ending != ".ogv" && ending != ".mp4")
+    throw sim::InputError(
+        {file.string()},
+        "unknown movie format `" + ending + "`; known: .ogv, and .mp4 where ffmpeg is installed");
+  if (ending == ".mp4" && !is_installed("ffmpeg"))
+    throw sim::InputError({file.string()},
+                          "a movie .mp4 needs the program ffmpeg, which is not installed "
+                          "(Debian: apt install ffmpeg); .ogv works without");
+}
 
 Movie::Movie(std::filesystem::path file, int width, int height)
     : file_(std::move(file)), temporary_(file_) {
   temporary_ += ".part";
-  const std::string ending = file_.extension().string();
-  if (ending != ".ogv" && ending != ".mp4")
-    throw sim::InputError(
-        {file_.string()},
-        "unknown movie format `" + ending + "`; known: .ogv, and .mp4 where ffmpeg is installed");
+  check_movie(file_);
   // Neither VTK nor ffmpeg tells why a file can't be opened.
   const FileDescriptor probe(
       ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
@@ -44,7 +68,7 @@ Movie::Movie(std::filesystem::path file, int width, int height)
     throw sim::SystemError(file_.string() +
                            ": can't be written: " + std::system_category().message(errno));
   try {
-    if (ending == ".ogv")
+    if (file_.extension() == ".ogv")
       start_theora();
     else
       start_ffmpeg(width, height);
@@ -95,9 +119,7 @@ void Movie::start_ffmpeg(int width, int height) {
                                             temporary_.string()},
                                            frames.read_end.get(), STDIN_FILENO, ffmpeg_);
   if (started == ChildProcess::Started::NotInstalled)
-    throw sim::InputError({file_.string()},
-                          "a movie .mp4 needs the program ffmpeg, which is not installed "
-                          "(Debian: apt install ffmpeg); .ogv works without");
+    throw sim::SystemError(file_.string() + ": ffmpeg is gone");
   to_ffmpeg_ = std::move(frames.write_end);
 }
 

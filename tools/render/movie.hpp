@@ -11,14 +11,19 @@ class vtkOggTheoraWriter;
 
 namespace articular::tools {
 
+/// Without an ending .mp4 where the program ffmpeg is installed, else .ogv.
+std::filesystem::path movie_file(const std::filesystem::path& asked);
+
+/// @throws InputError for another ending than .ogv and .mp4, or .mp4 without ffmpeg
+void check_movie(const std::filesystem::path& file);
+
 /// A movie file, written frame by frame: .ogv by VTK, .mp4 by the program ffmpeg where it is
 /// installed. It appears whole or not at all: as `<file>.part` until finish().
 class Movie {
  public:
   static constexpr int kFramesPerSecond = 25;
 
-  /// @throws InputError for another ending, or .mp4 without ffmpeg; SystemError when it can't be
-  /// written
+  /// @throws InputError as check_movie(); SystemError when it can't be written
   Movie(std::filesystem::path file, int width, int height);
   ~Movie();
   Movie(const Movie&) = delete;

@@ -4,48 +4,39 @@
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkUnsignedCharArray.h>
+#include <zlib.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
-#include <map>
-#include <set>
+#include <cstdint>
+#include <string>
 
 #include "sim/base/atomic_file.hpp"
 #include "sim/base/error.hpp"
-#include "tools/render/nearest.hpp"
 
 namespace articular::tools {
+namespace {
 
 namespace fs = std::filesystem;
 
-ViewAxes view_axes(const std::string& view, const std::string& up_axis) {
-  static const std::map<std::string, Vec3> kDirections = {{"front", {0, -1, 0}},
-                                                          {"back", {0, 1, 0}},
-                                                          {"left", {1, 0, 0}},
-                                                          {"right", {-1, 0, 0}},
-                                                          {"top", {0, 0, 1}},
-                                                          {"bottom", {0, 0, -1}},
-                                                          {"three-quarter", {0.62, -0.80, 0.30}}};
-  std::set<std::string> names;
-  for (const auto& [name, direction] : kDirections) names.insert(name);
-  const auto found = kDirections.find(view);
-  if (found == kDirections.end())
-    throw sim::InputError("--view: " + unknown_name("view", view, names));
-  if (up_axis != "y" && up_axis != "z")
-    throw sim::InputError("--up: unknown axis `" + up_axis + "`; expected y or z");
-
-  Mat3 body;  // columns: left, posterior, up
-  if (up_axis == "z")
-    body = Mat3::Identity();
-  else
-    body << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  const Vec3 to_eye = body * found->second.normalized();
-  // From above and below the front of the body is at the top of the picture.
-  const bool vertical = std::abs(found->second.z()) > 0.9;
-  const Vec3 upwards = body * (vertical ? Vec3(0, -1, 0) : Vec3(0, 0, 1));
-  const Vec3 right = upwards.cross(to_eye).normalized();
-  return {right, to_eye.cross(right), to_eye};
+std::string big_endian(std::uint32_t value) {
+  std::string bytes;
+  for (const unsigned shift : {24U, 16U, 8U, 0U})
+    bytes += static_cast<char>((value >> shift) & 0xFFU);
+  return bytes;
 }
+
+/// Pixels a metre, each way. [PNG, 3rd edition, 11.3.4.3]
+std::string resolution_chunk(double dpi) {
+  constexpr double kInch = 0.0254;  // [m]
+  const std::string pixels = big_endian(static_cast<std::uint32_t>(std::lround(dpi / kInch)));
+  const std::string named = "pHYs" + pixels + pixels + '\1';
+  const uLong sum =
+      crc32(0, reinterpret_cast<const Bytef*>(named.data()), static_cast<uInt>(named.size()));
+  return big_endian(static_cast<std::uint32_t>(named.size() - 4)) + named +
+         big_endian(static_cast<std::uint32_t>(sum));
+}
+
+}  // namespace
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
@@ -54,15 +45,17 @@ void make_folder(const fs::path& folder) {
     throw sim::SystemError(folder.string() + ": the folder can't be made: " + error.message());
 }
 
-void write_png(const fs::path& file, vtkImageData& image) {
+void write_png(const fs::path& file, vtkImageData& image, std::optional<double> dpi) {
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(&image);
   writer->WriteToMemoryOn();
   writer->Write();
-  vtkUnsignedCharArray& bytes = *writer->GetResult();
-  const auto* const start = reinterpret_cast<const char*>(bytes.GetPointer(0));
-  sim::write_text_file(file,
-                       std::string(start, static_cast<std::size_t>(bytes.GetNumberOfValues())));
+  vtkUnsignedCharArray& written = *writer->GetResult();
+  std::string bytes(reinterpret_cast<const char*>(written.GetPointer(0)),
+                    static_cast<std::size_t>(written.GetNumberOfValues()));
+  constexpr std::size_t kAfterHeader = 33;  // signature, and the chunk IHDR, which is always first
+  if (dpi) bytes.insert(kAfterHeader, resolution_chunk(*dpi));
+  sim::write_text_file(file, bytes);
 }
 
 }  // namespace articular::tools

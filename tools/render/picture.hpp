@@ -1,23 +1,17 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-
-#include "tools/render/render_series.hpp"
+#include <optional>
 
 class vtkImageData;
 
-/// What every picture needs: where the eye is, and where the file goes.
+/// Where a picture goes.
 namespace articular::tools {
-
-/// Where the eye is, seen from the scene: towards the body's left, back and top.
-/// @param view  "front", "top", ... @param up  "y" or "z" @throws InputError for another one
-ViewAxes view_axes(const std::string& view, const std::string& up);
 
 /// @throws SystemError
 void make_folder(const std::filesystem::path& folder);
 
-/// Whole or not at all. @throws SystemError
-void write_png(const std::filesystem::path& file, vtkImageData& image);
+/// RGB or RGBA, whole or not at all. @param dpi  of print, kept in the file @throws SystemError
+void write_png(const std::filesystem::path& file, vtkImageData& image, std::optional<double> dpi);
 
 }  // namespace articular::tools

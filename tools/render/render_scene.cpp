@@ -1,13 +1,9 @@
 #include "tools/render/render_scene.hpp"
 
-#include <fmt/format.h>
 #include <vtkActor.h>
+#include <vtkActorCollection.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkGeometryFilter.h>
-#include <vtkIdList.h>
 #include <vtkLightKit.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -15,17 +11,9 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
-#include <vtkTubeFilter.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-
-#include "sim/base/error.hpp"
-#include "sim/mesh/vtk_files.hpp"
-#include "tools/render/colour_map.hpp"
-#include "tools/render/render_legend.hpp"
 
 namespace articular::tools {
 namespace {
@@ -35,386 +23,348 @@ constexpr int kSupersampling = 2;
 
 constexpr Rgb kIvory = {0.94, 0.90, 0.80};
 constexpr Rgb kPlainTissue = {0.80, 0.52, 0.47};
-constexpr Rgb kLigament = {0.80, 0.84, 0.88};
-constexpr double kFixedBoneOpacity = 0.32;  // a joint stays visible through the skull
-
-constexpr const char* kShown = "shown";  // the array that is drawn
-constexpr const char* kRadius = "radius";
+constexpr Rgb kPlainLine = {0.80, 0.84, 0.88};
+constexpr double kBoneOpacity = 0.3;                        // where it would hide what is coloured
+constexpr double kOutlineWidth = 0.09, kEdgeWidth = 0.045;  // of the page's text
 
 void set_colour(vtkProperty& property, const Rgb& c) { property.SetColor(c[0], c[1], c[2]); }
 
-/// "von_mises" as in a text.
-std::string title_of(const std::string& field) {
-  if (field == "von_mises") return "von Mises stress";
-  std::string title = field;
-  std::replace(title.begin(), title.end(), '_', ' ');
-  return title;
+double metres_of(const std::string& unit) {
+  return unit == "m" ? 1 : unit == "cm" ? 1e-2 : 1e-3;  // those of output.length_unit
 }
 
-/// The path with equal steps between its points, so that a muscle can have a belly.
-Positions resampled(vtkPointSet& set, vtkIdType count, const vtkIdType* nodes, int num_points) {
-  std::vector<Vec3> corners;
-  std::vector<double> length;  // from the start to each corner
-  for (vtkIdType a = 0; a < count; ++a) {
-    Vec3 p;
-    set.GetPoint(nodes[a], p.data());
-    const double step = corners.empty() ? 0 : (p - corners.back()).norm();
-    if (!corners.empty() && step == 0) continue;
-    length.push_back(corners.empty() ? 0 : length.back() + step);
-    corners.push_back(p);
-  }
-  if (corners.size() < 2) return Positions(3, 0);
-  Positions path(3, num_points);
-  std::size_t segment = 1;
-  for (int i = 0; i < num_points; ++i) {
-    const double s = length.back() * i / (num_points - 1);
-    while (segment + 1 < corners.size() && length[segment] < s) ++segment;
-    const double part = (s - length[segment - 1]) / (length[segment] - length[segment - 1]);
-    path.col(i) = corners[segment - 1] + part * (corners[segment] - corners[segment - 1]);
-  }
-  return path;
-}
-
-/// Every pixel the mean of kSupersampling x kSupersampling.
-vtkSmartPointer<vtkImageData> averaged(vtkImageData& large, int width, int height) {
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(width, height, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  const auto* const from = static_cast<const unsigned char*>(large.GetScalarPointer());
-  auto* to = static_cast<unsigned char*>(image->GetScalarPointer());
-  const std::ptrdiff_t row = std::ptrdiff_t{3} * kSupersampling * width;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c) {
-        int sum = 0;
-        for (int j = 0; j < kSupersampling; ++j)
-          for (int i = 0; i < kSupersampling; ++i)
-            sum += from[(kSupersampling * y + j) * row + 3 * (kSupersampling * x + i) + c];
-        *to++ = static_cast<unsigned char>(sum / (kSupersampling * kSupersampling));
-      }
-  return image;
-}
-
-double cell_value(vtkPointSet& set, const char* field, vtkIdType cell, double absent) {
-  vtkDataArray* const array = set.GetCellData()->GetArray(field);
-  return array != nullptr ? array->GetComponent(cell, 0) : absent;
+/// Left empty where no scale stands beside the scene.
+double strip_width(const Page& page, const Setting& setting) {
+  return std::max(axes_width(page, setting.axes, setting.directions),
+                  setting.field ? legend_width(page, *setting.field) : 0);
 }
 
 }  // namespace
 
-ViewFit::Borders scene_borders(int width, int height) {
-  const double top = std::tan(kHalfViewAngleDeg * std::numbers::pi / 180);
-  const double side = top * width / height;
-  return {.left = 0.94 * side, .right = 0.72 * side, .bottom = 0.90 * top, .top = 0.84 * top};
-}
-
-RenderScene::RenderScene(const Series& series, const Survey& survey, const ViewAxes& axes,
-                         const ViewFit& fit, int width, int height)
-    : name_(series.name),
-      survey_(survey),
-      width_(width),
-      height_(height),
-      line_radius_(0.0065 * fit.diagonal()),
-      renderer_(vtkSmartPointer<vtkRenderer>::New()),
+RenderScene::RenderScene(Setting setting)
+    : setting_(std::move(setting)),
+      fine_(finer(setting_.page, kSupersampling)),
+      layout_(lay_out(fine_, setting_.num_panels, strip_width(fine_, setting_))),
+      line_radius_(0.0065 * setting_.survey.size.norm()),
+      sheet_(vtkSmartPointer<vtkRenderer>::New()),
+      labels_(vtkSmartPointer<vtkRenderer>::New()),
       window_(vtkSmartPointer<vtkRenderWindow>::New()) {
-  choose_colours();
-  renderer_->SetBackground(1, 1, 1);
-  renderer_->SetBackground2(0.86, 0.90, 0.94);
-  renderer_->GradientBackgroundOn();
-  renderer_->UseDepthPeelingOn();  // transparent bones in the right order
-  renderer_->SetMaximumNumberOfPeels(8);
-  vtkNew<vtkLightKit> lights;
-  lights->SetKeyLightIntensity(0.82);
-  lights->SetKeyToFillRatio(2.0);
-  lights->SetFillLightWarmth(0.52);  // as set by VTK, bluish light turns ivory to grey-green
-  lights->SetBackLightWarmth(0.5);
-  lights->AddLightsToRenderer(renderer_);
-
-  const Vec3 eye = fit.eye(), focus = eye - fit.depth() * axes.to_eye;
-  vtkCamera& camera = *renderer_->GetActiveCamera();
-  camera.SetPosition(eye.data());
-  camera.SetFocalPoint(focus.data());
-  camera.SetViewUp(axes.up.data());
-  camera.SetViewAngle(2 * kHalfViewAngleDeg);
-
+  const Survey& seen = setting_.survey;
+  if (!seen.of_lines) {
+    if (seen.has_muscles) activation_ = activation_scale();
+    if (seen.highest_tension) tension_ = tension_scale(*seen.highest_tension);
+  }
   window_->SetShowWindow(false);
   window_->SetUseOffScreenBuffers(true);
   window_->SetAlphaBitPlanes(1);  // for depth peeling,
   window_->SetMultiSamples(0);    // which excludes the window's own smoothing
-  window_->SetSize(kSupersampling * width, kSupersampling * height);
-  window_->AddRenderer(renderer_);
+  window_->SetSize(fine_.width, fine_.height);
+  window_->SetNumberOfLayers(3);
+  window_->AddRenderer(sheet_);
+  labels_->SetLayer(2);
+  window_->AddRenderer(labels_);
+  for (int i = 0; i < setting_.num_panels; ++i) {
+    panels_.push_back(vtkSmartPointer<vtkRenderer>::New());
+    vtkRenderer& panel = *panels_.back();
+    panel.SetLayer(1);
+    panel.UseDepthPeelingOn();  // translucent bones in the right order
+    panel.SetMaximumNumberOfPeels(8);
+    vtkNew<vtkLightKit> lights;
+    lights->SetKeyLightIntensity(0.82);
+    lights->SetKeyToFillRatio(2.0);
+    lights->SetFillLightWarmth(0.52);  // as set by VTK, bluish light turns ivory to grey-green
+    lights->SetBackLightWarmth(0.5);
+    lights->AddLightsToRenderer(&panel);
+    window_->AddRenderer(&panel);
+  }
+  place_cameras();
 }
 
 RenderScene::~RenderScene() { window_->Finalize(); }
 
-int RenderScene::pixels(double at_1000_lines) const {
-  return std::max(1, static_cast<int>(std::lround(at_1000_lines * kSupersampling *
-                                                  std::min(height_, width_) / 1000.0)));
-}
-
-void RenderScene::choose_colours() {
-  activation_colours_ = colour_table(muscle_colours(), 0, 1);
-  if (survey_.field.empty()) return;
-  const double rest = rest_value(survey_.field);
-  const bool two_sided = survey_.lowest < rest;
-  const double largest =
-      std::max(std::abs(survey_.lowest - rest), std::abs(survey_.highest - rest));
-  // One peak must not take all colours for itself; if it is not far above the rest, it may.
-  double reach = largest > 1.5 * survey_.high_percentile ? survey_.high_percentile : largest;
-  display_unit_ = survey_.unit == "-" ? "" : survey_.unit;
-  if (survey_.unit == "Pa" && reach >= 1e6) {
-    display_scale_ = 1e-6;
-    display_unit_ = "MPa";
-  } else if (survey_.unit == "Pa" && reach >= 1e3) {
-    display_scale_ = 1e-3;
-    display_unit_ = "kPa";
+void RenderScene::place_cameras() {
+  for (std::size_t i = 0; i < panels_.size(); ++i) {
+    const Rect& r = layout_.panels[i];
+    panels_[i]->SetViewport(r.x / fine_.width, r.y / fine_.height, (r.x + r.width) / fine_.width,
+                            (r.y + r.height) / fine_.height);
+    half_height_ = half_height_for(setting_.survey.size, r.width / r.height);
+    vtkCamera& camera = *panels_[i]->GetActiveCamera();
+    camera.ParallelProjectionOn();
+    camera.SetParallelScale(half_height_);
+    camera.SetViewUp(setting_.axes.up.data());
   }
-  reach = round_up(reach * display_scale_);
-  const double middle = rest * display_scale_;
-  colours_ = two_sided ? colour_table(cool_to_warm(), middle - reach, middle + reach)
-                       : colour_table(viridis(), middle, middle + reach);
 }
 
-std::string RenderScene::range_text() const {
-  if (colours_ == nullptr) return "";
-  const double* const range = colours_->GetRange();
-  return fmt::format("{:g} to {:g}{}{}", range[0], range[1], display_unit_.empty() ? "" : " ",
-                     display_unit_);
-}
-
-namespace {
-
-bool has_blank(vtkPolyData& surface, const char* name) {
-  vtkDataArray& values = *surface.GetPointData()->GetArray(name);
-  for (vtkIdType i = 0; i < values.GetNumberOfTuples(); ++i)
-    if (std::isnan(values.GetComponent(i, 0))) return true;
-  return false;
-}
-
-}  // namespace
-
-vtkActor& RenderScene::add_surface(vtkPolyData& surface) {
-  vtkNew<vtkPolyDataNormals> normals;  // smooth, but for edges sharper than this
-  normals->SetInputData(&surface);
-  normals->SetFeatureAngle(50);
+vtkActor& RenderScene::add_surface(vtkRenderer& panel, vtkPolyData& surface) {
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(normals->GetOutputPort());
+  mapper->SetInputData(&surface);
   mapper->ScalarVisibilityOff();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
-  actor->GetProperty()->SetAmbient(0.08);
-  actor->GetProperty()->SetSpecular(0.18);
-  actor->GetProperty()->SetSpecularPower(25);
-  renderer_->AddActor(actor);
+  vtkProperty& property = *actor->GetProperty();
+  if (setting_.look.mesh_edges) {
+    const Rgb& ink = setting_.look.paper.ink;
+    property.EdgeVisibilityOn();
+    property.SetEdgeColor(ink[0], ink[1], ink[2]);
+    property.SetLineWidth(static_cast<float>(std::max(1.0, kEdgeWidth * fine_.text)));
+  }
+  panel.AddActor(actor);
   return *actor;
 }
 
-void RenderScene::add_coloured(const Part& part, vtkPolyData& surface) {
-  vtkActor& actor = add_surface(surface);
-  if (!survey_.coloured.contains(part.name)) {
-    set_colour(*actor.GetProperty(), kPlainTissue);
-    return;
-  }
-  vtkMapper& mapper = *actor.GetMapper();
-  mapper.SetScalarModeToUsePointFieldData();
-  mapper.SelectColorArray(kShown);
-  mapper.SetLookupTable(colours_);
-  mapper.UseLookupTableScalarRangeOn();
-  // Values are interpolated, which what is blank has none for: around that, colours are.
-  mapper.SetInterpolateScalarsBeforeMapping(has_blank(surface, kShown) ? 0 : 1);
-  mapper.ScalarVisibilityOn();
-}
-
-void RenderScene::add_tissue(const Part& part) {
-  std::vector<double> values = nodal_values(*part.set, survey_.field);
-  if (!values.empty()) {
-    vtkNew<vtkDoubleArray> shown;
-    shown->SetName(kShown);
-    for (const double value : values) shown->InsertNextValue(value * display_scale_);
-    part.set->GetPointData()->AddArray(shown);
-  }
-  vtkNew<vtkGeometryFilter> boundary;
-  boundary->SetInputData(part.set);
-  boundary->Update();
-  add_coloured(part, *boundary->GetOutput());
-}
-
-void RenderScene::add_bone(const Part& part) {
-  if (survey_.coloured.contains(part.name)) return add_tissue(part);
-  vtkProperty& property = *add_surface(*vtkPolyData::SafeDownCast(part.set)).GetProperty();
-  set_colour(property, kIvory);
-  const bool something_inside = !survey_.coloured.empty();
-  if (marks_ || (survey_.fixed_bones.contains(part.name) && something_inside))
-    property.SetOpacity(kFixedBoneOpacity);
-}
-
-void RenderScene::add_lines(const Part& part) {
-  add_tubes(*part.set, true);
-  add_tubes(*part.set, false);
-}
-
-void RenderScene::add_tubes(vtkPointSet& lines, bool muscles) {
-  constexpr int kPointsAPath = 33;
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> paths;
-  vtkNew<vtkDoubleArray> activation, radius;
-  activation->SetName(kShown);
-  radius->SetName(kRadius);
-  for (vtkIdType e = 0; e < lines.GetNumberOfCells(); ++e) {
-    const bool is_muscle = cell_value(lines, "kind", e, 0) < 0.5;
-    if (is_muscle != muscles) continue;
-    vtkNew<vtkIdList> nodes;
-    lines.GetCellPoints(e, nodes);
-    const Positions path =
-        resampled(lines, nodes->GetNumberOfIds(), nodes->GetPointer(0), kPointsAPath);
-    if (path.cols() == 0) continue;
-    paths->InsertNextCell(kPointsAPath);
-    for (int i = 0; i < kPointsAPath; ++i) {
-      paths->InsertCellPoint(points->InsertNextPoint(path.col(i).data()));
-      // A belly between thin ends, for the eye only: the model has lines.
-      const double belly = std::sin(std::numbers::pi * i / (kPointsAPath - 1));
-      radius->InsertNextValue(line_radius_ * (muscles ? 0.4 + 0.6 * belly : 0.3));
-      activation->InsertNextValue(cell_value(lines, "activation", e, 0));
-    }
-  }
-  if (paths->GetNumberOfCells() == 0) return;
-  vtkNew<vtkPolyData> set;
-  set->SetPoints(points);
-  set->SetLines(paths);
-  set->GetPointData()->AddArray(activation);
-  set->GetPointData()->SetScalars(radius);
-  vtkNew<vtkTubeFilter> tubes;
-  tubes->SetInputData(set);
-  tubes->SetVaryRadiusToVaryRadiusByAbsoluteScalar();
-  tubes->SetNumberOfSides(20);
-  tubes->CappingOn();
+void RenderScene::add_outline(vtkRenderer& panel, vtkPolyData& surface, Surface of) {
+  if (surface.GetNumberOfCells() == 0) return;
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(tubes->GetOutputPort());
+  // Light shows how a surface bends.
+  mapper->SetInputData(
+      outline_of(surface, *panel.GetActiveCamera(),
+                 of == Surface::Lit ? Outline::Contour : Outline::ContourAndBends));
+  mapper->ScalarVisibilityOff();
+  // In front of the surface that they lie in, by 20/65536 of the depth that the camera sees.
+  mapper->SetResolveCoincidentTopologyToPolygonOffset();
+  mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0, -20);
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
-  set_colour(*actor->GetProperty(), kLigament);
-  actor->GetProperty()->SetSpecular(0.25);
-  actor->GetProperty()->SetSpecularPower(30);
-  if (muscles) {
-    mapper->SetScalarModeToUsePointFieldData();
-    mapper->SelectColorArray(kShown);
-    mapper->SetLookupTable(activation_colours_);
-    mapper->UseLookupTableScalarRangeOn();
-    if (!marks_) add_activation_scale();
-  } else {
-    mapper->ScalarVisibilityOff();
+  vtkProperty& property = *actor->GetProperty();
+  set_colour(property, setting_.look.paper.ink);
+  property.SetLineWidth(static_cast<float>(std::max(1.0, kOutlineWidth * fine_.text)));
+  property.LightingOff();
+  panel.AddActor(actor);
+  if (of == Surface::Coloured) coloured_.push_back(actor);
+}
+
+void RenderScene::colour_by(const ColourScale& scale, bool per_cell, vtkActor& actor) {
+  vtkMapper& mapper = *actor.GetMapper();
+  if (per_cell)
+    mapper.SetScalarModeToUseCellFieldData();
+  else
+    mapper.SetScalarModeToUsePointFieldData();
+  mapper.SelectColorArray(kShown);
+  mapper.SetLookupTable(scale.colours);
+  mapper.UseLookupTableScalarRangeOn();
+  // Values are interpolated, not colours: a mean of two colours may be one that the scale lacks.
+  mapper.SetInterpolateScalarsBeforeMapping(per_cell ? 0 : 1);
+  mapper.ScalarVisibilityOn();
+  actor.GetProperty()->LightingOff();
+  coloured_.push_back(&actor);
+}
+
+double RenderScene::opacity_of(const Part& part, bool has_values) const {
+  const auto& asked = setting_.look.opacity;
+  if (const auto found = asked.find(part.name); found != asked.end()) return found->second;
+  if (part.kind != PartKind::Bone || has_values) return 1;
+  return marks_ || !setting_.survey.coloured.empty() ? kBoneOpacity : 1;
+}
+
+RenderScene::Surface RenderScene::add_skin(vtkRenderer& panel, const Part& part, const Skin& skin) {
+  vtkActor& actor = add_surface(panel, *skin.faces);
+  // Seen through, colours would mix: a translucent body has no field.
+  const double opacity = opacity_of(part, skin.has_values);
+  if (skin.has_values && opacity == 1) {
+    colour_by(*setting_.field, skin.per_cell, actor);
+    return Surface::Coloured;
   }
-  renderer_->AddActor(actor);
+  vtkNew<vtkPolyDataNormals> normals;  // smooth, but for edges sharper than this
+  normals->SetInputData(skin.faces);
+  normals->SetFeatureAngle(50);
+  actor.GetMapper()->SetInputConnection(normals->GetOutputPort());
+  vtkProperty& property = *actor.GetProperty();
+  set_colour(property, part.kind == PartKind::Tissue ? kPlainTissue : kIvory);
+  property.SetAmbient(0.08);
+  property.SetSpecular(0.18);
+  property.SetSpecularPower(25);
+  property.SetOpacity(opacity);
+  if (opacity < 1) translucent_.push_back(&actor);
+  return Surface::Lit;
 }
 
-void RenderScene::add_field_scale() {
-  constexpr Box kBar = {0.885, 0.24, 0.018, 0.46};
-  constexpr double kGap = 0.008, kLine = 0.034;
-  const double* const range = colours_->GetRange();
-  add_colour_bar(*renderer_, *colours_, kBar);
-  for (const double value : round_labels(range[0], range[1]))
-    add_text(*renderer_, fmt::format("{:g}", value), kBar.x + kBar.width + kGap,
-             kBar.y + kBar.height * (value - range[0]) / (range[1] - range[0]), {pixels(23)});
-  const double middle = kBar.x + kBar.width / 2, top = kBar.y + kBar.height;
-  add_text(*renderer_, title_of(survey_.field), middle, top + 2.4 * kLine,
-           {pixels(25), true, Align::Centre});
-  if (!display_unit_.empty())
-    add_text(*renderer_, "[" + display_unit_ + "]", middle, top + 1.3 * kLine,
-             {pixels(23), false, Align::Centre});
-  const double highest = survey_.highest * display_scale_;
-  if (highest > range[1] * (1 + 1e-9))  // else the scale would hide that it ends below the peak
-    add_text(*renderer_, fmt::format("peak {:.3g}", highest), middle, kBar.y - 1.3 * kLine,
-             {pixels(21), false, Align::Centre});
+void RenderScene::add_body(vtkRenderer& panel, const Part& part) {
+  const Survey& seen = setting_.survey;
+  const FieldValues values =
+      seen.coloured.contains(part.name) ? drawn_values(part, seen) : FieldValues{};
+  const double factor = setting_.field ? setting_.field->factor : 1;
+  const Skin skin = skin_of(part, values, factor, setting_.look.clip, metres_of(seen.length_unit));
+  if (skin.faces->GetNumberOfCells() > 0)
+    add_outline(panel, *skin.faces, add_skin(panel, part, skin));
+  if (skin.blank == nullptr) return;
+  vtkActor& blank = add_surface(panel, *skin.blank);
+  set_colour(*blank.GetProperty(), kBlankColour);
+  blank.GetProperty()->LightingOff();
+  coloured_.push_back(&blank);
+  add_outline(panel, *skin.blank, Surface::Coloured);
 }
 
-void RenderScene::add_activation_scale() {
-  constexpr Box kBar = {0.035, 0.066, 0.13, 0.016};
-  constexpr double kGap = 0.03;
-  add_colour_bar(*renderer_, *activation_colours_, kBar);
-  add_text(*renderer_, "muscle activation", kBar.x, kBar.y + kBar.height + kGap, {pixels(21)});
-  add_text(*renderer_, "0", kBar.x, kBar.y - 0.024, {pixels(19)});
-  add_text(*renderer_, "1", kBar.x + kBar.width, kBar.y - 0.024, {pixels(19), false, Align::Right});
+void RenderScene::add_tubes(vtkRenderer& panel, LineKind kind, vtkPolyData& tubes,
+                            const ColourScale* scale) {
+  const auto& clip = setting_.look.clip;
+  vtkSmartPointer<vtkPolyData> shown = &tubes;
+  if (tubes.GetNumberOfCells() > 0 && clip)
+    shown =
+        vtkPolyData::SafeDownCast(clipped(tubes, *clip, metres_of(setting_.survey.length_unit)));
+  if (shown->GetNumberOfCells() == 0) return;
+  vtkActor& actor = add_surface(panel, *shown);
+  actor.GetProperty()->EdgeVisibilityOff();  // a tube is no mesh of the model
+  set_colour(*actor.GetProperty(), kPlainLine);
+  if (scale != nullptr) colour_by(*scale, false, actor);
+  if (kind == LineKind::Muscle)  // a cord is hardly thicker than its outlines
+    add_outline(panel, *shown, scale != nullptr ? Surface::Coloured : Surface::Lit);
 }
 
-void RenderScene::add_marks() {
-  const auto add = [&](const std::vector<Vec3>& corners, int per_cell, const Rgb& colour) {
-    vtkNew<vtkPoints> points;
-    vtkNew<vtkCellArray> cells;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (i % static_cast<std::size_t>(per_cell) == 0) cells->InsertNextCell(per_cell);
-      cells->InsertCellPoint(points->InsertNextPoint(corners[i].data()));
+void RenderScene::add_lines(vtkRenderer& panel, const Part& part) {
+  const Survey& seen = setting_.survey;
+  const auto add = [&](LineKind kind, const std::optional<ColourScale>& own,
+                       const std::string& own_field) {
+    const auto& scale = seen.of_lines ? setting_.field : own;
+    add_tubes(panel, kind,
+              *tubes_of(*part.set, kind, line_radius_, seen.of_lines ? seen.field : own_field,
+                        scale ? scale->factor : 1),
+              scale ? &*scale : nullptr);
+  };
+  add(LineKind::Muscle, activation_, "activation");
+  add(LineKind::Ligament, tension_, "force");
+}
+
+void RenderScene::add_part(vtkRenderer& panel, const Part& part) {
+  if (part.kind == PartKind::Lines)
+    add_lines(panel, part);
+  else
+    add_body(panel, part);
+}
+
+void RenderScene::add_marks(vtkRenderer& panel) {
+  for (const Marks::Points& points : marks_->points) {
+    vtkNew<vtkPoints> at;
+    vtkNew<vtkCellArray> dots;
+    for (const Vec3& p : points.at) {
+      dots->InsertNextCell(1);
+      dots->InsertCellPoint(at->InsertNextPoint(p.data()));
     }
     vtkNew<vtkPolyData> set;
-    set->SetPoints(points);
-    if (per_cell == 1)
-      set->SetVerts(cells);
-    else
-      set->SetLines(cells);
+    set->SetPoints(at);
+    set->SetVerts(dots);
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputData(set);
     vtkNew<vtkActor> actor;
     actor->SetMapper(mapper);
-    vtkProperty& property = *actor->GetProperty();
-    set_colour(property, colour);
-    property.SetPointSize(static_cast<float>(pixels(8)));
-    property.SetLineWidth(static_cast<float>(pixels(4)));
-    property.LightingOff();
-    renderer_->AddActor(actor);
-  };
-  for (const Marks::Points& points : marks_->points) add(points.at, 1, points.colour);
-  for (const Marks::Segment& s : marks_->segments) add({s.from, s.to}, 2, s.colour);
-  add_text(*renderer_, marks_->legend, 0.5, 0.035, {pixels(21), false, Align::Centre});
-  add_labels();
+    set_colour(*actor->GetProperty(), points.colour);
+    actor->GetProperty()->SetPointSize(static_cast<float>(0.32 * fine_.text));
+    actor->GetProperty()->LightingOff();
+    panel.AddActor(actor);
+  }
 }
 
 /// Where two would cover each other, the one further down is moved below the other.
-void RenderScene::add_labels() {
+void RenderScene::add_labels(vtkRenderer& panel, const Rect& rect) {
   struct Placed {
     double x, y, half_width;
     std::string text;
   };
-  constexpr double kLine = 0.026, kLetter = 0.008;  // of the picture
+  constexpr double kSize = 0.85;
   std::vector<Placed> placed;
   for (const Marks::Label& label : marks_->labels) {
-    renderer_->SetWorldPoint(label.at.x(), label.at.y(), label.at.z(), 1);
-    renderer_->WorldToView();
-    const double* const view = renderer_->GetViewPoint();  // from -1 to 1
-    placed.push_back({0.5 * (1 + view[0]), 0.5 * (1 + view[1]),
-                      0.5 * kLetter * static_cast<double>(label.text.size()), label.text});
+    panel.SetWorldPoint(label.at.x(), label.at.y(), label.at.z(), 1);
+    panel.WorldToView();
+    const double* const view = panel.GetViewPoint();  // from -1 to 1
+    placed.push_back({rect.x + 0.5 * (1 + view[0]) * rect.width,
+                      rect.y + 0.5 * (1 + view[1]) * rect.height,
+                      0.5 * text_width(label.text, kSize * fine_.text, true), label.text});
   }
   std::sort(placed.begin(), placed.end(),
             [](const Placed& a, const Placed& b) { return a.y > b.y; });
+  const Sheet sheet{*labels_, fine_, setting_.look.paper.ink};
   for (std::size_t i = 0; i < placed.size(); ++i) {
     Placed& label = placed[i];
     for (std::size_t j = 0; j < i; ++j)  // those above, from the top down
       if (std::abs(label.x - placed[j].x) < label.half_width + placed[j].half_width)
-        label.y = std::min(label.y, placed[j].y - kLine);
-    add_text(*renderer_, label.text, label.x, label.y, {pixels(21), true, Align::Centre});
+        label.y = std::min(label.y, placed[j].y - 1.1 * kSize * fine_.text);
+    add_text(sheet, label.text, label.x, label.y,
+             {kSize, true, Align::Centre, setting_.look.paper.ground});
   }
 }
 
-vtkSmartPointer<vtkImageData> RenderScene::draw(const Frame& frame, const std::string& moment) {
-  const sim::QuietVtk vtk;
-  renderer_->RemoveAllViewProps();
-  for (const Part& part : frame.parts) {
-    if (part.kind == PartKind::Tissue) add_tissue(part);
-    if (part.kind == PartKind::Bone) add_bone(part);
-    if (part.kind == PartKind::Lines) add_lines(part);
+void RenderScene::add_sheet(const std::vector<Panel>& panels) {
+  const Sheet sheet{*sheet_, fine_, setting_.look.paper.ink};
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    add_heading(sheet, layout_.headings[i], panels[i].title, panels[i].moment);
+  if (setting_.field) add_field_legend(sheet, layout_.legend, *setting_.field);
+  add_axes(sheet, layout_.legend, setting_.axes, setting_.directions);
+  const double pixel = 2 * half_height_ / layout_.panels.front().height;
+  add_scale_bar(sheet, layout_.foot, pixel, setting_.survey.length_unit);
+  if (marks_) {
+    add_text(sheet, marks_->legend, layout_.foot.x, layout_.foot.y + 1.6 * fine_.text, {0.9});
+    return;
   }
-  add_text(*renderer_, name_, 0.035, 0.945, {pixels(36), true});
-  add_text(*renderer_, moment, 0.035, 0.895, {pixels(27)});
-  if (colours_ != nullptr) add_field_scale();
-  if (marks_) add_marks();
-  renderer_->ResetCameraClippingRange();  // nothing is cut away, also not beside the focus
-  window_->Render();
-  vtkNew<vtkWindowToImageFilter> capture;
-  capture->SetInput(window_);
-  capture->SetInputBufferTypeToRGB();
-  capture->ReadFrontBufferOff();
-  capture->ShouldRerenderOff();
-  capture->Update();
-  if (vtk.failed()) throw sim::SystemError("the display can't draw: " + vtk.message());
-  return averaged(*capture->GetOutput(), width_, height_);
+  std::vector<ColourScale> scales;
+  for (const auto& scale : {activation_, tension_})
+    if (scale) scales.push_back(*scale);
+  add_line_legends(sheet, layout_.foot, scales);
+}
+
+/// White where a colour of a scale is seen, else black.
+void RenderScene::draw_mask() {
+  sheet_->RemoveAllViewProps();
+  sheet_->SetBackground(0, 0, 0);
+  const auto paint = [](vtkActor& actor, double c) {
+    actor.GetMapper()->ScalarVisibilityOff();
+    vtkProperty& property = *actor.GetProperty();
+    property.SetColor(c, c, c);
+    property.LightingOff();
+    property.EdgeVisibilityOff();
+  };
+  for (const auto& panel : panels_) {
+    vtkActorCollection& actors = *panel->GetActors();
+    actors.InitTraversal();
+    while (vtkActor* const actor = actors.GetNextActor()) paint(*actor, 0);
+  }
+  for (vtkActor* const actor : coloured_) paint(*actor, 1);
+}
+
+Image RenderScene::composed() {
+  std::vector<Rgb> grounds = {setting_.look.paper.ground};
+  if (setting_.look.paper.transparent) grounds = {{1, 1, 1}, {0, 0, 0}};
+  const bool veils = !coloured_.empty() && !translucent_.empty();
+  std::vector<Image> veiled, unveiled;
+  for (const Rgb& ground : grounds) {
+    sheet_->SetBackground(ground[0], ground[1], ground[2]);
+    veiled.push_back(drawn(*window_));
+    if (!veils) continue;
+    for (vtkActor* const actor : translucent_) actor->VisibilityOff();
+    unveiled.push_back(drawn(*window_));
+    for (vtkActor* const actor : translucent_) actor->VisibilityOn();
+  }
+  if (veils) {
+    for (vtkActor* const actor : translucent_) actor->VisibilityOff();
+    draw_mask();
+    const Image mask = drawn(*window_);
+    for (std::size_t i = 0; i < veiled.size(); ++i)
+      veiled[i] = unveiled_where(*mask, *unveiled[i], *veiled[i]);
+  }
+  for (Image& image : veiled) image = averaged(*image, kSupersampling);
+  return veiled.size() == 2 ? with_opacity(*veiled[0], *veiled[1]) : veiled.front();
+}
+
+Image RenderScene::draw(const std::vector<Panel>& panels) {
+  coloured_.clear();
+  translucent_.clear();
+  sheet_->RemoveAllViewProps();
+  labels_->RemoveAllViewProps();
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    vtkRenderer& panel = *panels_[i];
+    panel.RemoveAllViewProps();
+    // The outlines need the camera.
+    const Vec3 focus = panels[i].middle,
+               eye = focus + 2 * setting_.survey.diagonal * setting_.axes.to_eye;
+    panel.GetActiveCamera()->SetFocalPoint(focus.data());
+    panel.GetActiveCamera()->SetPosition(eye.data());
+    for (const Part& part : panels[i].frame.parts) add_part(panel, part);
+    if (marks_) {
+      add_marks(panel);
+      add_labels(panel, layout_.panels[i]);
+    }
+    panel.ResetCameraClippingRange();  // nothing is cut away, also not beside the focus
+  }
+  add_sheet(panels);
+  return composed();
 }
 
 }  // namespace articular::tools

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vtkImageData.h>
-#include <vtkLookupTable.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
@@ -11,82 +9,85 @@
 #include <utility>
 #include <vector>
 
-#include "tools/render/colour_map.hpp"
-#include "tools/render/render_series.hpp"
+#include "tools/render/colour_scale.hpp"
+#include "tools/render/layers.hpp"
+#include "tools/render/look.hpp"
+#include "tools/render/marks.hpp"
+#include "tools/render/page.hpp"
+#include "tools/render/render_legend.hpp"
+#include "tools/render/skin.hpp"
+#include "tools/render/survey.hpp"
+#include "tools/render/tubes.hpp"
 
 class vtkActor;
 class vtkPolyData;
 
 namespace articular::tools {
 
-/// Half of the angle of view, measured vertically [degree]: a portrait lens, little distortion.
-constexpr double kHalfViewAngleDeg = 12;
-
-/// Borders of the part of the picture where the scene stands: beside the scales, below the title.
-ViewFit::Borders scene_borders(int width, int height);
-
-/// Drawn over a frame, in world coordinates of the frame.
-struct Marks {
-  struct Points {
-    std::vector<Vec3> at;
-    Rgb colour;
-  };
-  struct Segment {
-    Vec3 from, to;
-    Rgb colour;
-  };
-  struct Label {
-    Vec3 at;
-    std::string text;
-  };
-  std::vector<Points> points;
-  std::vector<Segment> segments;
-  std::vector<Label> labels;
-  std::string legend;
+/// One of the scenes that stand side by side in a picture.
+struct Panel {
+  const Frame& frame;
+  std::string title, moment;
+  Vec3 middle;  // of what is seen, in world coordinates
 };
 
-/// Draws frames off-screen, all with the same eye and the same colours. Needs a display while it
-/// lives.
+/// What all pictures have in common.
+struct Setting {
+  Page page;
+  Look look;
+  ViewAxes axes;
+  Directions directions;
+  Survey survey;
+  std::optional<ColourScale> field;  // of the survey's field, if it has one
+  int num_panels = 1;
+};
+
+/// Draws frames off-screen, all from the same direction, with the same scale and the same colours.
+/// Surfaces with a field are drawn without light, and nothing translucent lies over them: their
+/// colours are those of the scale. Their shape shows in outlines. Needs a display while it lives.
 class RenderScene {
  public:
-  RenderScene(const Series& series, const Survey& survey, const ViewAxes& axes, const ViewFit& fit,
-              int width, int height);
+  explicit RenderScene(Setting setting);
   ~RenderScene();
   RenderScene(const RenderScene&) = delete;
   RenderScene& operator=(const RenderScene&) = delete;
 
-  /// RGB. @param moment  of the frame, in words @throws SystemError when the display can't draw
-  vtkSmartPointer<vtkImageData> draw(const Frame& frame, const std::string& moment);
+  /// RGB, or RGBA on transparent paper. @param panels  as many as the setting says
+  /// @throws SystemError when the display can't draw
+  Image draw(const std::vector<Panel>& panels);
 
-  /// Of all pictures from now on. Bones become transparent, so that no mark is hidden.
+  /// Of all pictures from now on. Bones become translucent, so that no mark is hidden.
   void set_marks(Marks marks) { marks_ = std::move(marks); }
 
-  /// "0 to 120 kPa": what the colours mean.
-  std::string range_text() const;
-
  private:
-  void choose_colours();
-  void add_tissue(const Part& part);
-  void add_bone(const Part& part);
-  void add_lines(const Part& part);
-  void add_coloured(const Part& part, vtkPolyData& surface);
-  vtkActor& add_surface(vtkPolyData& surface);
-  void add_tubes(vtkPointSet& lines, bool muscles);
-  void add_marks();
-  void add_labels();
-  void add_field_scale();
-  void add_activation_scale();
-  int pixels(double at_1000_lines) const;
+  /// One whose colours are those of a scale, or one in light.
+  enum class Surface { Coloured, Lit };
+  void place_cameras();
+  void add_part(vtkRenderer& panel, const Part& part);
+  void add_body(vtkRenderer& panel, const Part& part);
+  Surface add_skin(vtkRenderer& panel, const Part& part, const Skin& skin);
+  void add_lines(vtkRenderer& panel, const Part& part);
+  void add_tubes(vtkRenderer& panel, LineKind kind, vtkPolyData& tubes, const ColourScale* scale);
+  vtkActor& add_surface(vtkRenderer& panel, vtkPolyData& surface);
+  void add_outline(vtkRenderer& panel, vtkPolyData& surface, Surface of);
+  void colour_by(const ColourScale& scale, bool per_cell, vtkActor& actor);
+  double opacity_of(const Part& part, bool has_values) const;
+  void add_marks(vtkRenderer& panel);
+  void add_labels(vtkRenderer& panel, const Rect& rect);
+  void add_sheet(const std::vector<Panel>& panels);
+  Image composed();
+  void draw_mask();
 
-  std::string name_;
-  Survey survey_;
-  int width_, height_;
-  double line_radius_;
-  double display_scale_ = 1;  // unit of the file -> unit shown
-  std::string display_unit_;
+  Setting setting_;
+  Page fine_;  // the page in the window's pixels
+  PageLayout layout_;
+  double half_height_ = 1;  // of what a panel shows, in the unit of the files
+  double line_radius_ = 0;
+  std::optional<ColourScale> activation_, tension_;
   std::optional<Marks> marks_;
-  vtkSmartPointer<vtkLookupTable> colours_, activation_colours_;
-  vtkSmartPointer<vtkRenderer> renderer_;
+  std::vector<vtkActor*> coloured_, translucent_;  // of what is being drawn
+  vtkSmartPointer<vtkRenderer> sheet_, labels_;    // behind the panels and before them
+  std::vector<vtkSmartPointer<vtkRenderer>> panels_;
   vtkSmartPointer<vtkRenderWindow> window_;
 };
 

@@ -8,15 +8,17 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
-#include <cmath>
-#include <numbers>
+#include <algorithm>
+#include <set>
 
 #include "sim/base/error.hpp"
 #include "sim/build/build_model.hpp"
 #include "sim/lines/line_path.hpp"
 #include "sim/mesh/vtk_files.hpp"
 #include "sim/model/configuration.hpp"
+#include "tools/render/nearest.hpp"
 #include "tools/render/picture.hpp"
+#include "tools/render/picture_name.hpp"
 #include "tools/render/render_scene.hpp"
 #include "tools/render/virtual_display.hpp"
 
@@ -26,15 +28,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Rgb kAttached = {0.80, 0.10, 0.10}, kSupported = {0.10, 0.55, 0.20},
-              kLineEnd = {0.10, 0.25, 0.75}, kScaleColour = {0.16, 0.19, 0.23};
-constexpr Rgb kAxes[] = {{0.75, 0.15, 0.15}, {0.15, 0.55, 0.15}, {0.15, 0.25, 0.75}};
+              kLineEnd = {0.10, 0.25, 0.75};
 
 void refuse_frames(const RenderOptions& options) {
-  if (options.all || options.frame || !options.movie.empty() || !options.field.empty() ||
-      !options.only.empty())
-    throw sim::InputError({options.run.string()},
+  if (options.all || options.frame || !options.movie.empty() || options.deformation != 1 ||
+      !options.field.empty() || options.flat || options.range || !options.colour_map.empty() ||
+      !options.only.empty() || !options.hidden.empty())
+    throw sim::InputError({options.runs.front().string()},
                           "a scenario has no frames and no fields yet: expected none of --all, "
-                          "--frame, --movie, --field, --only; or the folder of a run");
+                          "--frame, --movie, --deformation, --field, --flat, --range, "
+                          "--colour-map, --only, --hide; or the folder of a run");
 }
 
 vtkSmartPointer<vtkPointSet> lines_of(const sim::Model& model, const sim::Configuration& now,
@@ -114,86 +117,65 @@ void add_line_ends(const sim::Model& model, const sim::Configuration& now, doubl
   marks.points.push_back(std::move(ends));
 }
 
-/// Across the picture from its middle, in halves of its height, as deep as the middle of the scene.
-class MiddlePlane {
- public:
-  MiddlePlane(const ViewFit& fit, const ViewAxes& axes)
-      : axes_(axes), depth_((fit.eye() - fit.middle()).dot(axes.to_eye)) {
-    middle_ = fit.eye() - depth_ * axes.to_eye;
+/// What a picture of a run surveys, of this one frame.
+Survey survey_of(const Frame& frame, const std::string& unit, const std::string& focus,
+                 const ViewAxes& axes) {
+  Survey result;
+  result.length_unit = unit;
+  ViewBox everything(axes), seen(axes);
+  for (const Part& part : frame.parts) {
+    everything.add(*part.set);
+    if (focus.empty() || part.name == focus) seen.add(*part.set);
+    if (part.kind == PartKind::Lines) result.has_muscles = true;
   }
-  double half() const { return depth_ * std::tan(kHalfViewAngleDeg * std::numbers::pi / 180); }
-  Vec3 at(double right, double up) const {
-    return middle_ + half() * (right * axes_.right + up * axes_.up);
-  }
-
- private:
-  ViewAxes axes_;
-  double depth_;
-  Vec3 middle_;
-};
-
-/// Lower left in the picture.
-void add_axes(const MiddlePlane& plane, double aspect, Marks& marks) {
-  const Vec3 origin = plane.at(-0.84 * aspect, -0.76);
-  const double length = 0.13 * plane.half();
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 axis = length * Vec3::Unit(k);
-    marks.segments.push_back({origin, origin + axis, kAxes[k]});
-    marks.labels.push_back({origin + 1.25 * axis, std::string(1, static_cast<char>('x' + k))});
-  }
+  result.size = seen.size();
+  result.middle = seen.middle();
+  result.diagonal = everything.size().norm();
+  return result;
 }
 
-/// The largest of 1, 2, 5 times a power of ten that is not above the value.
-double round_down(double value) {
-  const double power = std::pow(10, std::floor(std::log10(value)));
-  for (const double digit : {5.0, 2.0})
-    if (digit * power <= value) return digit * power;
-  return power;
-}
-
-/// Lower right in the picture, as long as it would be in the middle of the scene.
-void add_scale(const MiddlePlane& plane, double aspect, const std::string& unit, Marks& marks) {
-  constexpr double kMiddle = 0.75, kHeight = -0.92;
-  const double length = round_down(0.3 * plane.half() * aspect), half = 0.5 * length / plane.half();
-  marks.segments.push_back({plane.at(kMiddle * aspect - half, kHeight),
-                            plane.at(kMiddle * aspect + half, kHeight), kScaleColour});
-  marks.labels.push_back(
-      {plane.at(kMiddle * aspect, kHeight + 0.05), fmt::format("{:g} {}", length, unit)});
+void require_known_parts(const RenderOptions& options, const Frame& frame) {
+  std::set<std::string> names, bodies;
+  for (const Part& part : frame.parts) {
+    names.insert(part.name);
+    if (part.kind != PartKind::Lines) bodies.insert(part.name);
+  }
+  check_opacity(options.opacity, bodies);
+  const std::string& focus = options.focus;
+  if (!focus.empty() && !names.contains(focus))
+    throw sim::InputError({options.runs.front().string()},
+                          "--focus: " + unknown_name("part", focus, names));
 }
 
 }  // namespace
 
 int render_setup(const RenderOptions& options) {
   refuse_frames(options);
-  const ViewAxes axes = view_axes(options.view, options.up);
-  const sim::Scenario scenario = sim::read_scenario(options.run);
+  const fs::path& file = options.runs.front();
+  const sim::Scenario scenario = sim::read_scenario(file);
   const sim::Model model = sim::build_model(scenario);
   const double unit = scenario.output.length_unit.metres;
   sim::Configuration now;
   sim::read_state(model, sim::initial_state(model).data(), 0, now);
   const Frame frame = start_of(model, now, unit);
   if (frame.parts.empty())
-    throw sim::InputError({options.run.string()}, "no body of this scenario has a mesh to draw");
+    throw sim::InputError({file.string()}, "no body of this scenario has a mesh to draw");
+  require_known_parts(options, frame);
 
-  ViewFit fit(axes, scene_borders(options.width, options.height));
-  bool focus_found = options.focus.empty();
-  for (const Part& part : frame.parts) {
-    if (!options.focus.empty() && part.name != options.focus) continue;
-    focus_found = true;
-    add_points(*part.set, fit);
-  }
-  if (!focus_found)
-    throw sim::InputError({options.run.string()},
-                          "--focus: no body with a mesh is called `" + options.focus + "`");
+  Setting setting;
+  setting.page = page_of(options.size, options.dpi);
+  setting.look = {paper_of(options.background), options.mesh_edges, options.opacity, std::nullopt};
+  if (!options.clip.empty()) setting.look.clip = parse_clip(options.clip);
+  std::copy(scenario.output.directions.begin(), scenario.output.directions.end(),
+            setting.directions.begin());
+  setting.axes = view_axes(options.view, options.up, setting.directions);
+  setting.survey = survey_of(frame, scenario.output.length_unit.name, options.focus, setting.axes);
+
   Marks marks;
   add_bodies(frame, marks);
   add_attached_nodes(model, unit, marks);
   add_supported_nodes(model, unit, marks);
   add_line_ends(model, now, unit, marks);
-  const MiddlePlane plane(fit, axes);
-  const double aspect = static_cast<double>(options.width) / options.height;
-  add_axes(plane, aspect, marks);
-  add_scale(plane, aspect, scenario.output.length_unit.name, marks);
   marks.legend = std::string("red: attached nodes; ") +
                  (model.supports.empty() ? "" : "green: supported nodes; ") +
                  "blue: ends of muscles and ligaments";
@@ -201,11 +183,13 @@ int render_setup(const RenderOptions& options) {
   const fs::path folder = options.out.empty() ? fs::path(".") : options.out;
   make_folder(folder);
   const VirtualDisplay display;
-  RenderScene picture({scenario.name, {}, {}, {}}, {}, axes, fit, options.width, options.height);
-  picture.set_marks(std::move(marks));
-  const fs::path file = (folder / (scenario.name + "_setup.png")).lexically_normal();
-  write_png(file, *picture.draw(frame, "set-up"));
-  fmt::print("wrote {}\n", file.string());
+  RenderScene scene(setting);
+  scene.set_marks(std::move(marks));
+  const Image image = scene.draw({{frame, scenario.title, "set-up", *setting.survey.middle}});
+  const fs::path picture =
+      (folder / (picture_name(scenario.name, "setup", options) + ".png")).lexically_normal();
+  write_png(picture, *image, setting.page.dpi);
+  fmt::print("wrote {}\n", picture.string());
   return 0;
 }
 

@@ -159,7 +159,15 @@ INSTANTIATE_TEST_SUITE_P(
                 "`choice`: expected a table [choice] of words, found \"rigid\""},
         Mistake{"WhenOfATable", kStart + "[output]\n@when = { disc = \"rigid\" }\n",
                 "[output]: unknown key `when`; expected one of `interval`, `length_unit`, "
-                "`directory`, `contact_surfaces`, `checkpoint_interval`"}),
+                "`directory`, `contact_surfaces`, `checkpoint_interval`, `directions`"},
+        Mistake{"TwoDirectionsToASide",
+                kStart + "[output]\ndirections = @[\"left\", \"medial\", \"superior\"]\n",
+                "`directions`: expected one direction to a side, one to the front or back, and one "
+                "up or down"},
+        Mistake{"DirectionsOfAMirrorImage",
+                kStart + "[output]\ndirections = @[\"right\", \"posterior\", \"superior\"]\n",
+                "`directions`: expected a body that is no mirror image: with these directions left "
+                "and right are exchanged"}),
     test_name);
 
 INSTANTIATE_TEST_SUITE_P(

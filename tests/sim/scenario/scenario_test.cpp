@@ -205,6 +205,7 @@ length_unit = "cm"
 directory = "out/opening"
 contact_surfaces = true
 checkpoint_interval = "100 ms"
+directions = ["medial", "posterior", "superior"]
 )";
 
 class CompleteScenario : public ScenarioTest {
@@ -236,6 +237,8 @@ TEST_F(CompleteScenario, HasItsSettings) {
   EXPECT_EQ(scenario_.output.directory, "out/opening");
   EXPECT_TRUE(scenario_.output.contact_surfaces);
   EXPECT_EQ(scenario_.output.checkpoint_interval, 0.1);
+  EXPECT_EQ(scenario_.output.directions,
+            (std::vector<std::string>{"medial", "posterior", "superior"}));
 }
 
 TEST_F(CompleteScenario, HasItsBones) {
