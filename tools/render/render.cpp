@@ -16,6 +16,7 @@
 #include "tools/render/render_series.hpp"
 #include "tools/render/setup_picture.hpp"
 #include "tools/render/virtual_display.hpp"
+#include "tools/shipped/shipped_scenarios.hpp"
 
 namespace articular::tools {
 namespace {
@@ -103,7 +104,8 @@ void add_render_command(CLI::App& app, int& exit_code) {
   command
       .add_option("run", options->run,
                   "Folder of a run (or its .pvd): pictures or a movie of its frames. A scenario "
-                  "(.toml): bodies, attached nodes, ends of muscles and ligaments before any run")
+                  "(.toml, or the name of a shipped one): bodies, attached nodes, ends of muscles "
+                  "and ligaments before any run")
       ->required()
       ->type_name("DIR|SCENARIO");
   command.add_option("--field", options->field, "What colours the tissue [von_mises]");
@@ -137,7 +139,12 @@ void add_render_command(CLI::App& app, int& exit_code) {
           },
           "Size of the pictures in pixels [1600x1000]")
       ->type_name("WxH");
-  command.callback([options, &exit_code] { exit_code = render(*options); });
+  command.callback([options, &exit_code] {
+    std::error_code error;
+    if (!fs::exists(options->run, error))
+      options->run = shipped_file(options->run).value_or(options->run);
+    exit_code = render(*options);
+  });
 }
 
 }  // namespace articular::tools

@@ -7,6 +7,7 @@
 #include "sim/base/error.hpp"
 #include "sim/output/frame_writer.hpp"
 #include "tools/process/interruption.hpp"
+#include "tools/shipped/shipped_scenarios.hpp"
 #include "tools/study/study_command.hpp"
 #include "tools/study/study_report.hpp"
 
@@ -44,7 +45,7 @@ void draw(const std::string& commands, const fs::path& directory, const fs::path
 }
 
 int study(const StudyArguments& arguments) {
-  const Study study = read_study(arguments.study);
+  const Study study = read_study(find_scenario(arguments.study));
   const std::vector<StudyCase> cases = study_cases(study);
   StudyRunOptions options = arguments.options;
   if (options.directory.empty()) options.directory = fs::path("out") / study.name;
@@ -85,7 +86,10 @@ void add_study_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<StudyArguments>();
   CLI::App& command =
       *app.add_subcommand("study", "What settings of a scenario cost, and what they buy");
-  command.add_option("study", arguments->study, "Study file (.toml)")->required();
+  command
+      .add_option("study", arguments->study,
+                  "Study file (.toml), or the name of a shipped one: see `articular scenarios`")
+      ->required();
   command
       .add_option("--out", arguments->options.directory,
                   "Folder of the results (default: out/NAME)")
