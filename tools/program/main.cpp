@@ -15,6 +15,7 @@
 #include "sim/base/version.hpp"
 #include "tools/anatomy/anatomy.hpp"
 #include "tools/collide/collide_command.hpp"
+#include "tools/keys/keys_command.hpp"
 #include "tools/mesh/mesh_command.hpp"
 #include "tools/plot/plot_command.hpp"
 #include "tools/process/interruption.hpp"
@@ -58,6 +59,7 @@ int run_program(int argc, char** argv) {
   int exit_code = 0;
   articular::tools::add_run_command(app, exit_code);
   articular::tools::add_scenarios_command(app, exit_code);
+  articular::tools::add_keys_command(app, exit_code);
   articular::tools::add_check_command(app, exit_code);
   articular::tools::add_explain_command(app, exit_code);
   articular::tools::add_render_command(app, exit_code);

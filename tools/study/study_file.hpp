@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/scenario/key_table.hpp"
+
 /// STUDY.toml: a scenario, what to vary in it, what to look at, and what is right. tools/README.md
 /// has the format.
 namespace articular::tools {
@@ -65,6 +67,9 @@ struct Study {
   std::vector<StudyOutput> outputs;
   std::vector<StudyReference> references;  // finest first; one, two or three of them, or none
 };
+
+/// The keys of a study file.
+const sim::KeyTable& study_keys();
 
 /// @throws sim::InputError  with file, line and column
 Study read_study(const std::filesystem::path& file);
