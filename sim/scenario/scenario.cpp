@@ -61,7 +61,7 @@ void refuse_settings_below_tables(const Node& root) {
                                      member.key, name));
   };
   for (const Member& member : root.table()->members) {
-    if (member.key == "choice") continue;  // its keys are the user's
+    if (member.key == "choice" || member.key == "curve") continue;  // their keys are the user's
     check(member.node, "[" + member.key + "]");
     if (const Node::List* list = member.node.list())
       for (const Node& entry : *list) check(entry, "[[" + member.key + "]]");
@@ -102,6 +102,8 @@ const KeyTable& scenario_keys() {
     };
     add("choice", {form::Map{"name of a choice", {{form::Text{"word"}}}}},
         "the variant of this file that holds: entries with `when` go by it");
+    add("curve", {form::Map{"name of a curve", {{form::Table{curve_keys}}}}},
+        "curves that several entries name, as `[curve.NAME]`");
     table.keys.push_back({"body",
                           {conditional_entries_of({form::Table{body_keys}})},
                           kRequired,
@@ -154,7 +156,7 @@ Scenario read_scenario(const std::filesystem::path& file,
         throw InputError(body.where, fmt::format("body `{}` has a velocity at the start, but the "
                                                  "analysis is static: there is no motion in it",
                                                  body.name));
-  const Context context{folder, scenario.bodies};
+  const Context context{folder, scenario.bodies, check_curves(document)};
   Mistakes on_bodies;  // what names them
   on_bodies.in([&] { scenario.attachments = read_attachments(document, context); });
   on_bodies.in([&] { scenario.supports = read_supports(document, context); });

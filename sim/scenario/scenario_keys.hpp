@@ -30,6 +30,9 @@ const KeyTable& place_keys();
 const KeyTable& curve_keys();
 const KeyTable& path_point_keys();
 
+/// A curve, or the name of one in [curve].
+KeyType curve_or_name();
+
 /// `when` of an entry: choices that it needs. In no table: it is gone before the entry is read, see
 /// scenario_choices.hpp.
 Key when_key();

@@ -93,9 +93,12 @@ void read_dynamics(const TableReader& table, Muscle& muscle) {
   table.read("deactivation_time", muscle.deactivation_time);
 }
 
-Curve read_excitation(const Node& node) { return read_curve(node, kFraction); }
+Curve read_excitation(const Node& node, const Context& context) {
+  return read_curve(node, kFraction, context);
+}
 
 Muscle read_muscle(const TableReader& table, const Context& context) {
+  const auto excitation = [&](const Node& n) { return read_excitation(n, context); };
   Muscle muscle;
   muscle.where = table.node().where;
   muscle.name = read_name(table.at("name")) + side_suffix(table, context.side);
@@ -108,7 +111,7 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
     if (!body.material || !body.material->fibres)
       fail(*tissue, fmt::format("body `{}` has no fibres", body.name));
     muscle.tissue = body.name;
-    table.read("excitation", muscle.excitation, read_excitation);
+    table.read("excitation", muscle.excitation, excitation);
     read_dynamics(table, muscle);
     return muscle;
   }
@@ -119,14 +122,15 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
   table.read("optimal_length", muscle.optimal_length);
   table.read("max_length_ratio", muscle.max_length_ratio);
   table.read("tendon_ratio", muscle.tendon_ratio, read_tendon_ratio);
-  table.read("excitation", muscle.excitation, read_excitation);
+  table.read("excitation", muscle.excitation, excitation);
   read_dynamics(table, muscle);
   return muscle;
 }
 
 /// The excitations of a table by muscle name; every name must be one of the rows'.
 std::vector<std::pair<std::string, Curve>> read_excitations(const TableReader& table,
-                                                            const std::vector<MuscleRow>& rows) {
+                                                            const std::vector<MuscleRow>& rows,
+                                                            const Context& context) {
   std::vector<std::pair<std::string, Curve>> curves;
   const Node* node = table.find("excitation");
   if (node == nullptr) return curves;
@@ -141,7 +145,7 @@ std::vector<std::pair<std::string, Curve>> read_excitations(const TableReader& t
       throw InputError(member.key_where,
                        fmt::format("the muscle table has no muscle `{}`{}", one_line(member.key),
                                    suggestion(member.key, names)));
-    curves.emplace_back(member.key, read_excitation(member.node));
+    curves.emplace_back(member.key, read_excitation(member.node, context));
   }
   return curves;
 }
@@ -202,7 +206,7 @@ void append_table(const Node& node, const Context& context, std::vector<Muscle>&
   const std::vector<MuscleRow> rows =
       read_muscle_table(read_path(file, context.folder), file.where);
   const TableBodies bodies(table, rows, context);
-  const auto excitations = read_excitations(table, rows);
+  const auto excitations = read_excitations(table, rows, context);
   Placement placement;
   table.read("place", placement, read_placement);
   for (const MuscleRow& row : rows) {
@@ -321,10 +325,8 @@ const KeyTable& muscle_keys() {
           standard(0.0),
           "tendon per optimal length, below 1"}}};
     append(dynamics_keys(), table);
-    table.keys.push_back({"excitation",
-                          {form::Table{curve_keys}},
-                          otherwise("0"),
-                          "activation that is asked for, 0 to 1"});
+    table.keys.push_back(
+        {"excitation", curve_or_name(), otherwise("0"), "activation that is asked for, 0 to 1"});
     table.keys.push_back(mirror_key());
     return table;
   }();
@@ -343,7 +345,7 @@ const KeyTable& muscle_table_keys() {
           "renames bodies"}}};
     append(dynamics_keys(), table);
     table.keys.push_back({"excitation",
-                          {form::Map{"muscle of the table", {{form::Table{curve_keys}}}}},
+                          {form::Map{"muscle of the table", {curve_or_name()}}},
                           otherwise("0"),
                           "activations that are asked for, 0 to 1"});
     return table;

@@ -14,8 +14,8 @@ namespace {
 
 enum class LoadKind { Gravity, Force, Pressure, Traction, Motion };
 
-void read_profile(const TableReader& table, Curve& profile) {
-  table.read("profile", profile, [](const Node& n) { return read_curve(n, kAny); });
+void read_profile(const TableReader& table, const Context& context, Curve& profile) {
+  table.read("profile", profile, [&](const Node& n) { return read_curve(n, kAny, context); });
 }
 
 /// What all loads have but motions.
@@ -24,7 +24,7 @@ std::vector<Key> keys_of_load(const char* word, LoadKind kind, std::string_view 
   std::vector<Key> keys{{"kind", {form::Choice{{{word, kind}}}}, kRequired, purpose}};
   keys.insert(keys.end(), own.begin(), own.end());
   if (kind != LoadKind::Motion)
-    keys.push_back({"profile", {form::Table{curve_keys}}, otherwise("1"), "factor over time"});
+    keys.push_back({"profile", curve_or_name(), otherwise("1"), "factor over time"});
   return keys;
 }
 
@@ -117,9 +117,9 @@ const KeyTable& motion_keys() {
   return kTable;
 }
 
-Load read_gravity(const TableReader& table, const Context&) {
+Load read_gravity(const TableReader& table, const Context& context) {
   GravityLoad load{table.get<Vec3>("acceleration"), table.node().where};
-  read_profile(table, load.profile);
+  read_profile(table, context, load.profile);
   return load;
 }
 
@@ -142,7 +142,7 @@ Load read_force(const TableReader& table, const Context& context) {
     load.at = read_anchor(table, context);
   }
   table.read("force", load.force);
-  read_profile(table, load.profile);
+  read_profile(table, context, load.profile);
   return load;
 }
 
@@ -155,7 +155,7 @@ SurfaceLoad read_surface_load(const TableReader& table, const Context& context) 
     fail(table.at("body"),
          fmt::format("it acts on the surface of a tissue, and body `{}` is none", body.name));
   load.at = TissueRegion{body.name, read_region(table.at("region"), context)};
-  read_profile(table, load.profile);
+  read_profile(table, context, load.profile);
   return load;
 }
 

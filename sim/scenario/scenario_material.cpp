@@ -363,7 +363,7 @@ fem::AnyMaterial read_law(const TableReader& table, Law law) {
 Fibres read_fibres(const Node& node) {
   const TableReader table(node, fibres_keys(), "fibres");
   static const std::vector<Body> no_bodies;  // their regions are those of this body alone
-  const Context context{{}, no_bodies};
+  const Context context{{}, no_bodies, nullptr};
   const auto region = [&](const Node& n) { return read_region(n, context); };
   Fibres fibres;
   fibres.where = node.where;

@@ -21,6 +21,7 @@ enum class Side { AsWritten, Mirrored };
 struct Context {
   std::filesystem::path folder;     // of the scenario file
   const std::vector<Body>& bodies;  // complete
+  const Node* curves = nullptr;     // [curve], or nullptr
   Side side = Side::AsWritten;
 
   std::string name(const std::string& written) const;  // on this side
@@ -80,8 +81,11 @@ TissueMaterial read_material(const Node& node);
 /// `body`, `point` and, where it has this key, `radius` of a table.
 Anchor read_anchor(const TableReader& table, const Context& context);
 
-/// `time` and `value` of a node. @param range  of the values
-Curve read_curve(const Node& node, const Range& range);
+/// A table of `time` and `value`, or the name of one in [curve]. @param range  of the values
+Curve read_curve(const Node& node, const Range& range, const Context& context);
+
+/// [curve], each of which has to be a curve; nullptr if there is none.
+const Node* check_curves(const TableReader& document);
 
 /// Strictly increasing times.
 std::vector<double> read_times(const Node& node);

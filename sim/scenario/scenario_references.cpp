@@ -236,7 +236,33 @@ const KeyTable& curve_keys() {
   return kTable;
 }
 
-Curve read_curve(const Node& node, const Range& range) {
+KeyType curve_or_name() {
+  return {form::Either{{{form::Text{"name of a curve"}}, {form::Table{curve_keys}}}}};
+}
+
+namespace {
+
+/// The curve of a name.
+const Node& named_curve(const Node& node, const Node* curves) {
+  std::vector<std::string> names;
+  if (curves != nullptr)
+    for (const Member& member : curves->table()->members) names.push_back(member.key);
+  const std::string name = read_text(node);
+  if (curves != nullptr)
+    if (const Node* curve = curves->find(name)) return *curve;
+  fail(node,
+       names.empty()
+           ? fmt::format("no curve is called `{}`; expected it as [curve.NAME] with "
+                         "`time` and `value`",
+                         one_line(name))
+           : fmt::format("no curve is called `{}`{}", one_line(name), suggestion(name, names)));
+}
+
+Curve read_curve_table(const Node& node, const Range& range) {
+  if (node.table() == nullptr)
+    fail(node, fmt::format("expected a curve such as {{ time = [\"0 s\", \"0.3 s\"], value = [0, "
+                           "0.1] }} or the name of one, found {}",
+                           found(node)));
   const TableReader table(node, curve_keys(), fmt::format("`{}`", one_line(node.name)));
   Curve curve;
   curve.time = read_times(table.at("time"));
@@ -247,6 +273,26 @@ Curve read_curve(const Node& node, const Range& range) {
     fail(values, fmt::format("expected as many values as times ({}), found {}", curve.time.size(),
                              curve.value.size()));
   return curve;
+}
+
+}  // namespace
+
+Curve read_curve(const Node& node, const Range& range, const Context& context) {
+  return read_curve_table(node.text() != nullptr ? named_curve(node, context.curves) : node, range);
+}
+
+const Node* check_curves(const TableReader& document) {
+  const Node* curves = document.find("curve");
+  if (curves == nullptr) return nullptr;
+  if (curves->table() == nullptr)
+    fail(*curves, fmt::format("expected curves as [curve.NAME] with `time` and `value`, found {}",
+                              found(*curves)));
+  for (const Member& member : curves->table()->members) {
+    if (member.node.text() != nullptr)
+      fail(member.node, "expected a curve with `time` and `value`, found " + found(member.node));
+    read_curve_table(member.node, kAny);
+  }
+  return curves;
 }
 
 }  // namespace articular::sim

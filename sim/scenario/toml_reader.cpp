@@ -143,12 +143,32 @@ void check_is_table(const Node& node, const std::vector<std::string>& names) {
          fmt::format("expected a table of {}, found {}", fmt::join(names, ", "), found(node)));
 }
 
+void refuse_unknown_keys(const Node& node, const std::vector<std::string>& names,
+                         const std::string& what) {
+  for (const Member& member : node.table()->members)
+    if (std::find(names.begin(), names.end(), member.key) == names.end())
+      throw InputError(member.key_where,
+                       fmt::format("{}: unknown key `{}`{}", what, one_line(member.key),
+                                   suggestion(member.key, names)));
+}
+
+/// The keys of all variants.
+std::vector<std::string> names_of(const form::Variants& variants) {
+  std::vector<std::string> all;
+  for (const auto& [word, keys] : variants.by_word)
+    for (std::string& name : keys().names())
+      if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(std::move(name));
+  return all;
+}
+
 const KeyTable& chosen_variant(const Node& node, const form::Variants& variants,
                                const std::string& what) {
   if (node.table() == nullptr) fail(node, "expected a table, found " + found(node));
   const Node* tag = node.find(variants.tag);
-  if (tag == nullptr)
+  if (tag == nullptr) {
+    refuse_unknown_keys(node, names_of(variants), what);  // it may be misspelt
     throw InputError(node.where, fmt::format("{}: `{}` is missing", what, variants.tag));
+  }
   form::Choice words;
   for (int i = 0; const auto& [word, keys] : variants.by_word) words.words.emplace_back(word, i++);
   const int chosen = read_word(*tag, {words});
@@ -211,11 +231,7 @@ int read_word(const Node& node, const KeyType& type) {
 TableReader::TableReader(const Node& node, const KeyTable& keys, std::string what)
     : node_(node), keys_(keys), what_(std::move(what)) {
   check_is_table(node, keys.names());
-  for (const Member& member : node.table()->members)
-    if (!knows(member.key))
-      throw InputError(member.key_where,
-                       fmt::format("{}: unknown key `{}`{}", what_, one_line(member.key),
-                                   suggestion(member.key, keys.names())));
+  refuse_unknown_keys(node, keys.names(), what_);
 }
 
 TableReader::TableReader(const Node& node, const form::Variants& variants, std::string what)

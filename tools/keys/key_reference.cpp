@@ -130,9 +130,13 @@ std::string row_as_text(const KeyRow& row, const KeySection& section) {
     facts += "; default: " + otherwise;
   std::string text = fmt::format("  {}\n", key.name) + wrapped(facts, 6) +
                      wrapped(plain(std::string(key.meaning)), 6);
-  if (!row.with.empty())
-    text +=
-        wrapped(fmt::format("with {} = {}", section.variants->tag, fmt::join(row.with, ", ")), 6);
+  if (is_tag(key, section)) {
+    for (const auto& [word, keys] : section.variants->by_word)
+      text += wrapped(plain(fmt::format("{}: {}", word, keys().find(key.name)->meaning)), 8);
+  } else if (!row.with.empty()) {
+    text += wrapped(
+        fmt::format("with {}: {}", section.variants->tag, plain(words_with(row, section))), 6);
+  }
   return text;
 }
 

@@ -36,10 +36,10 @@ std::vector<KeySection> all_sections() {
   return sections;
 }
 
-/// "output" is both [output] and "[[output]] of a study".
+/// "output" is both [output] and "[[output]] of a study", which "study" is too.
 bool is_called(const KeySection& section, const std::string& name) {
   const std::string own = without_brackets(section.name);
-  return own == name || own.starts_with(name + " of a ");
+  return own == name || own.starts_with(name + " of a ") || own.ends_with(" of a " + name);
 }
 
 std::vector<std::string> parts_of(std::string_view path) {

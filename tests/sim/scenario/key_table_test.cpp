@@ -25,6 +25,7 @@ accuracy = "balanced"
 contact_response = "averaged"
 contact_stiffness_factor = 50
 choice = { disc = "tissue" }
+curve = { ramp = { time = ["0 s", "1 s"], value = [0, 1] } }
 integrator = { step = "1 ms", scheme = "tr-bdf2", position_tolerance = "1 um", max_iterations = 9, solver = "auto" }
 detection = { tree = "blocks" }
 output = { interval = "10 ms", length_unit = "mm", directory = "o", contact_surfaces = true, checkpoint_interval = "1 s" }
@@ -98,6 +99,7 @@ mirror = "x"
 [[muscle]]
 name = "fibres"
 tissue = "of muscle"
+excitation = "ramp"
 [[muscle_table]]
 file = "muscles.csv"
 place = { scale = 1 }
@@ -333,7 +335,13 @@ class Walk {
         element(member.node, map->of.front(), entry, fmt::format("{}.\"{}\"", path, member.key));
     if (const auto* either = std::get_if<form::Either>(&type.variant))
       for (const KeyType& one : either->of)
-        if (node.list() != nullptr) value(node, one, entry, path);
+        if (fits(node, one)) value(node, one, entry, path);
+  }
+
+  static bool fits(const Node& node, const KeyType& type) {
+    return node.list() != nullptr    ? std::holds_alternative<form::List>(type.variant)
+           : node.table() != nullptr ? std::holds_alternative<form::Table>(type.variant)
+                                     : false;
   }
 
   void element(const Node& node, const KeyType& type, const std::string& entry,
@@ -555,6 +563,43 @@ bodies = ["bone", "muscle"]
   EXPECT_EQ(material.element, TissueMaterial().element);
   EXPECT_EQ(material.mass_damping, 0);
   EXPECT_EQ(std::get<MeshFile>(scenario.bodies[1].geometry).unit, MeshFile().unit);
+}
+
+/// The default of a number or quantity of a table, in SI.
+double standard_of(const KeyTable& keys, std::string_view key) {
+  const Key& row = *keys.find(key);
+  if (const auto* number = std::get_if<double>(&row.absence.value)) return *number;
+  return parse_quantity(std::get<std::string_view>(row.absence.value),
+                        std::get<form::Quantity>(row.type.variant).kind);
+}
+
+const KeyTable& keys_of_law(std::string_view law) {
+  for (const auto& [word, keys] : material_variants().by_word)
+    if (word == law) return keys();
+  throw std::invalid_argument("no such law");
+}
+
+TEST_F(KeyTables, DefaultsOfLawsAreThePublishedConstants) {
+  const KeyTable& muscle = keys_of_law("muscle");
+  const fem::MuscleFibre::Constants fibre;
+  EXPECT_EQ(standard_of(muscle, "max_stress"), fibre.max_stress);
+  EXPECT_EQ(standard_of(muscle, "p1"), fibre.p1);
+  EXPECT_EQ(standard_of(muscle, "p2"), fibre.p2);
+  EXPECT_EQ(standard_of(muscle, "toe_end"), fibre.toe_end);
+  EXPECT_EQ(standard_of(muscle, "optimal_stretch"), fibre.optimal_stretch);
+  const fem::BlemkerMuscle<fem::LogVolumeChange>::Constants ground;
+  EXPECT_EQ(standard_of(muscle, "shear_along"), ground.G1);
+  EXPECT_EQ(standard_of(muscle, "shear_across"), ground.G2);
+  EXPECT_EQ(standard_of(muscle, "c10"), ground.c10);
+  EXPECT_EQ(standard_of(muscle, "bulk_modulus"), ground.kappa);
+  const auto& length = std::get<form::Table>(
+      keys_of_law("transversely-isotropic").find("force_length")->type.variant);
+  const fem::ForceLength::Constants published;
+  EXPECT_EQ(standard_of(length.keys(), "sarcomere_length"), published.sarcomere_length);
+  EXPECT_EQ(standard_of(length.keys(), "zero_length"), published.zero_length);
+  EXPECT_EQ(standard_of(length.keys(), "b"), published.b);
+  EXPECT_EQ(standard_of(length.keys(), "calcium"), published.calcium);
+  EXPECT_EQ(standard_of(length.keys(), "max_calcium"), published.max_calcium);
 }
 
 TEST_F(KeyTables, ADefaultIsWhatIsReadWhereTheKeyIsNotGiven) {

@@ -191,6 +191,10 @@ INSTANTIATE_TEST_SUITE_P(
                        "\"1 s\" }, { weight = 0.8, time = \"2 s\" }] }\n"),
                 "`relaxation`: the weights sum up to 1.1, which must be below 1: nothing would "
                 "be left of the stress"},
+        Mistake{
+            "MisspeltLaw",
+            tissue("density = \"1 t/m^3\"\nmaterial = { @lw = \"linear\", poisson_ratio = 0 }\n"),
+            "material: unknown key `lw`; did you mean `law`?"},
         Mistake{"BetaOfAnotherLaw", law("st-venant-kirchhoff", kElastic + ", @beta = 2"),
                 "material: `beta` does not belong here: the law is \"st-venant-kirchhoff\""},
         Mistake{"BetaIsMissing", law("holmes-mow", kElastic, "@"), "material: `beta` is missing"},
