@@ -13,77 +13,12 @@ using sim::Node;
 using sim::TableReader;
 namespace form = sim::form;
 
-constexpr int kMostCaseThreads = 256, kMostRepeats = 1000;
+constexpr int kMostRepeats = 1000;
 constexpr std::size_t kMostReferences = 3;
-
-/// A value as TOML writes it, so that an override reads the same again.
-std::string toml_text(const Node& node) {
-  if (const std::string* text = node.text()) {
-    std::string quoted = "\"";
-    for (const char c : *text) {
-      if (c == '"' || c == '\\') quoted += '\\';
-      quoted += c;
-    }
-    return quoted + '"';
-  }
-  if (const auto* integer = std::get_if<std::int64_t>(&node.value))
-    return fmt::format("{}", *integer);
-  if (const auto* number = std::get_if<double>(&node.value)) return fmt::format("{}", *number);
-  if (const auto* boolean = std::get_if<bool>(&node.value)) return *boolean ? "true" : "false";
-  std::vector<std::string> parts;
-  if (const Node::List* list = node.list()) {
-    for (const Node& element : *list) parts.push_back(toml_text(element));
-    return fmt::format("[{}]", fmt::join(parts, ", "));
-  }
-  if (const sim::TomlTable* table = node.table()) {
-    for (const sim::Member& member : table->members)
-      parts.push_back(fmt::format("\"{}\" = {}", member.key, toml_text(member.node)));
-    return fmt::format("{{ {} }}", fmt::join(parts, ", "));
-  }
-  sim::fail(node, "a date is no value of a scenario");
-}
 
 /// As a name of a case: `0.5 ms`, `[8, 2, 2]`.
 std::string short_name(const Node& node) {
   return node.text() != nullptr ? *node.text() : toml_text(node);
-}
-
-std::vector<std::string> read_texts(const Node& node) {
-  std::vector<std::string> texts;
-  for (const Node& element : sim::read_list(node, "a list of texts"))
-    texts.push_back(sim::read_text(element));
-  return texts;
-}
-
-/// `set`, `threads` and `prepare` of a table.
-StudySettings read_settings(const TableReader& table) {
-  StudySettings settings;
-  if (const Node* set = table.find("set")) {
-    if (set->table() == nullptr)
-      sim::fail(*set, "expected a table of paths and values, { \"integrator.step\" = \"1 ms\" }");
-    for (const sim::Member& member : set->table()->members)
-      settings.overrides.push_back(member.key + "=" + toml_text(member.node));
-  }
-  table.read("threads", settings.threads);
-  table.read("prepare", settings.prepare, read_texts);
-  return settings;
-}
-
-/// A table's own keys, and those of settings.
-KeyTable with_settings(std::string_view name, std::vector<Key> keys) {
-  keys.push_back({"set",
-                  {form::Map{"path of a value", {{form::Anything{}}}}},
-                  sim::kNone,
-                  "values that it changes, as `articular run --set PATH=VALUE`"});
-  keys.push_back({"threads",
-                  {form::Integer{1, kMostCaseThreads}},
-                  sim::otherwise("1"),
-                  "as of `articular run`"});
-  keys.push_back({"prepare",
-                  {sim::list_of({form::Text{"text"}})},
-                  sim::kNone,
-                  "arguments of an `articular` command that makes meshes"});
-  return {name, std::move(keys)};
 }
 
 const KeyTable& choice_keys() {
@@ -218,26 +153,26 @@ std::vector<StudyReference> read_references(const TableReader& document) {
 }
 
 void check_references(const Node& root, const Study& study) {
+  if (study.is_sweep()) {
+    for (std::size_t o = 0; o < study.outputs.size(); ++o)
+      if (study.outputs[o].value == StudyValue::History || study.outputs[o].scale)
+        sim::fail((*root.find("output")->list())[o],
+                  "a `scale`, or the difference from a history, needs a [[reference]], and the "
+                  "study has none");
+    return;
+  }
   const bool all_exact = std::all_of(study.outputs.begin(), study.outputs.end(),
                                      [](const StudyOutput& output) { return output.exact; });
   if (all_exact && !study.references.empty())
     sim::fail(*root.find("reference"), "every output has an `exact` value: no reference is needed");
   if (!all_exact && study.references.empty())
     throw sim::InputError(root.where,
-                          "a study needs to know what is right; expected [[reference]] (one "
-                          "converged run, or three of different `size` to extrapolate from), or "
-                          "`exact` in every [[output]]");
+                          "what is right is known of some outputs only; expected [[reference]] "
+                          "(one converged run, or three of different `size` to extrapolate from), "
+                          "or `exact` in every [[output]], or in none");
 }
 
 }  // namespace
-
-StudySettings operator+(StudySettings settings, const StudySettings& more) {
-  settings.overrides.insert(settings.overrides.end(), more.overrides.begin(), more.overrides.end());
-  if (more.threads) settings.threads = more.threads;
-  if (!more.prepare.empty()) settings.prepare = more.prepare;
-  settings.reproducible |= more.reproducible;
-  return settings;
-}
 
 const KeyTable& study_keys() {
   static const KeyTable kTable = [] {
@@ -264,11 +199,16 @@ const KeyTable& study_keys() {
     add("knob", knob_keys, sim::kNone, "what is varied");
     add("case", case_keys, sim::kNone, "a case beside those of the knobs");
     add("output", output_keys, sim::kRequired, "what is compared");
-    add("reference", reference_keys, sim::otherwise("or `exact` of every output"),
+    add("reference", reference_keys, sim::otherwise("or `exact` of every output; neither: a sweep"),
         "what is right: a converged run, or three to extrapolate from");
     return table;
   }();
   return kTable;
+}
+
+bool Study::is_sweep() const {
+  return references.empty() && std::none_of(outputs.begin(), outputs.end(),
+                                            [](const StudyOutput& output) { return output.exact; });
 }
 
 Study read_study(const std::filesystem::path& file) {

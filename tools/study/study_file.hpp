@@ -5,22 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "sim/scenario/key_table.hpp"
+#include "tools/study/study_settings.hpp"
 
 /// STUDY.toml: a scenario, what to vary in it, what to look at, and what is right. tools/README.md
 /// has the format.
 namespace articular::tools {
-
-/// What distinguishes a run of the scenario from the scenario as it is written.
-struct StudySettings {
-  std::vector<std::string> overrides;  // of `articular run --set`, PATH=VALUE
-  std::optional<int> threads;
-  std::vector<std::string> prepare;  // arguments of an `articular` command that makes its meshes
-  bool reproducible = false;         // of `articular run`; no key says so
-};
-
-/// These settings and, over them, those of `more`.
-StudySettings operator+(StudySettings settings, const StudySettings& more);
 
 /// One thing to vary. Its choices have names such as "0.5 ms" or "smoothed".
 struct StudyKnob {
@@ -66,6 +55,9 @@ struct Study {
   std::vector<StudyExtra> extras;
   std::vector<StudyOutput> outputs;
   std::vector<StudyReference> references;  // finest first; one, two or three of them, or none
+
+  /// Nothing says what is right: only the outputs of the cases are listed.
+  bool is_sweep() const;
 };
 
 /// The keys of a study file.

@@ -6,34 +6,17 @@
 #include <cmath>
 #include <limits>
 
+#include "tools/study/csv_cell.hpp"
+
 namespace articular::tools {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A text as one cell of a CSV table.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
-std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
-
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
 const char* time_word(const Assessment& assessment) {
   return assessment.cpu_time ? "CPU time" : "wall time";
-}
-
-/// "[mm]" of "tip.position.z [mm]", with a space before, or "".
-std::string unit_of(const std::string& column) {
-  const std::size_t at = column.rfind(" [");
-  return at == std::string::npos ? "" : " " + column.substr(at + 2, column.size() - at - 3);
 }
 
 std::string reference_text(const Study& study, const Assessment& assessment, std::size_t o) {
@@ -165,19 +148,25 @@ std::string front_line(const Assessment& assessment) {
 
 }  // namespace
 
+std::string unit_of(const std::string& column) {
+  const std::size_t at = column.rfind(" [");
+  return at == std::string::npos ? "" : " " + column.substr(at + 2, column.size() - at - 3);
+}
+
 std::string study_csv(const Study& study, const std::vector<StudyCase>& cases,
                       const std::vector<CaseRecord>& records, const Assessment& assessment) {
   std::string text = "case,outcome,wall time [s],CPU time [s],memory [MB],error,on front";
   for (const StudyOutput& output : study.outputs)
-    text += "," + cell(output.name + " = " + output.column) + "," + cell("error of " + output.name);
+    text += "," + csv_cell(output.name + " = " + output.column) + "," +
+            csv_cell("error of " + output.name);
   text += "\n";
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const CaseAssessment& c = assessment.cases[i];
-    text += fmt::format("{},{},{:.6g},{:.6g},{:.6g},{},{}", cell(cases[i].name),
-                        cell(records[i].outcome()), records[i].wall(), records[i].cpu(),
-                        records[i].memory(), cell(c.error), c.on_front ? "yes" : "no");
+    text += fmt::format("{},{},{:.6g},{:.6g},{:.6g},{},{}", csv_cell(cases[i].name),
+                        csv_cell(records[i].outcome()), records[i].wall(), records[i].cpu(),
+                        records[i].memory(), csv_cell(c.error), c.on_front ? "yes" : "no");
     for (std::size_t o = 0; o < study.outputs.size(); ++o)
-      text += "," + cell(c.values[o]) + "," + cell(c.errors[o]);
+      text += "," + csv_cell(c.values[o]) + "," + csv_cell(c.errors[o]);
     text += "\n";
   }
   return text;
