@@ -234,7 +234,7 @@ TableReader::TableReader(const Node& node, const KeyTable& keys, std::string wha
   refuse_unknown_keys(node, keys.names(), what_);
 }
 
-TableReader::TableReader(const Node& node, const form::Variants& variants, std::string what)
+TableReader::TableReader(const Node& node, const form::Variants& variants, const std::string& what)
     : TableReader(node, chosen_variant(node, variants, what), what) {}
 
 const Node* TableReader::find(std::string_view key) const {

@@ -85,7 +85,7 @@ class TableReader {
   TableReader(const Node& node, const KeyTable& keys, std::string what);
 
   /// As its tag says. @throws InputError  also if the tag is missing or none of the words
-  TableReader(const Node& node, const form::Variants& variants, std::string what);
+  TableReader(const Node& node, const form::Variants& variants, const std::string& what);
 
   const Node& node() const { return node_; }
   const std::string& what() const { return what_; }
