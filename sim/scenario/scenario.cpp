@@ -6,6 +6,7 @@
 
 #include "sim/scenario/data_path.hpp"
 #include "sim/scenario/scenario_choices.hpp"
+#include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 #include "sim/scenario/toml_override.hpp"
 
@@ -60,7 +61,7 @@ void refuse_settings_below_tables(const Node& root) {
                                      member.key, name));
   };
   for (const Member& member : root.table()->members) {
-    if (member.key == "choice") continue;  // its keys are the user's
+    if (member.key == "choice" || member.key == "curve") continue;  // their keys are the user's
     check(member.node, "[" + member.key + "]");
     if (const Node::List* list = member.node.list())
       for (const Node& entry : *list) check(entry, "[[" + member.key + "]]");
@@ -93,6 +94,42 @@ std::vector<std::filesystem::path> files_of(const Node& root, const std::filesys
 
 }  // namespace
 
+const KeyTable& scenario_keys() {
+  static const KeyTable kTable = [] {
+    KeyTable table{"scenario", settings_keys()};
+    const auto add = [&](std::string_view name, const KeyType& type, std::string_view meaning) {
+      table.keys.push_back({name, type, kNone, meaning});
+    };
+    add("choice", {form::Map{"name of a choice", {{form::Text{"word"}}}}},
+        "the variant of this file that holds: entries with `when` go by it");
+    add("curve", {form::Map{"name of a curve", {{form::Table{curve_keys}}}}},
+        "curves that several entries name, as `[curve.NAME]`");
+    table.keys.push_back({"body",
+                          {conditional_entries_of({form::Table{body_keys}})},
+                          kRequired,
+                          "tissues and bones"});
+    add("attach", {conditional_entries_of({form::Table{attach_keys}})},
+        "tissue nodes that a bone carries");
+    add("support", {conditional_entries_of({form::Table{support_keys}})},
+        "tissue nodes on rollers");
+    add("muscle", {conditional_entries_of({form::Table{muscle_keys}})}, "muscles");
+    add("muscle_table", {conditional_entries_of({form::Table{muscle_table_keys}})},
+        "muscles of a table");
+    add("ligament", {conditional_entries_of({form::Table{ligament_keys}})}, "ligaments");
+    add("load", {conditional_entries_of({form::VariantTable{load_variants}})},
+        "what acts from outside");
+    table.keys.push_back(
+        {"contact",
+         {form::Either{{{form::Boolean{}}, {conditional_entries_of({form::Table{contact_keys}})}}}},
+         otherwise("every pair"),
+         "`false`: nothing touches; entries: only these pairs do"});
+    add("probe", {conditional_entries_of({form::VariantTable{probe_variants}})},
+        "columns of `history.csv`");
+    return table;
+  }();
+  return kTable;
+}
+
 Scenario read_scenario(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides) {
   Node root = read_toml(file);
@@ -101,11 +138,7 @@ Scenario read_scenario(const std::filesystem::path& file,
   const ChosenWords choices = apply_choices(root);
   for (const std::string& text : overrides)
     if (!sets_a_choice(text)) apply_override(root, text);
-  const TableReader document(
-      root, "scenario",
-      {"choice", "title", "duration", "analysis", "accuracy", "contact_response",
-       "contact_stiffness_factor", "contact", "integrator", "detection", "output", "body", "attach",
-       "support", "muscle", "muscle_table", "ligament", "load", "probe"});
+  const TableReader document(root, scenario_keys(), "scenario");
   refuse_settings_below_tables(root);
   Scenario scenario;
   scenario.choices = choices;
@@ -123,7 +156,7 @@ Scenario read_scenario(const std::filesystem::path& file,
         throw InputError(body.where, fmt::format("body `{}` has a velocity at the start, but the "
                                                  "analysis is static: there is no motion in it",
                                                  body.name));
-  const Context context{folder, scenario.bodies};
+  const Context context{folder, scenario.bodies, check_curves(document)};
   Mistakes on_bodies;  // what names them
   on_bodies.in([&] { scenario.attachments = read_attachments(document, context); });
   on_bodies.in([&] { scenario.supports = read_supports(document, context); });

@@ -2,148 +2,32 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <unordered_map>
 
 #include "sim/base/pose.hpp"
-#include "sim/scenario/data_path.hpp"
+#include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 
 namespace articular::sim {
 namespace {
 
-constexpr int kMostCells = 10000;  // along one edge of a built-in geometry
 constexpr std::array<std::string_view, 6> kFreedoms = {
     "translation.x", "translation.y", "translation.z", "rotation.x", "rotation.y", "rotation.z"};
 
-double read_length_unit(const Node& node) {
-  try {
-    return parse_unit(read_text(node), kLength);
-  } catch (const std::invalid_argument& error) {
-    fail(node, error.what());
-  }
-}
-
-Continuation read_continuation(const Node& node) {
-  const TableReader table(node, "continued", {"at", "direction", "length", "easing"});
-  Continuation continuation;
-  continuation.at = read_vector(table.at("at"), kLength);
-  continuation.direction = read_direction(table.at("direction"));
-  continuation.length = read_quantity(table.at("length"), kLength, kPositive);
-  table.may("easing", continuation.easing, as_quantity(kLength, kNotNegative));
-  return continuation;
-}
-
-/// @param is_contact_mesh  allows `facing`, `faces` and `continued`
-MeshFile read_mesh(const Node& node, const std::filesystem::path& folder, bool is_contact_mesh) {
-  const auto table =
-      is_contact_mesh
-          ? TableReader(node, "contact mesh",
-                        {"file", "unit", "place", "made_by", "facing", "faces", "continued"})
-          : TableReader(node, "mesh", {"file", "unit", "place", "made_by"});
-  MeshFile mesh;
-  mesh.where = table.at("file").where;
-  mesh.path = read_path(table.at("file"), folder);
-  table.may("unit", mesh.unit, read_length_unit);
-  table.may("place", mesh.placement, read_placement);
-  table.may("made_by", mesh.made_by, read_text);
-  table.may("facing", mesh.facing, read_direction);
-  constexpr int kFewestFaces = 20, kMostFaces = 10'000'000;
-  table.may("faces", mesh.faces,
-            [](const Node& n) { return read_integer(n, kFewestFaces, kMostFaces); });
-  table.may("continued", mesh.continued, read_continuation);
-  return mesh;
-}
-
-template <int N>
-Eigen::Matrix<int, N, 1> read_cells(const Node& node) {
-  const Node::List& list = read_list(node, fmt::format("{} numbers of cells", N), N);
-  Eigen::Matrix<int, N, 1> cells;
-  for (int i = 0; i < N; ++i)
-    cells[i] = read_integer(list[static_cast<std::size_t>(i)], 1, kMostCells);
-  return cells;
-}
-
-BoxGeometry read_box(const Node& node) {
-  const TableReader table(node, "box", {"size", "cells", "center"});
-  BoxGeometry box;
-  box.size = read_vector(table.at("size"), kLength);
-  if (!(box.size.minCoeff() > 0))
-    fail(table.at("size"), "the three edges must be positive, found " + found(table.at("size")));
-  box.cells = read_cells<3>(table.at("cells"));
-  table.may("center", box.center, as_vector(kLength));
-  return box;
-}
-
-/// The volume that the corner spans with its three neighbours, by that of the edges' lengths.
-double corner_fullness(const Eigen::Matrix<double, 3, 8>& corners, int corner) {
-  // Neighbours along x, y, z of each corner, in VTK's order of a hexahedron.
-  constexpr int kNeighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
-                                     {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
-  Mat3 edges;
-  for (int e = 0; e < 3; ++e)
-    edges.col(e) = corners.col(kNeighbours[corner][e]) - corners.col(corner);
-  const double size = edges.col(0).norm() * edges.col(1).norm() * edges.col(2).norm();
-  return size > 0 ? edges.determinant() / size : 0;
-}
-
-HexahedronGeometry read_hexahedron(const Node& node) {
-  constexpr double kFlat = 1e-6;
-  const TableReader table(node, "hexahedron", {"corners", "cells"});
-  HexahedronGeometry hexahedron;
-  const Node& corners = table.at("corners");
-  const Node::List& list = read_list(corners, "a list of eight points", 8);
-  for (int i = 0; i < 8; ++i)
-    hexahedron.corners.col(i) = read_vector(list[static_cast<std::size_t>(i)], kLength);
-  for (int i = 0; i < 8; ++i)
-    if (corner_fullness(hexahedron.corners, i) < kFlat)
-      fail(list[static_cast<std::size_t>(i)],
-           "the block is flat or turned inside out at this corner; expected the corners of the "
-           "lower face, counterclockwise as seen from above, then those of the upper face above "
-           "them");
-  hexahedron.cells = read_cells<3>(table.at("cells"));
-  return hexahedron;
-}
-
-SphereGeometry read_sphere(const Node& node) {
-  const TableReader table(node, "sphere", {"radius", "element_size", "center"});
-  SphereGeometry sphere;
-  sphere.radius = read_quantity(table.at("radius"), kLength, kPositive);
-  sphere.element_size = read_quantity(table.at("element_size"), kLength, kPositive);
-  if (sphere.element_size > sphere.radius)
-    fail(table.at("element_size"),
-         "must not exceed the radius, found " + found(table.at("element_size")));
-  table.may("center", sphere.center, as_vector(kLength));
-  return sphere;
-}
-
-VShapeGeometry read_v_shape(const Node& node) {
-  static constexpr Range kOpening{0, std::numbers::pi, true, "must lie between 0 and 180 deg"};
-  const TableReader table(node, "v_shape", {"leg_length", "width", "angle", "cells"});
-  VShapeGeometry shape;
-  shape.leg_length = read_quantity(table.at("leg_length"), kLength, kPositive);
-  shape.width = read_quantity(table.at("width"), kLength, kPositive);
-  shape.angle = read_quantity(table.at("angle"), kAngle, kOpening);
-  shape.cells = read_cells<2>(table.at("cells"));
-  return shape;
-}
-
-void read_geometry(const Node& node, Body& body) {
-  const TableReader table(node, "geometry", {"box", "hexahedron", "sphere", "v_shape", "place"});
-  table.exactly_one({"box", "hexahedron", "sphere", "v_shape"});
-  table.may("box", body.geometry, read_box);
-  table.may("hexahedron", body.geometry, read_hexahedron);
-  table.may("sphere", body.geometry, read_sphere);
-  table.may("v_shape", body.geometry, read_v_shape);
-  table.may("place", body.placement, read_placement);
+const KeyTable& layer_keys() {
+  static const KeyTable kTable{
+      "layer",
+      {{"thickness", {form::Quantity{kLength, kPositive}}, kRequired, "of the cartilage"},
+       {"young_modulus", {form::Quantity{kStress, kPositive}}, kRequired, "its Young's modulus"},
+       {"poisson_ratio", {form::Number{kPoissonRange}}, kRequired, "its Poisson's ratio"}}};
+  return kTable;
 }
 
 Layer read_layer(const Node& node) {
-  const TableReader table(node, "layer", {"thickness", "young_modulus", "poisson_ratio"});
-  return {read_quantity(table.at("thickness"), kLength, kPositive),
-          read_quantity(table.at("young_modulus"), kStress, kPositive),
-          read_number(table.at("poisson_ratio"), kPoissonRange)};
+  const TableReader table(node, layer_keys(), "layer");
+  return {table.get<double>("thickness"), table.get<double>("young_modulus"),
+          table.get<double>("poisson_ratio")};
 }
 
 /// "xx yy zz unit" and, if given, "xy xz yz unit". The tensor must be that of a body: its principal
@@ -172,10 +56,25 @@ Eigen::Matrix3d read_inertia(const Node& node) {
   return inertia;
 }
 
+const KeyTable& hold_keys() {
+  static const KeyTable kTable{
+      "hold",
+      {{"freedoms", {list_of_freedoms()}, kRequired, "motions that are taken away"},
+       {"at",
+        {form::Vector{kLength}},
+        otherwise("centre of mass, with attached tissue"),
+        "the point that is meant"},
+       {"turned",
+        {form::Vector{kAngle}},
+        standard("0 0 0 rad"),
+        "turns the axes by a rotation vector"}}};
+  return kTable;
+}
+
 /// Velocities along axes that stand in space: rotations about two of them, with the third held, add
 /// up to one about the third after all. So one rotation alone is never held.
 Hold read_hold(const Node& node) {
-  const TableReader table(node, "hold", {"freedoms", "at", "turned"});
+  const TableReader table(node, hold_keys(), "hold");
   Hold hold;
   const Node& freedoms = table.at("freedoms");
   hold.held = read_freedoms(freedoms);
@@ -183,17 +82,9 @@ Hold read_hold(const Node& node) {
     fail(freedoms,
          "one rotation alone cannot be held: hold two, which leaves a hinge, or three; of two "
          "bones that move against each other, one can be the hinge of the other's third rotation");
-  if (table.find("at") != nullptr) hold.at = read_vector(table.at("at"), kLength);
-  if (const Node* turned = table.find("turned"))
-    hold.axes = rotation_matrix(read_vector(*turned, kAngle));
+  table.read("at", hold.at);
+  hold.axes = rotation_matrix(table.get<Vec3>("turned"));
   return hold;
-}
-
-std::vector<MeshFile> read_contact_meshes(const Node& node, const std::filesystem::path& folder) {
-  std::vector<MeshFile> meshes;
-  for (const Node& element : read_list(node, "a list of meshes such as [{ file = \"fossa.vtp\" }]"))
-    meshes.push_back(read_mesh(element, folder, true));
-  return meshes;
 }
 
 /// What is held starts at rest.
@@ -242,39 +133,34 @@ void check_kind(const TableReader& table, const Body& body) {
 }
 
 Body read_body(const Node& node, const std::filesystem::path& folder) {
-  const TableReader table(
-      node, label(node, "body"),
-      {"name", "kind", "mesh", "geometry", "contact_meshes", "layer", "collides", "mass", "density",
-       "center_of_mass", "inertia", "velocity", "angular_velocity", "hold", "material"});
-  const auto mesh = [&](const Node& n) { return read_mesh(n, folder, false); };
+  const TableReader table(node, body_keys(), label(node, "body"));
+  const auto mesh = [&](const Node& n) { return read_mesh_file(n, folder); };
   const auto contact_meshes = [&](const Node& n) { return read_contact_meshes(n, folder); };
   Body body;
   body.where = node.where;
   body.name = read_name(table.at("name"));
-  body.kind = read_choice<Body::Kind>(
-      table.at("kind"),
-      {{"fixed", Body::Kind::Fixed}, {"rigid", Body::Kind::Rigid}, {"tissue", Body::Kind::Tissue}});
+  table.read("kind", body.kind);
   table.at_most_one({"mesh", "geometry"});
-  table.may("mesh", body.geometry, mesh);
+  table.read("mesh", body.geometry, mesh);
   if (const Node* geometry = table.find("geometry")) read_geometry(*geometry, body);
-  table.may("contact_meshes", body.contact_meshes, contact_meshes);
-  table.may("layer", body.layer, read_layer);
-  table.may("collides", body.collides, read_boolean);
-  table.may("mass", body.mass, as_quantity(kMass, kPositive));
-  table.may("density", body.density, as_quantity(kDensity, kPositive));
-  table.may("center_of_mass", body.center_of_mass, as_vector(kLength));
-  table.may("inertia", body.inertia, read_inertia);
-  table.may("velocity", body.velocity, as_vector(kVelocity));
-  table.may("angular_velocity", body.angular_velocity, as_vector(kAngularVelocity));
-  table.may("hold", body.hold, read_hold);
-  table.may("material", body.material, read_material);
+  table.read("contact_meshes", body.contact_meshes, contact_meshes);
+  table.read("layer", body.layer, read_layer);
+  table.read("collides", body.collides);
+  table.read("mass", body.mass);
+  table.read("density", body.density);
+  table.read("center_of_mass", body.center_of_mass);
+  table.read("inertia", body.inertia, read_inertia);
+  table.read("velocity", body.velocity);
+  table.read("angular_velocity", body.angular_velocity);
+  table.read("hold", body.hold, read_hold);
+  table.read("material", body.material, read_material);
   check_kind(table, body);
   return body;
 }
 
 void append_attachments(const Node& node, const Context& context,
                         std::vector<Attachment>& attachments) {
-  const TableReader table(node, "[[attach]]", {"body", "to", "region", "mirror"});
+  const TableReader table(node, attach_keys(), "[[attach]]");
   for (const Side side : read_sides(table)) {
     Context here = context;
     here.side = side;
@@ -298,16 +184,82 @@ std::string_view freedom_name(std::size_t freedom) { return kFreedoms.at(freedom
 
 std::array<bool, 6> read_freedoms(const Node& node) {
   std::array<bool, 6> named{};
-  for (const Node& freedom : read_list(node, "a list such as [\"translation.x\"]")) {
-    const auto i = read_choice<std::size_t>(freedom, {{kFreedoms[0], 0},
-                                                      {kFreedoms[1], 1},
-                                                      {kFreedoms[2], 2},
-                                                      {kFreedoms[3], 3},
-                                                      {kFreedoms[4], 4},
-                                                      {kFreedoms[5], 5}});
-    named[i] = true;
-  }
+  for (const Node& freedom : read_list(node, "a list such as [\"translation.x\"]"))
+    named[static_cast<std::size_t>(read_word(freedom, list_of_freedoms().of.front()))] = true;
   return named;
+}
+
+form::List list_of_freedoms() {
+  form::Choice freedoms;
+  for (std::size_t i = 0; i < kFreedoms.size(); ++i) freedoms.words.emplace_back(kFreedoms[i], i);
+  return list_of({freedoms});
+}
+
+const KeyTable& body_keys() {
+  static const KeyTable kTable{
+      "[[body]]",
+      {{"name",
+        {form::Text{"name"}},
+        kRequired,
+        "letters, digits, `_`, `-`, inner spaces; not `lines`"},
+       {"kind",
+        {form::Choice{{{"fixed", Body::Kind::Fixed},
+                       {"rigid", Body::Kind::Rigid},
+                       {"tissue", Body::Kind::Tissue}}}},
+        kRequired,
+        "does not move by itself; has six freedoms; is made of tetrahedra"},
+       {"mesh",
+        {form::Table{mesh_keys}},
+        otherwise("or `geometry`; a fixed body may have none"),
+        "its shape, from a file"},
+       {"geometry", {form::Table{geometry_keys}}, otherwise("or `mesh`"), "its shape, built in"},
+       {"density",
+        {form::Quantity{kDensity, kPositive}},
+        otherwise("required of tissue; rigid: or `mass`"),
+        "mass density; not of a fixed body"},
+       {"mass", {form::Quantity{kMass, kPositive}}, otherwise("or `density`"), "rigid only"},
+       {"material",
+        {form::VariantTable{material_variants}},
+        otherwise("required of tissue"),
+        "tissue only"},
+       {"center_of_mass", {form::Vector{kLength}}, otherwise("of the mesh"), "rigid only"},
+       {"inertia",
+        {list_of({form::Vector{kInertia}})},
+        otherwise("of the mesh"),
+        "rigid only; about the centre of mass: `[\"xx yy zz unit\", \"xy xz yz unit\"]`, tensor "
+        "entries; the second may be missing"},
+       {"velocity",
+        {form::Vector{kVelocity}},
+        standard("0 0 0 m/s"),
+        "at the start; rigid and tissue, dynamic only"},
+       {"angular_velocity",
+        {form::Vector{kAngularVelocity}},
+        standard("0 0 0 rad/s"),
+        "at the start; rigid, dynamic only"},
+       {"hold", {form::Table{hold_keys}}, kNone, "rigid only: takes freedoms away"},
+       {"collides", {form::Boolean{}}, standard(true), "`false`: touches nothing"},
+       {"contact_meshes",
+        {list_of({form::Table{contact_mesh_keys}})},
+        otherwise("the mesh"),
+        "fixed and rigid: meshes that touch in its place"},
+       {"layer",
+        {form::Table{layer_keys}},
+        kNone,
+        "fixed and rigid: cartilage as an elastic layer"}}};
+  return kTable;
+}
+
+const KeyTable& attach_keys() {
+  static const KeyTable kTable{
+      "[[attach]]",
+      {{"body", {form::Text{"name of a tissue"}}, kRequired, "the tissue"},
+       {"to",
+        {form::Text{"name of a fixed or rigid body"}},
+        kRequired,
+        "the bone that moves its nodes"},
+       {"region", {form::Table{region_keys}}, kRequired, "the nodes; `{}`: all"},
+       mirror_key()}};
+  return kTable;
 }
 
 std::vector<Body> read_bodies(const TableReader& document, const std::filesystem::path& folder) {

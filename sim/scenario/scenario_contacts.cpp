@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sim/scenario/name_pattern.hpp"
+#include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 
 namespace articular::sim {
@@ -14,8 +15,8 @@ constexpr int kMostPatterns = 64;
 
 /// Friction, which acts on velocities.
 void read_friction(const TableReader& table, Scenario::Analysis analysis, ContactPair& pair) {
-  table.may("friction", pair.friction, as_number(kNotNegative));
-  table.may("slip_velocity", pair.slip_velocity, as_quantity(kVelocity, kPositive));
+  table.read("friction", pair.friction);
+  table.read("slip_velocity", pair.slip_velocity);
   if (!(pair.friction > 0)) table.refuse({"slip_velocity"}, "there is no friction");
   if (pair.friction > 0 && analysis == Scenario::Analysis::Static)
     fail(*table.find("friction"),
@@ -68,8 +69,7 @@ ContactPair read_two_bodies(const Node& node, const Context& context) {
 
 std::vector<ContactPair> read_contact(const Node& node, const Context& context,
                                       Scenario::Analysis analysis) {
-  const TableReader table(node, "[[contact]]",
-                          {"bodies", "self", "friction", "slip_velocity", "damping"});
+  const TableReader table(node, contact_keys(), "[[contact]]");
   const Node& which = table.exactly_one({"bodies", "self"});
   std::vector<ContactPair> pairs;
   if (table.find("self") != nullptr)
@@ -78,7 +78,7 @@ std::vector<ContactPair> read_contact(const Node& node, const Context& context,
     pairs = {read_two_bodies(which, context)};
   ContactPair law;
   read_friction(table, analysis, law);
-  table.may("damping", law.damping, as_quantity(kContactDamping, kNotNegative));
+  table.read("damping", law.damping);
   for (ContactPair& pair : pairs) {
     law.a = pair.a;
     law.b = pair.b;
@@ -89,6 +89,32 @@ std::vector<ContactPair> read_contact(const Node& node, const Context& context,
 }
 
 }  // namespace
+
+const KeyTable& contact_keys() {
+  static const KeyTable kTable{
+      "[[contact]]",
+      {{"bodies",
+        {names_of_bodies(2)},
+        otherwise("or `self`"),
+        "two bodies that can meet; `*` in a name stands for any characters"},
+       {"self",
+        {form::Text{"name of a tissue"}},
+        otherwise("or `bodies`"),
+        "a tissue that can meet itself; `*` as above"},
+       {"friction",
+        {form::Number{kNotNegative}},
+        standard(0.0),
+        "Coulomb's coefficient; dynamic only"},
+       {"slip_velocity",
+        {form::Quantity{kVelocity, kPositive}},
+        otherwise("1/20 of an element a second, or in 1000 steps if longer"),
+        "friction has 0.71 of its value here. Less creeps less and takes more iterations"},
+       {"damping",
+        {form::Quantity{kContactDamping, kNotNegative}},
+        standard("0 Pa s/m"),
+        "pressure per closing velocity; surfaces never pull"}}};
+  return kTable;
+}
 
 /// A body that can touch something.
 const Body& read_touching_body(const Node& node, const Context& context) {

@@ -4,16 +4,16 @@
 
 #include "sim/scenario/data_path.hpp"
 #include "sim/scenario/muscle_table.hpp"
+#include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 
 namespace articular::sim {
 namespace {
 
-constexpr Range kMoreThanOne{1, kInfinity, true, "must be greater than 1"};
 constexpr Range kMoreThanMinusOne{-1, kInfinity, true, "must be greater than -1"};
 
 double read_tendon_ratio(const Node& node) {
-  const double ratio = read_number(node, kFraction);
+  const double ratio = read_real(node, muscle_keys().find("tendon_ratio")->type);
   if (ratio == 1)
     fail(node, "a tendon as long as the muscle leaves no fibers, found " + found(node));
   return ratio;
@@ -28,8 +28,7 @@ std::vector<Anchor> read_path(const TableReader& line, const Context& context) {
   std::vector<Anchor> path;
   double length = 0;
   for (const Node& element : list) {
-    const TableReader table(element, fmt::format("point of {}", line.what()),
-                            {"body", "point", "radius"});
+    const TableReader table(element, path_point_keys(), fmt::format("point of {}", line.what()));
     path.push_back(read_anchor(table, context));
     if (path.size() > 1) length += (path.back().point - path[path.size() - 2].point).norm();
   }
@@ -54,22 +53,52 @@ std::vector<std::string> read_wrap(const Node& node, const Context& context) {
   return names;
 }
 
+void append(const std::vector<Key>& keys, KeyTable& table) {
+  table.keys.insert(table.keys.end(), keys.begin(), keys.end());
+}
+
+std::vector<Key> dynamics_keys() {
+  return {{"passive_fraction",
+           {form::Number{kNotNegative}},
+           standard(0.015),
+           "greatest passive force per `max_force`"},
+          {"max_velocity",
+           {form::Quantity{kRate, kPositive}},
+           standard("10 1/s"),
+           "optimal lengths per second"},
+          {"force_length",
+           {form::Boolean{}},
+           standard(true),
+           "`false`: force is activation times `max_force`"},
+          {"activation_time",
+           {form::Quantity{kTime, kPositive}},
+           standard("15 ms"),
+           "time constant of activation"},
+          {"deactivation_time",
+           {form::Quantity{kTime, kPositive}},
+           standard("50 ms"),
+           "time constant of its decay"}};
+}
+
 /// The parameters that a muscle and a table of muscles share.
 void read_dynamics(const TableReader& table, Muscle& muscle) {
-  table.may("passive_fraction", muscle.passive_fraction, as_number(kNotNegative));
-  table.may("max_velocity", muscle.max_velocity, as_quantity(kRate, kPositive));
-  table.may("force_length", muscle.force_length, read_boolean);
+  table.read("passive_fraction", muscle.passive_fraction);
+  table.read("max_velocity", muscle.max_velocity);
+  table.read("force_length", muscle.force_length);
   if (!muscle.force_length)
     table.refuse(
         {"passive_fraction", "max_velocity", "optimal_length", "max_length_ratio", "tendon_ratio"},
         "with force_length = false the force depends on activation alone");
-  table.may("activation_time", muscle.activation_time, as_quantity(kTime, kPositive));
-  table.may("deactivation_time", muscle.deactivation_time, as_quantity(kTime, kPositive));
+  table.read("activation_time", muscle.activation_time);
+  table.read("deactivation_time", muscle.deactivation_time);
 }
 
-Curve read_excitation(const Node& node) { return read_curve(node, kFraction); }
+Curve read_excitation(const Node& node, const Context& context) {
+  return read_curve(node, kFraction, context);
+}
 
 Muscle read_muscle(const TableReader& table, const Context& context) {
+  const auto excitation = [&](const Node& n) { return read_excitation(n, context); };
   Muscle muscle;
   muscle.where = table.node().where;
   muscle.name = read_name(table.at("name")) + side_suffix(table, context.side);
@@ -82,24 +111,26 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
     if (!body.material || !body.material->fibres)
       fail(*tissue, fmt::format("body `{}` has no fibres", body.name));
     muscle.tissue = body.name;
-    table.may("excitation", muscle.excitation, read_excitation);
+    table.read("excitation", muscle.excitation, excitation);
     read_dynamics(table, muscle);
     return muscle;
   }
   muscle.path = read_path(table, context);
-  table.may("wrap", muscle.wrap, [&](const Node& n) { return read_wrap(n, context); });
-  muscle.max_force = read_quantity(table.at("max_force"), kForce, kPositive);
-  table.may("optimal_length", muscle.optimal_length, as_quantity(kLength, kPositive));
-  table.may("max_length_ratio", muscle.max_length_ratio, as_number(kMoreThanOne));
-  table.may("tendon_ratio", muscle.tendon_ratio, read_tendon_ratio);
-  table.may("excitation", muscle.excitation, read_excitation);
+  table.read("wrap", muscle.wrap, [&](const Node& n) { return read_wrap(n, context); });
+  table.at("max_force");
+  table.read("max_force", muscle.max_force);
+  table.read("optimal_length", muscle.optimal_length);
+  table.read("max_length_ratio", muscle.max_length_ratio);
+  table.read("tendon_ratio", muscle.tendon_ratio, read_tendon_ratio);
+  table.read("excitation", muscle.excitation, excitation);
   read_dynamics(table, muscle);
   return muscle;
 }
 
 /// The excitations of a table by muscle name; every name must be one of the rows'.
 std::vector<std::pair<std::string, Curve>> read_excitations(const TableReader& table,
-                                                            const std::vector<MuscleRow>& rows) {
+                                                            const std::vector<MuscleRow>& rows,
+                                                            const Context& context) {
   std::vector<std::pair<std::string, Curve>> curves;
   const Node* node = table.find("excitation");
   if (node == nullptr) return curves;
@@ -114,7 +145,7 @@ std::vector<std::pair<std::string, Curve>> read_excitations(const TableReader& t
       throw InputError(member.key_where,
                        fmt::format("the muscle table has no muscle `{}`{}", one_line(member.key),
                                    suggestion(member.key, names)));
-    curves.emplace_back(member.key, read_excitation(member.node));
+    curves.emplace_back(member.key, read_excitation(member.node, context));
   }
   return curves;
 }
@@ -170,16 +201,14 @@ Vec3 placed(const double (&point_mm)[3], const Placement& placement) {
 }
 
 void append_table(const Node& node, const Context& context, std::vector<Muscle>& muscles) {
-  const TableReader table(node, "[[muscle_table]]",
-                          {"file", "place", "bodies", "passive_fraction", "max_velocity",
-                           "force_length", "activation_time", "deactivation_time", "excitation"});
+  const TableReader table(node, muscle_table_keys(), "[[muscle_table]]");
   const Node& file = table.at("file");
   const std::vector<MuscleRow> rows =
       read_muscle_table(read_path(file, context.folder), file.where);
   const TableBodies bodies(table, rows, context);
-  const auto excitations = read_excitations(table, rows);
+  const auto excitations = read_excitations(table, rows, context);
   Placement placement;
-  table.may("place", placement, read_placement);
+  table.read("place", placement, read_placement);
   for (const MuscleRow& row : rows) {
     const Node id{row.id, "id", row.where};
     Muscle muscle;
@@ -201,9 +230,9 @@ void append_table(const Node& node, const Context& context, std::vector<Muscle>&
 
 void read_slack(const TableReader& table, Ligament& ligament) {
   table.at_most_one({"slack_length", "slack_extension", "reference_strain"});
-  table.may("slack_length", ligament.slack_length, as_quantity(kLength, kPositive));
-  table.may("slack_extension", ligament.slack_extension, as_quantity(kLength, kAny));
-  table.may("reference_strain", ligament.reference_strain, as_number(kMoreThanMinusOne));
+  table.read("slack_length", ligament.slack_length);
+  table.read("slack_extension", ligament.slack_extension);
+  table.read("reference_strain", ligament.reference_strain);
 }
 
 Ligament read_ligament(const TableReader& table, const Context& context) {
@@ -211,28 +240,24 @@ Ligament read_ligament(const TableReader& table, const Context& context) {
   ligament.where = table.node().where;
   ligament.name = read_name(table.at("name")) + side_suffix(table, context.side);
   ligament.path = read_path(table, context);
-  table.may("wrap", ligament.wrap, [&](const Node& n) { return read_wrap(n, context); });
+  table.read("wrap", ligament.wrap, [&](const Node& n) { return read_wrap(n, context); });
   table.exactly_one({"stiffness", "stiffness_per_strain"});
-  table.may("stiffness", ligament.stiffness, as_quantity(kStiffness, kPositive));
+  table.read("stiffness", ligament.stiffness);
   if (table.find("stiffness_per_strain") != nullptr) {
     ligament.law = Ligament::Law::Blankevoort;
-    table.may("stiffness_per_strain", ligament.stiffness, as_quantity(kForce, kPositive));
-    table.may("toe_strain", ligament.toe_strain, as_number(kPositive));
+    table.read("stiffness_per_strain", ligament.stiffness);
+    table.read("toe_strain", ligament.toe_strain);
   } else {
     table.refuse({"toe_strain"},
                  "a ligament with `stiffness` is linear; `stiffness_per_strain` has a toe");
   }
-  table.may("damping", ligament.damping, as_quantity(kDamping, kNotNegative));
+  table.read("damping", ligament.damping);
   read_slack(table, ligament);
   return ligament;
 }
 
 void append_muscles(const Node& node, const Context& context, std::vector<Muscle>& muscles) {
-  const TableReader table(
-      node, label(node, "muscle"),
-      {"name", "mirror", "tissue", "path", "wrap", "max_force", "optimal_length",
-       "max_length_ratio", "tendon_ratio", "passive_fraction", "max_velocity", "force_length",
-       "activation_time", "deactivation_time", "excitation"});
+  const TableReader table(node, muscle_keys(), label(node, "muscle"));
   for (const Side side : read_sides(table)) {
     Context here = context;
     here.side = side;
@@ -244,10 +269,7 @@ void append_muscles(const Node& node, const Context& context, std::vector<Muscle
 
 void append_ligaments(const Node& node, const Context& context, const std::vector<Muscle>& muscles,
                       std::vector<Ligament>& ligaments) {
-  const TableReader table(
-      node, label(node, "ligament"),
-      {"name", "mirror", "path", "wrap", "stiffness", "stiffness_per_strain", "toe_strain",
-       "damping", "slack_length", "slack_extension", "reference_strain"});
+  const TableReader table(node, ligament_keys(), label(node, "ligament"));
   for (const Side side : read_sides(table)) {
     Context here = context;
     here.side = side;
@@ -259,6 +281,115 @@ void append_ligaments(const Node& node, const Context& context, const std::vecto
 }
 
 }  // namespace
+
+const KeyTable& path_point_keys() {
+  static const KeyTable kTable{
+      "point of a path",
+      {{"body", {form::Text{"name of a body"}}, kRequired, "the body that it moves with"},
+       {"point", {form::Vector{kLength}}, kRequired, "where it is at the start"},
+       {"radius",
+        {form::Quantity{kLength, kNotNegative}},
+        standard("0 m"),
+        "tissue: spreads it over the surface nodes within"}}};
+  return kTable;
+}
+
+const KeyTable& muscle_keys() {
+  static const KeyTable kTable = [] {
+    KeyTable table{
+        "[[muscle]]",
+        {{"name", {form::Text{"name"}}, kRequired, "unique among muscles and ligaments"},
+         {"path",
+          {list_of({form::Table{path_point_keys}})},
+          otherwise("or `tissue`"),
+          "two or more points, from origin to insertion"},
+         {"wrap", {names_of_bodies(0)}, kNone, "fixed and rigid bodies that the line goes around"},
+         {"tissue",
+          {form::Text{"name of a tissue"}},
+          otherwise("or `path`"),
+          "whose fibres it activates, in place of a path; takes only excitation and times"},
+         {"max_force",
+          {form::Quantity{kForce, kPositive}},
+          otherwise("required with `path`"),
+          "isometric, at full activation"},
+         {"optimal_length",
+          {form::Quantity{kLength, kPositive}},
+          otherwise("length at the start"),
+          "of the whole muscle"},
+         {"max_length_ratio",
+          {form::Number{kMoreThanOne}},
+          standard(1.3),
+          "length of greatest passive force, per optimal length"},
+         {"tendon_ratio",
+          {form::Number{kFraction}},
+          standard(0.0),
+          "tendon per optimal length, below 1"}}};
+    append(dynamics_keys(), table);
+    table.keys.push_back(
+        {"excitation", curve_or_name(), otherwise("0"), "activation that is asked for, 0 to 1"});
+    table.keys.push_back(mirror_key());
+    return table;
+  }();
+  return kTable;
+}
+
+const KeyTable& muscle_table_keys() {
+  static const KeyTable kTable = [] {
+    KeyTable table{
+        "[[muscle_table]]",
+        {{"file", {form::Text{"path"}}, kRequired, "CSV table with a row for each muscle"},
+         {"place", {form::Table{place_keys}}, kNone, "moves the points"},
+         {"bodies",
+          {form::Map{"body of the table", {{form::Text{"name of a body"}}}}},
+          kNone,
+          "renames bodies"}}};
+    append(dynamics_keys(), table);
+    table.keys.push_back({"excitation",
+                          {form::Map{"muscle of the table", {curve_or_name()}}},
+                          otherwise("0"),
+                          "activations that are asked for, 0 to 1"});
+    return table;
+  }();
+  return kTable;
+}
+
+const KeyTable& ligament_keys() {
+  static const KeyTable kTable{
+      "[[ligament]]",
+      {{"name", {form::Text{"name"}}, kRequired, "unique among muscles and ligaments"},
+       {"path", {list_of({form::Table{path_point_keys}})}, kRequired, "two or more points"},
+       {"wrap", {names_of_bodies(0)}, kNone, "fixed and rigid bodies that the line goes around"},
+       {"stiffness",
+        {form::Quantity{kStiffness, kPositive}},
+        otherwise("or `stiffness_per_strain`"),
+        "linear"},
+       {"stiffness_per_strain",
+        {form::Quantity{kForce, kPositive}},
+        otherwise("or `stiffness`"),
+        "after Blankevoort, with a quadratic toe"},
+       {"toe_strain",
+        {form::Number{kPositive}},
+        standard(0.03),
+        "half the strain at which the toe ends"},
+       {"damping",
+        {form::Quantity{kDamping, kNotNegative}},
+        standard("0 N s/m"),
+        "while stretching; at most the elastic tension"},
+       {"slack_length",
+        {form::Quantity{kLength, kPositive}},
+        otherwise("length at the start"),
+        "length without force"},
+       {"slack_extension",
+        {form::Quantity{kLength, kAny}},
+        kNone,
+        "in its place: added to the length at the start"},
+       {"reference_strain",
+        {form::Number{kMoreThanMinusOne}},
+        kNone,
+        "in its place: length at the start / (1 + this)"},
+       mirror_key()}};
+  return kTable;
+}
 
 std::vector<Muscle> read_muscles(const TableReader& document, const Context& context) {
   std::vector<Muscle> muscles;

@@ -6,28 +6,126 @@
 #include "sim/scenario/data_path.hpp"
 #include "sim/scenario/driven_motion.hpp"
 #include "sim/scenario/motion_table.hpp"
+#include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 
 namespace articular::sim {
 namespace {
 
-void read_profile(const TableReader& table, Curve& profile) {
-  table.may("profile", profile, [](const Node& n) { return read_curve(n, kAny); });
+enum class LoadKind { Gravity, Force, Pressure, Traction, Motion };
+
+void read_profile(const TableReader& table, const Context& context, Curve& profile) {
+  table.read("profile", profile, [&](const Node& n) { return read_curve(n, kAny, context); });
 }
 
-Load read_gravity(const Node& node, const Context&) {
-  const TableReader table(node, "[[load]] of kind \"gravity\"",
-                          {"kind", "acceleration", "profile"});
-  GravityLoad load{read_vector(table.at("acceleration"), kAcceleration), node.where};
-  read_profile(table, load.profile);
+/// What all loads have but motions.
+std::vector<Key> keys_of_load(const char* word, LoadKind kind, std::string_view purpose,
+                              const std::vector<Key>& own) {
+  std::vector<Key> keys{{"kind", {form::Choice{{{word, kind}}}}, kRequired, purpose}};
+  keys.insert(keys.end(), own.begin(), own.end());
+  if (kind != LoadKind::Motion)
+    keys.push_back({"profile", curve_or_name(), otherwise("1"), "factor over time"});
+  return keys;
+}
+
+Key tissue_key() { return {"body", {form::Text{"name of a tissue"}}, kRequired, "the tissue"}; }
+
+const KeyTable& gravity_keys() {
+  static const KeyTable kTable{
+      "[[load]]",
+      keys_of_load("gravity", LoadKind::Gravity, "pulls at all masses",
+                   {{"acceleration", {form::Vector{kAcceleration}}, kRequired, "of free fall"}})};
+  return kTable;
+}
+
+const KeyTable& force_keys() {
+  static const KeyTable kTable{
+      "[[load]]",
+      keys_of_load(
+          "force", LoadKind::Force, "a force that keeps its direction",
+          {{"body", {form::Text{"name of a rigid body or tissue"}}, kRequired, "what it acts on"},
+           {"force", {form::Vector{kForce}}, kRequired, "the force"},
+           {"region",
+            {form::Table{region_keys}},
+            otherwise("or `point`"),
+            "tissue: nodes that share it equally"},
+           {"point",
+            {form::Vector{kLength}},
+            otherwise("or `region`"),
+            "where it acts at the start"},
+           {"radius",
+            {form::Quantity{kLength, kNotNegative}},
+            standard("0 m"),
+            "with `point`, tissue: spreads it over the surface nodes within"}})};
+  return kTable;
+}
+
+const KeyTable& pressure_keys() {
+  static const KeyTable kTable{
+      "[[load]]",
+      keys_of_load("pressure", LoadKind::Pressure,
+                   "pushes inwards, normal to the surface as it moves, on the area that this has",
+                   {tissue_key(),
+                    {"region",
+                     {form::Table{region_keys}},
+                     kRequired,
+                     "faces of its surface whose middles lie in it"},
+                    {"pressure", {form::Quantity{kStress, kAny}}, kRequired, "the pressure"}})};
+  return kTable;
+}
+
+const KeyTable& traction_keys() {
+  static const KeyTable kTable{
+      "[[load]]", keys_of_load("traction", LoadKind::Traction,
+                               "a force per area at the start that keeps its direction",
+                               {tissue_key(),
+                                {"region",
+                                 {form::Table{region_keys}},
+                                 kRequired,
+                                 "faces of its surface whose middles lie in it"},
+                                {"traction", {form::Vector{kStress}}, kRequired, "the traction"}})};
+  return kTable;
+}
+
+const KeyTable& motion_keys() {
+  static const KeyTable kTable{
+      "[[load]]",
+      keys_of_load(
+          "motion", LoadKind::Motion, "moves a fixed body, or what `hold` of a rigid one holds",
+          {{"body", {form::Text{"name of a fixed or rigid body"}}, kRequired, "what it moves"},
+           {"time", {list_of_times()}, otherwise("or `file`"), "times, in increasing order"},
+           {"translation",
+            {list_of({form::Vector{kLength}})},
+            kNone,
+            "one per time, from where the mesh is"},
+           {"rotation", {list_of({form::Vector{kAngle}})}, kNone, "rotation vectors, one per time"},
+           {"file", {form::Text{"path"}}, otherwise("or `time`"), "CSV table with the samples"},
+           {"about",
+            {form::Vector{kLength}},
+            standard("0 0 0 m"),
+            "the point about which a fixed body turns; a rigid one turns about `hold.at`"},
+           {"interpolation",
+            {form::Choice{{{"smooth", Motion::Interpolation::Smooth},
+                           {"linear", Motion::Interpolation::Linear},
+                           {"spline", Motion::Interpolation::Spline}}}},
+            otherwise("`\"smooth\"`; with `file` `\"spline\"`"),
+            "from rest to rest; at constant velocity; a cubic spline through all samples"},
+           {"ends",
+            {form::Choice{{{"rest", Motion::Ends::Rest}, {"moving", Motion::Ends::Moving}}}},
+            standard("rest"),
+            "of a spline: comes to rest, or goes on at its velocity"}})};
+  return kTable;
+}
+
+Load read_gravity(const TableReader& table, const Context& context) {
+  GravityLoad load{table.get<Vec3>("acceleration"), table.node().where};
+  read_profile(table, context, load.profile);
   return load;
 }
 
-Load read_force(const Node& node, const Context& context) {
-  const TableReader table(node, "[[load]] of kind \"force\"",
-                          {"kind", "body", "region", "point", "radius", "force", "profile"});
+Load read_force(const TableReader& table, const Context& context) {
   ForceLoad load;
-  load.where = node.where;
+  load.where = table.node().where;
   const Body& body = read_body_reference(table.at("body"), context);
   if (body.kind == Body::Kind::Fixed)
     fail(table.at("body"),
@@ -43,8 +141,8 @@ Load read_force(const Node& node, const Context& context) {
   } else {
     load.at = read_anchor(table, context);
   }
-  load.force = read_vector(table.at("force"), kForce);
-  read_profile(table, load.profile);
+  table.read("force", load.force);
+  read_profile(table, context, load.profile);
   return load;
 }
 
@@ -57,23 +155,19 @@ SurfaceLoad read_surface_load(const TableReader& table, const Context& context) 
     fail(table.at("body"),
          fmt::format("it acts on the surface of a tissue, and body `{}` is none", body.name));
   load.at = TissueRegion{body.name, read_region(table.at("region"), context)};
-  read_profile(table, load.profile);
+  read_profile(table, context, load.profile);
   return load;
 }
 
-Load read_pressure(const Node& node, const Context& context) {
-  const TableReader table(node, "[[load]] of kind \"pressure\"",
-                          {"kind", "body", "region", "pressure", "profile"});
+Load read_pressure(const TableReader& table, const Context& context) {
   SurfaceLoad load = read_surface_load(table, context);
-  load.stress = read_quantity(table.at("pressure"), kStress, kAny);
+  load.stress = table.get<double>("pressure");
   return load;
 }
 
-Load read_traction(const Node& node, const Context& context) {
-  const TableReader table(node, "[[load]] of kind \"traction\"",
-                          {"kind", "body", "region", "traction", "profile"});
+Load read_traction(const TableReader& table, const Context& context) {
   SurfaceLoad load = read_surface_load(table, context);
-  load.stress = read_vector(table.at("traction"), kStress);
+  load.stress = table.get<Vec3>("traction");
   return load;
 }
 
@@ -134,8 +228,8 @@ RefuseSample read_written_samples(const TableReader& table, Motion& motion) {
     return
         [&kind, count = motion.time.size()](const Node& n) { return read_poses(n, kind, count); };
   };
-  table.may("translation", motion.translation, poses(kLength));
-  table.may("rotation", motion.rotation, poses(kAngle));
+  table.read("translation", motion.translation, poses(kLength));
+  table.read("rotation", motion.rotation, poses(kAngle));
   if (motion.translation.empty() && motion.rotation.empty())
     throw InputError(table.node().where,
                      table.what() + ": expected `translation`, `rotation` or both");
@@ -181,11 +275,7 @@ RefuseSample read_recorded_samples(const TableReader& table, const Context& cont
 void read_interpolation(const TableReader& table, Motion& motion) {
   constexpr std::size_t kFewest = 3;
   using Interpolation = Motion::Interpolation;
-  table.may("interpolation", motion.interpolation, [](const Node& n) {
-    return read_choice<Interpolation>(n, {{"smooth", Interpolation::Smooth},
-                                          {"linear", Interpolation::Linear},
-                                          {"spline", Interpolation::Spline}});
-  });
+  table.read("interpolation", motion.interpolation);
   if (motion.interpolation != Interpolation::Spline) {
     table.refuse({"ends"}, "only a spline has them to choose");
     return;
@@ -193,42 +283,44 @@ void read_interpolation(const TableReader& table, Motion& motion) {
   if (motion.time.size() < kFewest)
     fail(table.exactly_one({"time", "file"}),
          fmt::format("a spline needs {} samples or more, found {}", kFewest, motion.time.size()));
-  table.may("ends", motion.ends, [](const Node& n) {
-    return read_choice<Motion::Ends>(
-        n, {{"rest", Motion::Ends::Rest}, {"moving", Motion::Ends::Moving}});
-  });
+  table.read("ends", motion.ends);
   fit_spline(motion);
 }
 
-Load read_motion(const Node& node, const Context& context) {
-  const TableReader table(node, "[[load]] of kind \"motion\"",
-                          {"kind", "body", "time", "translation", "rotation", "about",
-                           "interpolation", "file", "ends"});
+Load read_motion(const TableReader& table, const Context& context) {
   MotionLoad load;
-  load.where = node.where;
+  load.where = table.node().where;
   const Body& body = read_body_reference(table.at("body"), context);
   check_can_be_driven(table.at("body"), body);
   load.body = body.name;
   const RefuseSample refuse = table.find("file") != nullptr
                                   ? read_recorded_samples(table, context, load.motion)
                                   : read_written_samples(table, load.motion);
-  table.may("about", load.motion.about, as_vector(kLength));
+  table.read("about", load.motion.about);
   read_interpolation(table, load.motion);
   if (body.kind == Body::Kind::Rigid) check_held_motion(table, body, load.motion, refuse);
   return load;
 }
 
 Load read_load(const Node& node, const Context& context) {
-  if (node.table() == nullptr) fail(node, "expected a table, found " + found(node));
   const Node* kind = node.find("kind");
-  if (kind == nullptr) throw InputError(node.where, "[[load]]: `kind` is missing");
-  const auto read =
-      read_choice<Load (*)(const Node&, const Context&)>(*kind, {{"gravity", read_gravity},
-                                                                 {"force", read_force},
-                                                                 {"pressure", read_pressure},
-                                                                 {"traction", read_traction},
-                                                                 {"motion", read_motion}});
-  return read(node, context);
+  const TableReader table(node, load_variants(),
+                          kind != nullptr && kind->text() != nullptr
+                              ? fmt::format("[[load]] of kind {}", found(*kind))
+                              : "[[load]]");
+  switch (table.get<LoadKind>("kind")) {
+    case LoadKind::Gravity:
+      return read_gravity(table, context);
+    case LoadKind::Force:
+      return read_force(table, context);
+    case LoadKind::Pressure:
+      return read_pressure(table, context);
+    case LoadKind::Traction:
+      return read_traction(table, context);
+    case LoadKind::Motion:
+      return read_motion(table, context);
+  }
+  return {};
 }
 
 /// Throws at `node` if one of the loads so far drives the body.
@@ -239,6 +331,18 @@ void check_not_driven(const Node& node, const std::string& body, const std::vect
 }
 
 }  // namespace
+
+const form::Variants& load_variants() {
+  static const form::Variants kVariants{"[[load]]",
+                                        "kind",
+                                        "the load is of kind",
+                                        {{"gravity", gravity_keys},
+                                         {"force", force_keys},
+                                         {"pressure", pressure_keys},
+                                         {"traction", traction_keys},
+                                         {"motion", motion_keys}}};
+  return kVariants;
+}
 
 std::vector<Load> read_loads(const TableReader& document, const Context& context) {
   std::vector<Load> loads;

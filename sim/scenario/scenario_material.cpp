@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "fem/material/any_material.hpp"
+#include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 
 namespace articular::sim {
@@ -24,86 +26,233 @@ enum class Law {
   TransverselyIsotropic,
   Muscle
 };
-Law read_law_name(const Node& node) {
-  return read_choice<Law>(node, {{"linear", Law::Linear},
-                                 {"corotated", Law::Corotated},
-                                 {"st-venant-kirchhoff", Law::StVenantKirchhoff},
-                                 {"neo-hookean", Law::NeoHookean},
-                                 {"coupled-neo-hookean", Law::CoupledNeoHookean},
-                                 {"holmes-mow", Law::HolmesMow},
-                                 {"isochoric-neo-hookean", Law::IsochoricNeoHookean},
-                                 {"mooney-rivlin", Law::MooneyRivlin},
-                                 {"yeoh", Law::Yeoh},
-                                 {"ogden", Law::Ogden},
-                                 {"veronda-westmann", Law::VerondaWestmann},
-                                 {"transversely-isotropic", Law::TransverselyIsotropic},
-                                 {"muscle", Law::Muscle}});
+
+/// Words of laws, and what they are for.
+struct LawName {
+  Law law;
+  std::string_view word, purpose;
+};
+constexpr LawName kLaws[] = {
+    {Law::Linear, "linear", "small strain"},
+    {Law::Corotated, "corotated", "large rotation"},
+    {Law::StVenantKirchhoff, "st-venant-kirchhoff", "large rotation, moderate strain"},
+    {Law::NeoHookean, "neo-hookean", "large strain"},
+    {Law::CoupledNeoHookean, "coupled-neo-hookean", "large strain, with ln J"},
+    {Law::HolmesMow, "holmes-mow", "cartilage without its fluid: stiffens as it is pressed"},
+    {Law::IsochoricNeoHookean, "isochoric-neo-hookean", "nearly incompressible tissue"},
+    {Law::MooneyRivlin, "mooney-rivlin", "nearly incompressible tissue"},
+    {Law::Yeoh, "yeoh", "tongue, face"},
+    {Law::Ogden, "ogden", "brain, fat, rubber"},
+    {Law::VerondaWestmann, "veronda-westmann", "skin"},
+    {Law::TransverselyIsotropic, "transversely-isotropic", "ligament, tendon, meniscus"},
+    {Law::Muscle, "muscle", "muscle"}};
+
+const KeyTable& force_length_keys() {
+  static const KeyTable kTable{
+      "force_length",
+      {{"sarcomere_length",
+        {form::Quantity{kLength, kPositive}},
+        standard("1.85 um"),
+        "length of a sarcomere at rest; l is this times the fibre stretch"},
+       {"zero_length",
+        {form::Quantity{kLength, kPositive}},
+        standard("1.58 um"),
+        "l0: up to this length there is no active stress"},
+       {"b",
+        {form::Quantity{kPerLength, kPositive}},
+        standard("4.75 1/um"),
+        "how fast it rises beyond"},
+       {"calcium", {form::Number{kPositive}}, standard(4.35), "Ca in µmol/l"},
+       {"max_calcium",
+        {form::Number{kPositive}},
+        standard(4.35),
+        "Camax in µmol/l, which Ca does not exceed"}}};
+  return kTable;
+}
+
+const KeyTable& ogden_term_keys() {
+  static const KeyTable kTable{"term of `terms`",
+                               {{"c",
+                                 {form::Quantity{kStress, kPositive}},
+                                 kRequired,
+                                 "adds the energy c/m² (λ̃1^m + λ̃2^m + λ̃3^m − 3)"},
+                                {"m", {form::Number{kAny}}, kRequired, "exponent, not 0"}}};
+  return kTable;
+}
+
+const KeyTable& fibres_keys() {
+  static const KeyTable kTable{
+      "fibres",
+      {{"direction", {form::Direction{}}, kNone, "the same everywhere; or one of the next"},
+       {"array", {form::Text{"name of a cell array"}}, kNone, "as the mesh has them"},
+       {"from",
+        {form::Table{region_keys}},
+        kNone,
+        "along the gradient of a harmonic field, from this region"},
+       {"to", {form::Table{region_keys}}, kNone, "to this one"}}};
+  return kTable;
+}
+
+const KeyTable& relaxation_term_keys() {
+  static const KeyTable kTable{
+      "term of `relaxation`",
+      {{"weight",
+        {form::Number{kPositive}},
+        kRequired,
+        "part of the stress that relaxes; all weights sum to below 1"},
+       {"time", {form::Quantity{kTime, kPositive}}, kRequired, "its time constant"}}};
+  return kTable;
+}
+
+/// As a law says in fem/material, where the value has no place in the file.
+constexpr Range kHolmesMowRatio{0, 1.0 / 3 + 1e-6, false,
+                                "must lie between 0 and 1/3 (others soften in tension)",
+                                "Poisson's ratio of the law \"holmes-mow\""};
+
+Key stress_key(std::string_view name, const Range& range, Absence absence,
+               std::string_view meaning) {
+  return {name, {form::Quantity{kStress, range}}, absence, meaning};
+}
+Key number_key(std::string_view name, const Range& range, Absence absence,
+               std::string_view meaning) {
+  return {name, {form::Number{range}}, absence, meaning};
+}
+Key volumetric_key(const char* word) {
+  return {"volumetric",
+          {form::Choice{{{"quadratic", false}, {"logarithmic", true}}}},
+          standard(word),
+          "κ/2 (J − 1)² or κ/2 (ln J)²"};
+}
+Key fibres_key() {
+  return {"fibres", {form::Table{fibres_keys}}, kRequired, "directions at the start"};
 }
 
 /// Those that a law has, beside what every tissue may have.
-std::vector<std::string_view> keys_of(Law law) {
+std::vector<Key> constants_of(Law law) {
+  const Key E{"young_modulus", {form::Quantity{kStress, kPositive}}, kRequired, "Young's modulus"};
+  const Key nu{"poisson_ratio", {form::Number{kPoissonRange}}, kRequired, "Poisson's ratio"};
+  const Key c10 = stress_key("c10", kNotNegative, kRequired, "of I1 − 3"),
+            c01 = stress_key("c01", kNotNegative, standard("0 Pa"), "of I2 − 3"),
+            kappa = stress_key("bulk_modulus", kPositive, kRequired, "κ, bulk modulus"),
+            volumetric = volumetric_key("quadratic");
   switch (law) {
     case Law::Linear:
     case Law::Corotated:
     case Law::StVenantKirchhoff:
     case Law::NeoHookean:
     case Law::CoupledNeoHookean:
-      return {"young_modulus", "poisson_ratio"};
+      return {E, nu};
     case Law::HolmesMow:
-      return {"young_modulus", "poisson_ratio", "beta"};
+      return {E, number_key("poisson_ratio", kHolmesMowRatio, kRequired, "Poisson's ratio"),
+              number_key("beta", kPositive, kRequired, "how fast it stiffens")};
     case Law::IsochoricNeoHookean:
-      return {"young_modulus", "poisson_ratio", "volumetric"};
+      return {E, nu, volumetric};
     case Law::MooneyRivlin:
-      return {"c10", "c01", "bulk_modulus", "volumetric"};
+      return {c10, c01, kappa, volumetric};
     case Law::Yeoh:
-      return {"c10", "c20", "bulk_modulus", "volumetric"};
+      return {stress_key("c10", kPositive, kRequired, "of I1 − 3"),
+              stress_key("c20", kNotNegative, kRequired, "of (I1 − 3)²"), kappa, volumetric};
     case Law::Ogden:
-      return {"terms", "bulk_modulus", "volumetric"};
+      return {{"terms",
+               {list_of({form::Table{ogden_term_keys}})},
+               kRequired,
+               "each adds an energy; the shear modulus is half the sum of all `c`"},
+              kappa,
+              volumetric};
     case Law::VerondaWestmann:
-      return {"c1", "c2", "bulk_modulus", "volumetric"};
+      return {stress_key("c1", kPositive, kRequired, "of the exponential in I1 − 3"),
+              number_key("c2", kPositive, kRequired, "its exponent"), kappa, volumetric};
     case Law::TransverselyIsotropic:
-      return {"c10",           "c01",          "c3",           "c4",         "c5",    "toe_end",
-              "active_stress", "force_length", "bulk_modulus", "volumetric", "fibres"};
+      return {c10,
+              c01,
+              stress_key("c3", kPositive, kRequired, "of the fibres' toe"),
+              number_key("c4", kPositive, kRequired, "exponent of the toe"),
+              stress_key("c5", kPositive, kRequired, "modulus of straight fibres"),
+              number_key("toe_end", kMoreThanOne, kRequired,
+                         "fibre stretch at which the curve becomes straight"),
+              stress_key("active_stress", kNotNegative, standard("0 Pa"),
+                         "force of fully activated fibres per area at rest, at any length"),
+              {"force_length",
+               {form::Table{force_length_keys}},
+               kNone,
+               "how `active_stress` depends on length; `{}`: cardiac muscle (Guccione 1993)"},
+              kappa,
+              volumetric,
+              fibres_key()};
     case Law::Muscle:
-      return {"max_stress",   "p1",  "p2",           "toe_end",    "optimal_stretch", "shear_along",
-              "shear_across", "c10", "bulk_modulus", "volumetric", "fibres"};
+      return {
+          stress_key("max_stress", kPositive, standard("0.3 MPa"), "greatest active stress"),
+          number_key("p1", kPositive, standard(0.05), "factor of the passive curve"),
+          number_key("p2", kPositive, standard(6.6), "exponent of the passive curve"),
+          number_key("toe_end", kMoreThanOne, standard(1.4),
+                     "fibre length per optimal length at which the passive curve becomes "
+                     "straight"),
+          number_key("optimal_stretch", kOneOrMore, standard(1.0),
+                     "stretch of greatest active force"),
+          stress_key("shear_along", kPositive, standard("500 Pa"),
+                     "shear modulus along the fibres"),
+          stress_key("shear_across", kPositive, standard("500 Pa"), "shear modulus across them"),
+          stress_key("c10", kNotNegative, standard("0 Pa"), "of I1 − 3"),
+          stress_key("bulk_modulus", kPositive, standard("10 MPa"), "κ, bulk modulus"),
+          volumetric_key("logarithmic"),
+          fibres_key()};
   }
   return {};
 }
 
-void refuse_other_keys(const TableReader& table, Law law,
-                       std::initializer_list<std::string_view> keys) {
-  std::vector<std::string_view> known = keys_of(law);
-  known.insert(known.end(), {"law", "element", "mass_damping", "stiffness_damping", "relaxation"});
-  for (const std::string_view key : keys)
-    if (std::find(known.begin(), known.end(), key) == known.end())
-      table.refuse({key}, fmt::format("the law is {}", found(table.at("law"))));
+template <std::size_t I>
+const KeyTable& material_keys() {
+  static const KeyTable kTable = [] {
+    const LawName& name = kLaws[I];
+    KeyTable table{"material",
+                   {{"law", {form::Choice{{{name.word, name.law}}}}, kRequired, name.purpose}}};
+    for (Key& key : constants_of(name.law)) table.keys.push_back(std::move(key));
+    table.keys.push_back(
+        {"element",
+         {form::Choice{{{"plain", TissueMaterial::Element::Plain},
+                        {"smoothed", TissueMaterial::Element::Smoothed}}}},
+         standard("smoothed"),
+         "smoothed tetrahedra bend rightly and do not lock; plain ones are faster"});
+    table.keys.push_back({"mass_damping",
+                          {form::Quantity{kRate, kNotNegative}},
+                          standard("0 1/s"),
+                          "Rayleigh's α; also slows free flight"});
+    table.keys.push_back({"stiffness_damping",
+                          {form::Quantity{kTime, kNotNegative}},
+                          standard("0 s"),
+                          "Rayleigh's β"});
+    // The stress of the linear law does not turn with rotations.
+    if (name.law != Law::Linear)
+      table.keys.push_back({"relaxation",
+                            {list_of({form::Table{relaxation_term_keys}})},
+                            kNone,
+                            "Prony series of the distortion; statics has it all gone"});
+    return table;
+  }();
+  return kTable;
 }
 
-double stress(const TableReader& table, std::string_view key) {
-  return read_quantity(table.at(key), kStress, kNotNegative);
+template <std::size_t... I>
+form::Variants variants_of_laws(std::index_sequence<I...>) {
+  return {"material", "law", "the law is", {{kLaws[I].word, material_keys<I>}...}};
 }
-double stress_or(const TableReader& table, std::string_view key, double otherwise) {
-  table.may(key, otherwise, as_quantity(kStress, kNotNegative));
-  return otherwise;
+
+Law read_law_name(const Node& node) {
+  return std::find_if(std::begin(kLaws), std::end(kLaws),
+                      [&](const LawName& name) { return name.word == *node.text(); })
+      ->law;
 }
-double number(const TableReader& table, std::string_view key) {
-  return read_number(table.at(key), kPositive);
-}
-double number_or(const TableReader& table, std::string_view key, double otherwise) {
-  table.may(key, otherwise, as_number(kPositive));
-  return otherwise;
-}
+
+double stress(const TableReader& table, std::string_view key) { return table.get<double>(key); }
+double number(const TableReader& table, std::string_view key) { return table.get<double>(key); }
 
 fem::ForceLength read_force_length(const Node& node) {
-  const TableReader table(node, "force_length",
-                          {"sarcomere_length", "zero_length", "b", "calcium", "max_calcium"});
-  fem::ForceLength::Constants c;  // as published
-  table.may("sarcomere_length", c.sarcomere_length, as_quantity(kLength, kPositive));
-  table.may("zero_length", c.zero_length, as_quantity(kLength, kPositive));
-  table.may("b", c.b, as_quantity(kPerLength, kPositive));
-  table.may("calcium", c.calcium, as_number(kPositive));
-  table.may("max_calcium", c.max_calcium, as_number(kPositive));
+  const TableReader table(node, force_length_keys(), "force_length");
+  const fem::ForceLength::Constants c{.sarcomere_length = table.get<double>("sarcomere_length"),
+                                      .zero_length = table.get<double>("zero_length"),
+                                      .b = table.get<double>("b"),
+                                      .calcium = table.get<double>("calcium"),
+                                      .max_calcium = table.get<double>("max_calcium")};
   try {
     return fem::ForceLength(c);
   } catch (const std::invalid_argument& error) {
@@ -119,10 +268,10 @@ fem::ToeLinearFibre read_collagen(const TableReader& table) {
 }
 
 fem::ActiveFibre read_active_fibre(const TableReader& table) {
-  fem::ActiveFibre::Constants c{.stress = stress_or(table, "active_stress", 0), .force_length = {}};
+  fem::ActiveFibre::Constants c{.stress = stress(table, "active_stress"), .force_length = {}};
   if (c.stress == 0)
     table.refuse({"force_length"}, "without `active_stress` there is nothing that depends on it");
-  table.may("force_length", c.force_length, read_force_length);
+  table.read("force_length", c.force_length, read_force_length);
   return fem::ActiveFibre(c);
 }
 
@@ -130,9 +279,8 @@ std::vector<fem::OgdenTerm> read_ogden_terms(const Node& node) {
   std::vector<fem::OgdenTerm> terms;
   for (const Node& element :
        read_list(node, "a list of terms such as [{ c = \"10 kPa\", m = 2.5 }, ...]")) {
-    const TableReader table(element, "term of `terms`", {"c", "m"});
-    terms.push_back({.c = read_quantity(table.at("c"), kStress, kPositive),
-                     .m = read_number(table.at("m"), kAny)});
+    const TableReader table(element, ogden_term_keys(), "term of `terms`");
+    terms.push_back({.c = stress(table, "c"), .m = number(table, "m")});
     try {
       (void)fem::IsochoricOgden(std::vector{terms.back()});
     } catch (const std::invalid_argument& error) {
@@ -143,13 +291,11 @@ std::vector<fem::OgdenTerm> read_ogden_terms(const Node& node) {
 }
 
 fem::MuscleFibre read_muscle_fibre(const TableReader& table) {
-  const fem::MuscleFibre::Constants published;
-  return fem::MuscleFibre(
-      {.max_stress = stress_or(table, "max_stress", published.max_stress),
-       .p1 = number_or(table, "p1", published.p1),
-       .p2 = number_or(table, "p2", published.p2),
-       .toe_end = number_or(table, "toe_end", published.toe_end),
-       .optimal_stretch = number_or(table, "optimal_stretch", published.optimal_stretch)});
+  return fem::MuscleFibre({.max_stress = stress(table, "max_stress"),
+                           .p1 = number(table, "p1"),
+                           .p2 = number(table, "p2"),
+                           .toe_end = number(table, "toe_end"),
+                           .optimal_stretch = number(table, "optimal_stretch")});
 }
 
 /// Laws with a volumetric energy κ/2 Θ².
@@ -157,7 +303,7 @@ template <fem::DilatationMeasure Theta>
 fem::AnyMaterial read_split_law(const TableReader& table, Law law) {
   switch (law) {
     case Law::MooneyRivlin:
-      return fem::MooneyRivlin<Theta>(stress(table, "c10"), stress_or(table, "c01", 0),
+      return fem::MooneyRivlin<Theta>(stress(table, "c10"), stress(table, "c01"),
                                       stress(table, "bulk_modulus"));
     case Law::Yeoh:
       return fem::Yeoh<Theta>(stress(table, "c10"), stress(table, "c20"),
@@ -168,21 +314,19 @@ fem::AnyMaterial read_split_law(const TableReader& table, Law law) {
       return fem::VerondaWestmann<Theta>(stress(table, "c1"), number(table, "c2"),
                                          stress(table, "bulk_modulus"));
     case Law::TransverselyIsotropic:
-      return fem::TransverselyIsotropic<Theta>(stress(table, "c10"), stress_or(table, "c01", 0),
+      return fem::TransverselyIsotropic<Theta>(stress(table, "c10"), stress(table, "c01"),
                                                read_collagen(table), stress(table, "bulk_modulus"),
                                                read_active_fibre(table));
     case Law::Muscle: {
-      const typename fem::BlemkerMuscle<Theta>::Constants published;
-      return fem::BlemkerMuscle<Theta>(
-          read_muscle_fibre(table), {.G1 = stress_or(table, "shear_along", published.G1),
-                                     .G2 = stress_or(table, "shear_across", published.G2),
-                                     .c10 = stress_or(table, "c10", published.c10),
-                                     .kappa = stress_or(table, "bulk_modulus", published.kappa)});
+      return fem::BlemkerMuscle<Theta>(read_muscle_fibre(table),
+                                       {.G1 = stress(table, "shear_along"),
+                                        .G2 = stress(table, "shear_across"),
+                                        .c10 = stress(table, "c10"),
+                                        .kappa = stress(table, "bulk_modulus")});
     }
     default: {
       const auto [mu, lambda] =
-          fem::lame_parameters(read_quantity(table.at("young_modulus"), kStress, kPositive),
-                               read_number(table.at("poisson_ratio"), kPoissonRange));
+          fem::lame_parameters(stress(table, "young_modulus"), number(table, "poisson_ratio"));
       return fem::MooneyRivlin<Theta>(mu / 2, 0, lambda + 2 * mu / 3);
     }
   }
@@ -190,8 +334,8 @@ fem::AnyMaterial read_split_law(const TableReader& table, Law law) {
 
 /// Laws of Young's modulus and Poisson's ratio with a change of volume of their own.
 std::optional<fem::AnyMaterial> read_coupled_law(const TableReader& table, Law law) {
-  const auto E = [&] { return read_quantity(table.at("young_modulus"), kStress, kPositive); };
-  const auto nu = [&] { return read_number(table.at("poisson_ratio"), kPoissonRange); };
+  const auto E = [&] { return stress(table, "young_modulus"); };
+  const auto nu = [&] { return number(table, "poisson_ratio"); };
   switch (law) {
     case Law::Linear:
       return fem::Linear(E(), nu());
@@ -212,18 +356,14 @@ std::optional<fem::AnyMaterial> read_coupled_law(const TableReader& table, Law l
 
 fem::AnyMaterial read_law(const TableReader& table, Law law) {
   if (std::optional<fem::AnyMaterial> coupled = read_coupled_law(table, law)) return *coupled;
-  bool logarithmic = law == Law::Muscle;  // as published
-  table.may("volumetric", logarithmic, [](const Node& n) {
-    return read_choice<bool>(n, {{"quadratic", false}, {"logarithmic", true}});
-  });
-  return logarithmic ? read_split_law<fem::LogVolumeChange>(table, law)
-                     : read_split_law<fem::VolumeChange>(table, law);
+  return table.get<bool>("volumetric") ? read_split_law<fem::LogVolumeChange>(table, law)
+                                       : read_split_law<fem::VolumeChange>(table, law);
 }
 
 Fibres read_fibres(const Node& node) {
-  const TableReader table(node, "fibres", {"direction", "array", "from", "to"});
+  const TableReader table(node, fibres_keys(), "fibres");
   static const std::vector<Body> no_bodies;  // their regions are those of this body alone
-  const Context context{{}, no_bodies};
+  const Context context{{}, no_bodies, nullptr};
   const auto region = [&](const Node& n) { return read_region(n, context); };
   Fibres fibres;
   fibres.where = node.where;
@@ -233,8 +373,8 @@ Fibres read_fibres(const Node& node) {
     return fibres;
   }
   table.exactly_one({"direction", "array"});
-  table.may("direction", fibres.along, read_direction);
-  table.may("array", fibres.along, [](const Node& n) { return FibreArray{read_text(n)}; });
+  table.read("direction", fibres.along, read_direction);
+  table.read("array", fibres.along, [](const Node& n) { return FibreArray{read_text(n)}; });
   return fibres;
 }
 
@@ -243,9 +383,8 @@ std::vector<fem::PronyTerm> read_relaxation(const Node& node) {
   double sum = 0;
   for (const Node& element :
        read_list(node, "a list of terms such as [{ weight = 0.3, time = \"50 ms\" }, ...]")) {
-    const TableReader table(element, "term of `relaxation`", {"weight", "time"});
-    terms.push_back({.weight = read_number(table.at("weight"), kPositive),
-                     .time = read_quantity(table.at("time"), kTime, kPositive)});
+    const TableReader table(element, relaxation_term_keys(), "term of `relaxation`");
+    terms.push_back({.weight = table.get<double>("weight"), .time = table.get<double>("time")});
     sum += terms.back().weight;
   }
   if (!(sum < 1))
@@ -257,39 +396,15 @@ std::vector<fem::PronyTerm> read_relaxation(const Node& node) {
 
 }  // namespace
 
+const form::Variants& material_variants() {
+  static const form::Variants kVariants =
+      variants_of_laws(std::make_index_sequence<std::size(kLaws)>());
+  return kVariants;
+}
+
 TissueMaterial read_material(const Node& node) {
-  const std::initializer_list<std::string_view> keys = {"law",
-                                                        "young_modulus",
-                                                        "poisson_ratio",
-                                                        "beta",
-                                                        "terms",
-                                                        "bulk_modulus",
-                                                        "volumetric",
-                                                        "c10",
-                                                        "c01",
-                                                        "c20",
-                                                        "c1",
-                                                        "c2",
-                                                        "c3",
-                                                        "c4",
-                                                        "c5",
-                                                        "toe_end",
-                                                        "active_stress",
-                                                        "force_length",
-                                                        "max_stress",
-                                                        "p1",
-                                                        "p2",
-                                                        "optimal_stretch",
-                                                        "shear_along",
-                                                        "shear_across",
-                                                        "fibres",
-                                                        "element",
-                                                        "mass_damping",
-                                                        "stiffness_damping",
-                                                        "relaxation"};
-  const TableReader table(node, "material", keys);
+  const TableReader table(node, material_variants(), "material");
   const Law law = read_law_name(table.at("law"));
-  refuse_other_keys(table, law, keys);
   TissueMaterial material;
   material.where = node.where;
   try {
@@ -299,17 +414,10 @@ TissueMaterial read_material(const Node& node) {
   }
   if (law == Law::TransverselyIsotropic || law == Law::Muscle)
     material.fibres = read_fibres(table.at("fibres"));
-  table.may("element", material.element, [](const Node& n) {
-    return read_choice<TissueMaterial::Element>(n,
-                                                {{"plain", TissueMaterial::Element::Plain},
-                                                 {"smoothed", TissueMaterial::Element::Smoothed}});
-  });
-  table.may("mass_damping", material.mass_damping, as_quantity(kRate, kNotNegative));
-  table.may("stiffness_damping", material.stiffness_damping, as_quantity(kTime, kNotNegative));
-  table.may("relaxation", material.relaxation, read_relaxation);
-  if (law == Law::Linear)
-    table.refuse({"relaxation"},
-                 "the law is \"linear\", whose stress does not turn with rotations");
+  table.read("element", material.element);
+  table.read("mass_damping", material.mass_damping);
+  table.read("stiffness_damping", material.stiffness_damping);
+  if (table.knows("relaxation")) table.read("relaxation", material.relaxation, read_relaxation);
   return material;
 }
 

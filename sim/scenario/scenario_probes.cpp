@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 
 namespace articular::sim {
@@ -59,14 +60,6 @@ std::string read_held_body(const Node& node, const Context& context) {
   return body.name;
 }
 
-/// Refuses keys of other kinds of probe.
-void keep_only(const TableReader& table, std::initializer_list<std::string_view> keys) {
-  for (const std::string_view key : {"body", "point", "axis", "bodies", "line", "region", "part",
-                                     "whole", "direction", "proximal", "distal", "side", "support"})
-    if (std::find(keys.begin(), keys.end(), key) == keys.end())
-      table.refuse({key}, fmt::format("the probe is of kind {}", found(table.at("kind"))));
-}
-
 /// Names of probes, which may come later in the file: see check_forces().
 Names read_probe_names(const Node& node, const Context& context) {
   Names names;
@@ -76,17 +69,27 @@ Names read_probe_names(const Node& node, const Context& context) {
   return names;
 }
 
+const KeyTable& joint_side_keys() {
+  static const KeyTable kTable{
+      "side of a joint",
+      {{"body", {form::Text{"name of a fixed or rigid body"}}, kRequired, "the body"},
+       {"point", {form::Vector{kLength}}, kRequired, "its origin, at the start"},
+       {"lateral", {form::Direction{}}, kRequired, "outwards, at the start"},
+       {"up", {form::Direction{}}, kRequired, "to the trunk, at the start"}}};
+  return kTable;
+}
+
 JointSide read_joint_side(const Node& node, const Context& context) {
-  const TableReader table(node, fmt::format("`{}`", node.name), {"body", "point", "lateral", "up"});
+  const TableReader table(node, joint_side_keys(), fmt::format("`{}`", node.name));
   JointSide side;
   const Body& body = read_body_reference(table.at("body"), context);
   if (body.kind == Body::Kind::Tissue)
     fail(table.at("body"),
          fmt::format("expected a fixed or rigid body, body `{}` is tissue", body.name));
   side.body = body.name;
-  side.origin = read_vector(table.at("point"), kLength);
-  side.lateral = read_direction(table.at("lateral"));
-  side.up = read_direction(table.at("up"));
+  table.read("point", side.origin);
+  table.read("lateral", side.lateral);
+  table.read("up", side.up);
   return side;
 }
 
@@ -94,32 +97,28 @@ JointSide read_joint_side(const Node& node, const Context& context) {
 using Target = decltype(Probe::what);
 
 Target read_point(const TableReader& table, const Context& context, const Named&) {
-  keep_only(table, {"body", "point"});
   return PointProbe{read_anchor(table, context)};
 }
 
 Target read_angle(const TableReader& table, const Context& context, const Named&) {
-  keep_only(table, {"body", "axis"});
   AngleProbe angle;
   angle.body = read_body_of_kind(table.at("body"), context, Body::Kind::Rigid, "rigid");
-  table.may("axis", angle.axis, read_direction);
+  table.read("axis", angle.axis);
   return angle;
 }
 
 Target read_contact(const TableReader& table, const Context& context, const Named&) {
-  keep_only(table, {"bodies", "region"});
   const Node::List& bodies = read_list(table.at("bodies"), "the names of two bodies", 2);
   ContactProbe contact;
   contact.first = read_touching_body(bodies[0], context).name;
   contact.second = read_touching_body(bodies[1], context).name;
-  table.may("region", contact.region, [&](const Node& n) { return read_region(n, context); });
+  table.read("region", contact.region, [&](const Node& n) { return read_region(n, context); });
   if (contact.region && contact.first == contact.second)
     fail(table.at("region"), "needs two bodies: of one with itself it names no side");
   return contact;
 }
 
 Target read_line(const TableReader& table, const Context& context, const Named& named) {
-  keep_only(table, {"line"});
   const Node& node = table.at("line");
   if (std::string muscle = context.name(read_text(node)); is_in(muscle, named.fibres))
     return LineProbe{std::move(muscle)};
@@ -127,8 +126,6 @@ Target read_line(const TableReader& table, const Context& context, const Named& 
 }
 
 Target read_moment_arm(const TableReader& table, const Context& context, const Named& named) {
-  keep_only(table, {"line", "body", "point", "axis"});
-  table.refuse({"mirror"}, "an axis is a direction, which is not mirrored");
   MomentArmProbe arm;
   arm.line = read_line_reference(table.at("line"), context, named);
   const Body& body = read_body_reference(table.at("body"), context);
@@ -136,26 +133,21 @@ Target read_moment_arm(const TableReader& table, const Context& context, const N
     fail(table.at("body"),
          fmt::format("expected a fixed or rigid body, body `{}` is tissue", body.name));
   arm.body = body.name;
-  arm.point = read_vector(table.at("point"), kLength);
-  arm.axis = read_direction(table.at("axis"));
+  table.read("point", arm.point);
+  table.read("axis", arm.axis);
   return arm;
 }
 
 Target read_wrap(const TableReader& table, const Context& context, const Named& named) {
-  keep_only(table, {"line"});
   WrapProbe wrap{read_line_reference(table.at("line"), context, named)};
   if (std::find(named.wrapping.begin(), named.wrapping.end(), wrap.line) == named.wrapping.end())
     fail(table.at("line"), fmt::format("`{}` has no `wrap`", wrap.line));
   return wrap;
 }
 
-Target read_energy(const TableReader& table, const Context&, const Named&) {
-  keep_only(table, {});
-  return EnergyProbe{};
-}
+Target read_energy(const TableReader&, const Context&, const Named&) { return EnergyProbe{}; }
 
 Target read_reaction(const TableReader& table, const Context& context, const Named& named) {
-  keep_only(table, {"body", "support"});
   table.exactly_one({"body", "support"});
   if (const Node* support = table.find("support"))
     return SupportProbe{read_support_reference(*support, context, named.supports)};
@@ -163,7 +155,6 @@ Target read_reaction(const TableReader& table, const Context& context, const Nam
 }
 
 Target read_attachment(const TableReader& table, const Context& context, const Named&) {
-  keep_only(table, {"bodies"});
   const Node::List& bodies = read_list(table.at("bodies"), "a tissue and a bone", 2);
   AttachmentProbe attachment;
   attachment.tissue = read_body_of_kind(bodies[0], context, Body::Kind::Tissue, "tissue");
@@ -175,43 +166,112 @@ Target read_attachment(const TableReader& table, const Context& context, const N
 }
 
 Target read_share(const TableReader& table, const Context& context, const Named&) {
-  keep_only(table, {"part", "whole", "direction"});
   ShareProbe share;
   share.part = read_probe_names(table.at("part"), context);
   share.whole = read_probe_names(table.at("whole"), context);
-  share.direction = read_direction(table.at("direction"));
+  table.read("direction", share.direction);
   return share;
 }
 
 Target read_joint(const TableReader& table, const Context& context, const Named&) {
-  keep_only(table, {"proximal", "distal", "side"});
-  table.refuse({"mirror"}, "axes of a joint are directions, which are not mirrored");
   JointProbe joint;
   joint.proximal = read_joint_side(table.at("proximal"), context);
   joint.distal = read_joint_side(table.at("distal"), context);
   if (joint.proximal.body == joint.distal.body)
     fail(table.at("distal"), "a joint needs two bodies");
-  joint.is_right = read_choice<bool>(table.at("side"), {{"right", true}, {"left", false}});
+  table.read("side", joint.is_right);
   return joint;
+}
+
+struct ProbeKind {
+  std::string_view word;
+  Target (*read)(const TableReader&, const Context&, const Named&);
+  bool has_mirror;
+  std::string_view purpose;
+};
+constexpr ProbeKind kProbeKinds[] = {
+    {"point", read_point, true, "motion of a place"},
+    {"angle", read_angle, true, "rotation of a body"},
+    {"contact", read_contact, true, "what passes between two bodies"},
+    {"line", read_line, true,
+     "force and length of a muscle or ligament; activation of a muscle, strain of a ligament"},
+    {"moment_arm", read_moment_arm, false,
+     "moment of a tension of 1 N in a line on a body, about an axis that goes with it"},
+    {"wrap", read_wrap, true, "where a line lies on the bodies that it wraps around"},
+    {"energy", read_energy, true, "energies of the scene, work done and losses"},
+    {"reaction", read_reaction, true, "force and moment on what holds a body or tissue"},
+    {"attachment", read_attachment, true, "force and moment of a tissue on a bone at tied nodes"},
+    {"share", read_share, true, "forces of some probes by those of others"},
+    {"joint", read_joint, false, "joint coordinates after Grood and Suntay (1983)"}};
+
+/// Those of a kind alone.
+std::vector<Key> own_keys(std::string_view kind) {
+  const Key body{"body", {form::Text{"name of a body"}}, kRequired, "the body"};
+  const Key line{"line", {form::Text{"name of a muscle or ligament"}}, kRequired, "the line"};
+  const Key point{"point", {form::Vector{kLength}}, kRequired, "where it is at the start"};
+  const KeyType names = {list_of({form::Text{"name of a probe with forces"}})};
+  if (kind == "point") return {body, point};
+  if (kind == "angle")
+    return {body, {"axis", {form::Direction{}}, standard({1, 0, 0}), "about which it turns"}};
+  if (kind == "contact")
+    return {{"bodies",
+             {names_of_bodies(2)},
+             kRequired,
+             "two bodies; results are on the first. The same name twice: a tissue with itself"},
+            {"region",
+             {form::Table{region_keys}},
+             otherwise("all"),
+             "counts only what passes through this part of the first body"}};
+  if (kind == "line" || kind == "wrap") return {line};
+  if (kind == "moment_arm")
+    return {line, body, point, {"axis", {form::Direction{}}, kRequired, "the axis"}};
+  if (kind == "reaction")
+    return {{"body",
+             {form::Text{"name of a fixed body, or a rigid one with `hold`"}},
+             otherwise("or `support`"),
+             "the body"},
+            {"support", {form::Text{"name of a support"}}, otherwise("or `body`"), "the support"}};
+  if (kind == "attachment")
+    return {{"bodies", {names_of_bodies(2)}, kRequired, "the tissue, then the bone"}};
+  if (kind == "share")
+    return {{"part", names, kRequired, "whose forces are divided"},
+            {"whole", names, kRequired, "by whose forces"},
+            {"direction", {form::Direction{}}, kRequired, "along which both count"}};
+  if (kind == "joint")
+    return {{"proximal", {form::Table{joint_side_keys}}, kRequired, "the body that is the base"},
+            {"distal", {form::Table{joint_side_keys}}, kRequired, "the body that moves"},
+            {"side",
+             {form::Choice{{{"left", false}, {"right", true}}}},
+             kRequired,
+             "of the human body"}};
+  return {};
+}
+
+template <std::size_t I>
+const KeyTable& probe_keys() {
+  static const KeyTable kTable = [] {
+    const ProbeKind& kind = kProbeKinds[I];
+    KeyTable table{"[[probe]]",
+                   {{"name", {form::Text{"name"}}, kRequired, "its columns begin with it"},
+                    {"kind", {form::Choice{{{kind.word, I}}}}, kRequired, kind.purpose}}};
+    for (Key& key : own_keys(kind.word)) table.keys.push_back(std::move(key));
+    if (kind.has_mirror) table.keys.push_back(mirror_key());
+    return table;
+  }();
+  return kTable;
+}
+
+template <std::size_t... I>
+form::Variants variants_of_probes(std::index_sequence<I...>) {
+  return {"[[probe]]", "kind", "the probe is of kind", {{kProbeKinds[I].word, probe_keys<I>}...}};
 }
 
 Probe read_probe(const TableReader& table, const Context& context, const Named& named) {
   Probe probe;
   probe.where = table.node().where;
   probe.name = read_name(table.at("name")) + side_suffix(table, context.side);
-  const auto read = read_choice<Target (*)(const TableReader&, const Context&, const Named&)>(
-      table.at("kind"), {{"point", read_point},
-                         {"angle", read_angle},
-                         {"contact", read_contact},
-                         {"line", read_line},
-                         {"moment_arm", read_moment_arm},
-                         {"wrap", read_wrap},
-                         {"energy", read_energy},
-                         {"reaction", read_reaction},
-                         {"attachment", read_attachment},
-                         {"share", read_share},
-                         {"joint", read_joint}});
-  probe.what = read(table, context, named);
+  for (const ProbeKind& kind : kProbeKinds)
+    if (kind.word == *table.at("kind").text()) probe.what = kind.read(table, context, named);
   return probe;
 }
 
@@ -242,10 +302,7 @@ void check_forces(const std::vector<Probe>& probes) {
 
 void append_probes(const Node& node, const Context& context, const Named& named,
                    std::vector<Probe>& probes) {
-  const TableReader table(
-      node, label(node, "probe"),
-      {"name", "kind", "body", "point", "axis", "bodies", "line", "region", "part", "whole",
-       "direction", "proximal", "distal", "side", "support", "mirror"});
+  const TableReader table(node, probe_variants(), label(node, "probe"));
   for (const Side side : read_sides(table)) {
     Context here = context;
     here.side = side;
@@ -256,6 +313,12 @@ void append_probes(const Node& node, const Context& context, const Named& named,
 }
 
 }  // namespace
+
+const form::Variants& probe_variants() {
+  static const form::Variants kVariants =
+      variants_of_probes(std::make_index_sequence<std::size(kProbeKinds)>());
+  return kVariants;
+}
 
 std::vector<Probe> read_probes(const TableReader& document, const Context& context,
                                const Scenario& read_so_far) {

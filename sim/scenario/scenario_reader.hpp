@@ -21,6 +21,7 @@ enum class Side { AsWritten, Mirrored };
 struct Context {
   std::filesystem::path folder;     // of the scenario file
   const std::vector<Body>& bodies;  // complete
+  const Node* curves = nullptr;     // [curve], or nullptr
   Side side = Side::AsWritten;
 
   std::string name(const std::string& written) const;  // on this side
@@ -70,13 +71,21 @@ const Body& read_touching_body(const Node& node, const Context& context);
 Placement read_placement(const Node& node);
 Region read_region(const Node& node, const Context& context);
 
+/// `mesh` of a body, its `contact_meshes`, and its `geometry` with `place`.
+MeshFile read_mesh_file(const Node& node, const std::filesystem::path& folder);
+std::vector<MeshFile> read_contact_meshes(const Node& node, const std::filesystem::path& folder);
+void read_geometry(const Node& node, Body& body);
+
 TissueMaterial read_material(const Node& node);
 
-/// `body`, `point` and `radius` of a table.
+/// `body`, `point` and, where it has this key, `radius` of a table.
 Anchor read_anchor(const TableReader& table, const Context& context);
 
-/// `time` and `value` of a node. @param range  of the values
-Curve read_curve(const Node& node, const Range& range);
+/// A table of `time` and `value`, or the name of one in [curve]. @param range  of the values
+Curve read_curve(const Node& node, const Range& range, const Context& context);
+
+/// [curve], each of which has to be a curve; nullptr if there is none.
+const Node* check_curves(const TableReader& document);
 
 /// Strictly increasing times.
 std::vector<double> read_times(const Node& node);
@@ -91,6 +100,9 @@ std::vector<Load> read_loads(const TableReader& document, const Context& context
 void read_contacts(const TableReader& document, const Context& context, Scenario& scenario);
 std::vector<Probe> read_probes(const TableReader& document, const Context& context,
                                const Scenario& read_so_far);
+
+/// The keys that read_settings() reads.
+std::vector<Key> settings_keys();
 
 /// Title, duration, accuracy, integrator, detection and output.
 void read_settings(const TableReader& document, Scenario& scenario);

@@ -2,6 +2,7 @@
 // curves.
 #include <algorithm>
 
+#include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 
 namespace articular::sim {
@@ -55,14 +56,14 @@ std::string read_name(const Node& node) {
 }
 
 std::vector<Side> read_sides(const TableReader& table) {
-  const Node* mirror = table.find("mirror");
-  if (mirror == nullptr) return {Side::AsWritten};
-  read_choice<int>(*mirror, {{"x", 0}});
-  return {Side::AsWritten, Side::Mirrored};
+  std::optional<Side> mirrored;
+  if (table.knows("mirror")) table.read("mirror", mirrored);
+  if (!mirrored) return {Side::AsWritten};
+  return {Side::AsWritten, *mirrored};
 }
 
 std::string side_suffix(const TableReader& table, Side side) {
-  if (table.find("mirror") == nullptr) return "";
+  if (!table.knows("mirror") || table.find("mirror") == nullptr) return "";
   return std::string(side == Side::AsWritten ? kLeft : kRight);
 }
 
@@ -81,13 +82,26 @@ bool has_surface(const Body& body) {
   return !std::holds_alternative<std::monostate>(body.geometry) || !body.contact_meshes.empty();
 }
 
+const KeyTable& place_keys() {
+  static const KeyTable kTable{
+      "place",
+      {{"rotation",
+        {form::Vector{kAngle}},
+        standard("0 0 0 rad"),
+        "rotation vector, for R in `scale` · R (x − `about`) + `about` + `translation`"},
+       {"about", {form::Vector{kLength}}, standard("0 0 0 m"), "the point about which it turns"},
+       {"translation", {form::Vector{kLength}}, standard("0 0 0 m"), "the way it is moved"},
+       {"scale", {form::Number{kPositive}}, standard(1.0), "factor of its size"}}};
+  return kTable;
+}
+
 Placement read_placement(const Node& node) {
-  const TableReader table(node, "place", {"rotation", "about", "translation", "scale"});
+  const TableReader table(node, place_keys(), "place");
   Placement placement;
-  table.may("rotation", placement.rotation, as_vector(kAngle));
-  table.may("about", placement.about, as_vector(kLength));
-  table.may("translation", placement.translation, as_vector(kLength));
-  table.may("scale", placement.scale, as_number(kPositive));
+  table.read("rotation", placement.rotation);
+  table.read("about", placement.about);
+  table.read("translation", placement.translation);
+  table.read("scale", placement.scale);
   return placement;
 }
 
@@ -104,40 +118,94 @@ std::pair<Vec3, Vec3> read_corners(const Node& node, const Context& context) {
   return {a.cwiseMin(b), a.cwiseMax(b)};
 }
 
+const KeyTable& ball_keys() {
+  static const KeyTable kTable{
+      "sphere of a region",
+      {{"center", {form::Vector{kLength}}, kRequired, "its centre"},
+       {"radius", {form::Quantity{kLength, kPositive}}, kRequired, "its radius"}}};
+  return kTable;
+}
+
 std::pair<Vec3, double> read_ball(const Node& node, const Context& context) {
-  const TableReader table(node, "sphere of a region", {"center", "radius"});
-  return {context.point(read_vector(table.at("center"), kLength)),
-          read_quantity(table.at("radius"), kLength, kPositive)};
+  const TableReader table(node, ball_keys(), "sphere of a region");
+  return {context.point(table.get<Vec3>("center")), table.get<double>("radius")};
+}
+
+const KeyTable& near_keys() {
+  static const KeyTable kTable{"near",
+                               {{"body", {form::Text{"name of a body"}}, kRequired, "the body"},
+                                {"distance",
+                                 {form::Quantity{kLength, kPositive}},
+                                 kRequired,
+                                 "largest distance from its surface"}}};
+  return kTable;
 }
 
 std::pair<std::string, double> read_near(const Node& node, const Context& context) {
-  const TableReader table(node, "near", {"body", "distance"});
+  const TableReader table(node, near_keys(), "near");
   const Body& body = read_body_reference(table.at("body"), context);
   if (!has_surface(body))
     fail(table.at("body"), fmt::format("body `{}` has no surface", body.name));
-  return {body.name, read_quantity(table.at("distance"), kLength, kPositive)};
+  return {body.name, table.get<double>("distance")};
 }
 
 }  // namespace
 
+const KeyTable& region_keys() {
+  static const KeyTable kTable{
+      "region",
+      {{"box",
+        {list_of({form::Vector{kLength}}, 2)},
+        kNone,
+        "nodes in this box, lower corner first"},
+       {"sphere", {form::Table{ball_keys}}, kNone, "nodes in this ball"},
+       {"near", {form::Table{near_keys}}, kNone, "nodes close to the surface of a body"},
+       {"surface",
+        {form::Boolean{}},
+        standard(false),
+        "`true`: nodes of the body's own surface only"}}};
+  return kTable;
+}
+
 Region read_region(const Node& node, const Context& context) {
-  const TableReader table(node, "region", {"box", "sphere", "near", "surface"});
+  const TableReader table(node, region_keys(), "region");
   Region region;
   region.where = node.where;
-  table.may("box", region.box, [&](const Node& n) { return read_corners(n, context); });
-  table.may("sphere", region.sphere, [&](const Node& n) { return read_ball(n, context); });
-  table.may("near", region.near_body, [&](const Node& n) { return read_near(n, context); });
-  table.may("surface", region.surface_only, read_boolean);
+  table.read("box", region.box, [&](const Node& n) { return read_corners(n, context); });
+  table.read("sphere", region.sphere, [&](const Node& n) { return read_ball(n, context); });
+  table.read("near", region.near_body, [&](const Node& n) { return read_near(n, context); });
+  table.read("surface", region.surface_only);
   return region;
 }
+
+Key when_key() {
+  return {"when",
+          {form::Map{"name of a choice",
+                     {{form::Either{{{form::Text{"word"}}, {list_of({form::Text{"word"}})}}}}}}},
+          otherwise("always"),
+          "the entry exists if every choice named has this word, or one of a list of words"};
+}
+
+Key mirror_key() {
+  return {"mirror",
+          {form::Choice{{{"x", Side::Mirrored}}}},
+          kNone,
+          "makes two entries: names end with `_left`, and with `_right` where x is negated"};
+}
+
+form::List names_of_bodies(std::size_t count) {
+  return list_of({form::Text{"name of a body"}}, count);
+}
+
+form::List list_of_times() { return list_of({form::Quantity{kTime, kAny}}); }
 
 Anchor read_anchor(const TableReader& table, const Context& context) {
   Anchor anchor;
   anchor.where = table.node().where;
   const Body& body = read_body_reference(table.at("body"), context);
   anchor.body = body.name;
-  anchor.point = context.point(read_vector(table.at("point"), kLength));
-  table.may("radius", anchor.radius, as_quantity(kLength, kNotNegative));
+  anchor.point = context.point(table.get<Vec3>("point"));
+  if (table.knows("radius")) table.read("radius", anchor.radius);
   if (anchor.radius > 0 && body.kind != Body::Kind::Tissue)
     fail(table.at("radius"),
          fmt::format("a radius spreads a point over tissue, and body `{}` is none", body.name));
@@ -156,8 +224,46 @@ std::vector<double> read_times(const Node& node) {
   return times;
 }
 
-Curve read_curve(const Node& node, const Range& range) {
-  const TableReader table(node, fmt::format("`{}`", one_line(node.name)), {"time", "value"});
+const KeyTable& curve_keys() {
+  static const KeyTable kTable{
+      "curve",
+      {{"time", {list_of_times()}, kRequired, "times, in increasing order"},
+       {"value",
+        {list_of({form::Number{kAny}})},
+        kRequired,
+        "as many plain numbers; linear between the times, constant outside. An excitation lies "
+        "between 0 and 1"}}};
+  return kTable;
+}
+
+KeyType curve_or_name() {
+  return {form::Either{{{form::Text{"name of a curve"}}, {form::Table{curve_keys}}}}};
+}
+
+namespace {
+
+/// The curve of a name.
+const Node& named_curve(const Node& node, const Node* curves) {
+  std::vector<std::string> names;
+  if (curves != nullptr)
+    for (const Member& member : curves->table()->members) names.push_back(member.key);
+  const std::string name = read_text(node);
+  if (curves != nullptr)
+    if (const Node* curve = curves->find(name)) return *curve;
+  fail(node,
+       names.empty()
+           ? fmt::format("no curve is called `{}`; expected it as [curve.NAME] with "
+                         "`time` and `value`",
+                         one_line(name))
+           : fmt::format("no curve is called `{}`{}", one_line(name), suggestion(name, names)));
+}
+
+Curve read_curve_table(const Node& node, const Range& range) {
+  if (node.table() == nullptr)
+    fail(node, fmt::format("expected a curve such as {{ time = [\"0 s\", \"0.3 s\"], value = [0, "
+                           "0.1] }} or the name of one, found {}",
+                           found(node)));
+  const TableReader table(node, curve_keys(), fmt::format("`{}`", one_line(node.name)));
   Curve curve;
   curve.time = read_times(table.at("time"));
   const Node& values = table.at("value");
@@ -167,6 +273,26 @@ Curve read_curve(const Node& node, const Range& range) {
     fail(values, fmt::format("expected as many values as times ({}), found {}", curve.time.size(),
                              curve.value.size()));
   return curve;
+}
+
+}  // namespace
+
+Curve read_curve(const Node& node, const Range& range, const Context& context) {
+  return read_curve_table(node.text() != nullptr ? named_curve(node, context.curves) : node, range);
+}
+
+const Node* check_curves(const TableReader& document) {
+  const Node* curves = document.find("curve");
+  if (curves == nullptr) return nullptr;
+  if (curves->table() == nullptr)
+    fail(*curves, fmt::format("expected curves as [curve.NAME] with `time` and `value`, found {}",
+                              found(*curves)));
+  for (const Member& member : curves->table()->members) {
+    if (member.node.text() != nullptr)
+      fail(member.node, "expected a curve with `time` and `value`, found " + found(member.node));
+    read_curve_table(member.node, kAny);
+  }
+  return curves;
 }
 
 }  // namespace articular::sim

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/scenario/preset.hpp"
+#include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 
 namespace articular::sim {
@@ -17,42 +18,44 @@ constexpr std::pair<std::string_view, Integrator::Scheme> kSchemes[] = {
     {"dirk-3", Integrator::Scheme::Dirk3},
     {"explicit", Integrator::Scheme::Explicit}};
 
-constexpr const char* kResponses[] = {"pointwise", "averaged"};
-constexpr const char* kSolvers[] = {"auto", "cholesky", "conjugate-gradients", "multigrid"};
+constexpr std::pair<std::string_view, Scenario::Response> kResponses[] = {
+    {"pointwise", Scenario::Response::Pointwise}, {"averaged", Scenario::Response::Averaged}};
+constexpr std::pair<std::string_view, Integrator::Solver> kSolvers[] = {
+    {"auto", Integrator::Solver::Auto},
+    {"cholesky", Integrator::Solver::Cholesky},
+    {"conjugate-gradients", Integrator::Solver::ConjugateGradients},
+    {"multigrid", Integrator::Solver::Multigrid}};
+constexpr std::pair<std::string_view, Accuracy> kAccuracies[] = {
+    {"fast", Accuracy::Fast}, {"balanced", Accuracy::Balanced}, {"accurate", Accuracy::Accurate}};
+constexpr std::pair<std::string_view, double> kLengthUnits[] = {
+    {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}};
+
+constexpr int kMostIterations = 1000;
+
+form::Choice length_units() {
+  form::Choice units;
+  for (int i = 0; const auto& [name, metres] : kLengthUnits) units.words.emplace_back(name, i++);
+  return units;
+}
 
 void read_integrator(const Node& node, Scenario::Analysis analysis, Integrator& integrator) {
-  constexpr int kMostIterations = 1000;
-  const TableReader table(
-      node, "[integrator]",
-      {"scheme", "step", "solver", "position_tolerance", "element_tolerance", "max_iterations"});
-  table.may("scheme", integrator.scheme, [](const Node& n) {
-    return read_choice<Integrator::Scheme>(n, {kSchemes[0], kSchemes[1], kSchemes[2], kSchemes[3]});
-  });
+  const TableReader table(node, integrator_keys(), "[integrator]");
+  table.read("scheme", integrator.scheme);
   if (analysis == Scenario::Analysis::Static)
     table.refuse({"scheme", "position_tolerance", "element_tolerance"},
                  "a static analysis has no time integration: it goes on until the forces balance");
-  table.may("solver", integrator.solver, [](const Node& n) {
-    return read_choice<Integrator::Solver>(
-        n, {{"auto", Integrator::Solver::Auto},
-            {"cholesky", Integrator::Solver::Cholesky},
-            {"conjugate-gradients", Integrator::Solver::ConjugateGradients},
-            {"multigrid", Integrator::Solver::Multigrid}});
-  });
-  table.may("step", integrator.step, as_quantity(kTime, kPositive));
-  table.may("position_tolerance", integrator.position_tolerance, as_quantity(kLength, kPositive));
+  table.read("solver", integrator.solver);
+  table.read("step", integrator.step);
+  table.read("position_tolerance", integrator.position_tolerance);
   if (integrator.position_tolerance)
     table.refuse({"element_tolerance"}, "`position_tolerance` is given");
-  table.may("element_tolerance", integrator.element_tolerance, as_number(kPositive));
-  table.may("max_iterations", integrator.max_iterations,
-            [](const Node& n) { return read_integer(n, 1, kMostIterations); });
+  table.read("element_tolerance", integrator.element_tolerance);
+  table.read("max_iterations", integrator.max_iterations);
 }
 
 void read_detection(const Node& node, Detection& detection) {
-  const TableReader table(node, "[detection]", {"tree"});
-  table.may("tree", detection.tree, [](const Node& n) {
-    return read_choice<Detection::Tree>(
-        n, {{"blocks", Detection::Tree::Blocks}, {"buckets", Detection::Tree::Buckets}});
-  });
+  const TableReader table(node, detection_keys(), "[detection]");
+  table.read("tree", detection.tree);
 }
 
 /// A scenario from somewhere else says where results go only within the working folder.
@@ -66,30 +69,41 @@ std::filesystem::path read_directory(const Node& node) {
   return directory;
 }
 
+/// Of a body: sides, depth, height, and the sign of left, posterior, superior. Medial is left or
+/// right, by what is modelled.
+enum Across { kSide, kDepth, kHeight };
+constexpr int kAnySide = 0;
+struct BodyDirection {
+  std::string_view word;
+  Across axis;
+  int sign;
+};
+constexpr BodyDirection kDirections[] = {{"left", kSide, 1},          {"right", kSide, -1},
+                                         {"medial", kSide, kAnySide}, {"lateral", kSide, kAnySide},
+                                         {"posterior", kDepth, 1},    {"anterior", kDepth, -1},
+                                         {"superior", kHeight, 1},    {"inferior", kHeight, -1}};
+
+form::Choice directions() {
+  form::Choice words;
+  for (int i = 0; const BodyDirection& direction : kDirections)
+    words.words.emplace_back(direction.word, i++);
+  return words;
+}
+
 /// What +x, +y and +z are in the body: one of each pair, in any order, and right-handed.
 std::vector<std::string> read_directions(const Node& node) {
-  enum Across { kSide, kDepth, kHeight };  // and the sign of left, posterior, superior
-  constexpr int kAnySide = 0;              // medial is left or right, by what is modelled
   std::vector<std::string> words;
   Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();  // rows: side, depth, height; columns: x, y, z
   bool given[] = {false, false, false};
   int side = 1;
   for (const Node& entry : read_list(node, "a list of three directions", 3)) {
-    const auto [axis, sign] =
-        read_choice<std::pair<Across, int>>(entry, {{"left", {kSide, 1}},
-                                                    {"right", {kSide, -1}},
-                                                    {"medial", {kSide, kAnySide}},
-                                                    {"lateral", {kSide, kAnySide}},
-                                                    {"posterior", {kDepth, 1}},
-                                                    {"anterior", {kDepth, -1}},
-                                                    {"superior", {kHeight, 1}},
-                                                    {"inferior", {kHeight, -1}}});
+    const auto& [word, axis, sign] = kDirections[read_word(entry, {directions()})];
     if (given[axis])
       fail(node, "expected one direction to a side, one to the front or back, and one up or down");
     given[axis] = true;
     if (axis == kSide) side = sign;
     axes(axis, static_cast<int>(words.size())) = sign == kAnySide ? 1 : sign;
-    words.push_back(*entry.text());
+    words.emplace_back(word);
   }
   if (side != kAnySide && axes.determinant() < 0)
     fail(node,
@@ -98,20 +112,20 @@ std::vector<std::string> read_directions(const Node& node) {
   return words;
 }
 
+LengthUnit read_length_unit(const Node& node) {
+  const int chosen = read_word(node, output_keys().find("length_unit")->type);
+  const auto& [name, metres] = kLengthUnits[chosen];
+  return {metres, std::string(name)};
+}
+
 void read_output(const Node& node, Output& output) {
-  const TableReader table(node, "[output]",
-                          {"interval", "length_unit", "directory", "contact_surfaces",
-                           "checkpoint_interval", "directions"});
-  table.may("interval", output.interval, as_quantity(kTime, kPositive));
-  if (const Node* unit = table.find("length_unit")) {
-    output.length_unit.metres =
-        read_choice<double>(*unit, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
-    output.length_unit.name = *unit->text();
-  }
-  table.may("directory", output.directory, read_directory);
-  table.may("contact_surfaces", output.contact_surfaces, read_boolean);
-  table.may("checkpoint_interval", output.checkpoint_interval, as_quantity(kTime, kPositive));
-  table.may("directions", output.directions, read_directions);
+  const TableReader table(node, output_keys(), "[output]");
+  table.read("interval", output.interval);
+  table.read("length_unit", output.length_unit, read_length_unit);
+  table.read("directory", output.directory, read_directory);
+  table.read("contact_surfaces", output.contact_surfaces);
+  table.read("checkpoint_interval", output.checkpoint_interval);
+  table.read("directions", output.directions, read_directions);
 }
 
 nlohmann::ordered_json contact_as_json(const Scenario& scenario) {
@@ -141,7 +155,7 @@ nlohmann::ordered_json preset_as_json(const Scenario& scenario) {
   nlohmann::ordered_json json{{"integrator.step", fmt::format("{} s", keys.integrator.step)},
                               {"integrator.element_tolerance", keys.integrator.element_tolerance}};
   json["integrator.scheme"] = kSchemes[static_cast<int>(keys.integrator.scheme)].first;
-  json["contact_response"] = kResponses[static_cast<int>(keys.contact_response)];
+  json["contact_response"] = kResponses[static_cast<int>(keys.contact_response)].first;
   if (keys.contact_stiffness_factor)
     json["contact_stiffness_factor"] = *keys.contact_stiffness_factor;
   return json;
@@ -149,20 +163,13 @@ nlohmann::ordered_json preset_as_json(const Scenario& scenario) {
 
 /// What time alone has: the preset's keys, each of which the scenario may give as well.
 void read_dynamics(const TableReader& document, Scenario& scenario) {
-  document.may("accuracy", scenario.accuracy, [](const Node& n) {
-    return read_choice<Accuracy>(n, {{"fast", Accuracy::Fast},
-                                     {"balanced", Accuracy::Balanced},
-                                     {"accurate", Accuracy::Accurate}});
-  });
+  document.read("accuracy", scenario.accuracy);
   const Preset chosen = preset(scenario.accuracy);
   scenario.integrator = chosen.integrator;
   scenario.contact_response = chosen.contact_response;
-  document.may("contact_response", scenario.contact_response, [](const Node& n) {
-    return read_choice<Scenario::Response>(n, {{"pointwise", Scenario::Response::Pointwise},
-                                               {"averaged", Scenario::Response::Averaged}});
-  });
+  document.read("contact_response", scenario.contact_response);
   scenario.contact_stiffness_factor = chosen.contact_stiffness_factor;
-  document.may("contact_stiffness_factor", scenario.contact_stiffness_factor, as_number(kPositive));
+  document.read("contact_stiffness_factor", scenario.contact_stiffness_factor);
   if (scenario.contact_response != Scenario::Response::Averaged)
     document.refuse({"contact_stiffness_factor"}, "it is of averaged depths");
 }
@@ -177,14 +184,107 @@ void read_statics(const TableReader& document, Scenario& scenario) {
 
 }  // namespace
 
+const KeyTable& integrator_keys() {
+  static const KeyTable kTable{
+      "[integrator]",
+      {{"step",
+        {form::Quantity{kTime, kPositive}},
+        otherwise("by `accuracy`; static: a tenth of `duration`"),
+        "time step or load step; the longest one for `explicit`"},
+       {"scheme",
+        {choice_of(kSchemes)},
+        otherwise("by `accuracy`"),
+        "order 1, 2, 3; `explicit` chooses its steps. Not in statics"},
+       {"element_tolerance",
+        {form::Number{kPositive}},
+        otherwise("by `accuracy`"),
+        "Newton's tolerance as part of the finest tissue's mean element size (without tissue: of a "
+        "hundredth of the smallest rigid body); not in statics"},
+       {"position_tolerance",
+        {form::Quantity{kLength, kPositive}},
+        kNone,
+        "the same as a length, in its place; for `explicit` the error of a step; not in statics"},
+       {"max_iterations",
+        {form::Integer{1, kMostIterations}},
+        standard(20.0),
+        "Newton iterations before the step is halved, thirteen times at most"},
+       {"solver",
+        {choice_of(kSolvers)},
+        standard("auto"),
+        "linear solver; `summary.json` names the one chosen"}}};
+  return kTable;
+}
+
+const KeyTable& detection_keys() {
+  static const KeyTable kTable{
+      "[detection]",
+      {{"tree",
+        {form::Choice{
+            {{"blocks", Detection::Tree::Blocks}, {"buckets", Detection::Tree::Buckets}}}},
+        standard("blocks"),
+        "the tree that finds pairs; `buckets` is the published algorithm"}}};
+  return kTable;
+}
+
+const KeyTable& output_keys() {
+  static const KeyTable kTable{
+      "[output]",
+      {{"interval",
+        {form::Quantity{kTime, kPositive}},
+        otherwise("`\"10 ms\"`; static: the load step"),
+        "between frames; a step ends at each of them"},
+       {"length_unit", {length_units()}, standard("mm"), "of the results"},
+       {"directory",
+        {form::Text{"path"}},
+        kNone,
+        "where results go, within the working folder; `--out` takes any folder"},
+       {"contact_surfaces",
+        {form::Boolean{}},
+        standard(false),
+        "also writes `frames/BODY_contact_000123.vtp`"},
+       {"checkpoint_interval",
+        {form::Quantity{kTime, kPositive}},
+        otherwise("10 intervals; static 1"),
+        "between restart points"},
+       {"directions",
+        {list_of({directions()}, 3)},
+        kNone,
+        "what +x, +y and +z point to in the body, for pictures"}}};
+  return kTable;
+}
+
+std::vector<Key> settings_keys() {
+  return {{"title", {form::Text{"text"}}, otherwise("file name"), "for reports"},
+          {"duration", {form::Quantity{kTime, kPositive}}, kRequired, "simulated time"},
+          {"analysis",
+           {form::Choice{
+               {{"dynamic", Scenario::Analysis::Dynamic}, {"static", Scenario::Analysis::Static}}}},
+           standard("dynamic"),
+           "motion in time, or equilibrium at each load step"},
+          {"accuracy",
+           {choice_of(kAccuracies)},
+           standard("balanced"),
+           "a preset: it stands for `contact_response`, `contact_stiffness_factor` and the step, "
+           "scheme "
+           "and tolerance of `[integrator]`; dynamic only"},
+          {"contact_response",
+           {choice_of(kResponses)},
+           otherwise("by `accuracy`"),
+           "how contact counts depths: point by point, or as averages at nodes; dynamic only"},
+          {"contact_stiffness_factor",
+           {form::Number{kPositive}},
+           otherwise("by `accuracy`; else 100, with `explicit` 10"),
+           "penalty stiffness relative to the elements; averaged depths only"},
+          {"integrator", {form::Table{integrator_keys}}, kNone, "steps in time, or load steps"},
+          {"detection", {form::Table{detection_keys}}, kNone, "how pairs in contact are found"},
+          {"output", {form::Table{output_keys}}, kNone, "what is written"}};
+}
+
 void read_settings(const TableReader& document, Scenario& scenario) {
   scenario.title = scenario.name;
-  document.may("title", scenario.title, read_text);
-  scenario.duration = read_quantity(document.at("duration"), kTime, kPositive);
-  document.may("analysis", scenario.analysis, [](const Node& n) {
-    return read_choice<Scenario::Analysis>(
-        n, {{"dynamic", Scenario::Analysis::Dynamic}, {"static", Scenario::Analysis::Static}});
-  });
+  document.read("title", scenario.title);
+  document.read("duration", scenario.duration);
+  document.read("analysis", scenario.analysis);
   const bool is_static = scenario.analysis == Scenario::Analysis::Static;
   if (is_static)
     read_statics(document, scenario);
@@ -200,27 +300,26 @@ void read_settings(const TableReader& document, Scenario& scenario) {
 std::string settings_as_json(const Scenario& scenario) {
   const Integrator& integrator = scenario.integrator;
   const Output& output = scenario.output;
-  constexpr const char* kAccuracies[] = {"fast", "balanced", "accurate"};
   nlohmann::ordered_json json;
   json["title"] = scenario.title;
   for (const auto& [name, word] : scenario.choices) json["choice"][name] = word;
   json["duration_s"] = scenario.duration;
   const bool is_static = scenario.analysis == Scenario::Analysis::Static;
   if (!is_static) {
-    json["accuracy"] = kAccuracies[static_cast<int>(scenario.accuracy)];
+    json["accuracy"] = kAccuracies[static_cast<int>(scenario.accuracy)].first;
     json["accuracy_stands_for"] = preset_as_json(scenario);
   }
   json["analysis"] = is_static ? "static" : "dynamic";
   json["contact"] = contact_as_json(scenario);
   json["contact_response"] =
-      is_static ? "averaged" : kResponses[static_cast<int>(scenario.contact_response)];
+      is_static ? "averaged" : kResponses[static_cast<int>(scenario.contact_response)].first;
   if (scenario.contact_stiffness_factor)
     json["contact_stiffness_factor"] = *scenario.contact_stiffness_factor;
   json["contact_parameters_set"] = contact_parameters_set(scenario);
   nlohmann::ordered_json& iteration = json["integrator"];
   if (!is_static) iteration["scheme"] = kSchemes[static_cast<int>(integrator.scheme)].first;
   iteration["step_s"] = integrator.step;
-  iteration["solver"] = kSolvers[static_cast<int>(integrator.solver)];
+  iteration["solver"] = kSolvers[static_cast<int>(integrator.solver)].first;
   iteration["max_iterations"] = integrator.max_iterations;
   if (!is_static && integrator.position_tolerance)
     iteration["position_tolerance_m"] = *integrator.position_tolerance;

@@ -1,5 +1,6 @@
 // Rollers and planes of symmetry.
 #include "sim/base/pose.hpp"
+#include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 
 namespace articular::sim {
@@ -9,9 +10,7 @@ namespace {
 Eigen::Matrix3Xd read_held_axes(const TableReader& table) {
   const Node& freedoms = table.at("freedoms");
   const std::array<bool, 6> named = read_freedoms(freedoms);
-  Mat3 axes = Mat3::Identity();
-  if (const Node* turned = table.find("turned"))
-    axes = rotation_matrix(read_vector(*turned, kAngle));
+  const Mat3 axes = rotation_matrix(table.get<Vec3>("turned"));
   Eigen::Matrix3Xd held(3, 0);
   for (std::size_t i = 0; i < named.size(); ++i) {
     if (!named[i]) continue;
@@ -26,8 +25,7 @@ Eigen::Matrix3Xd read_held_axes(const TableReader& table) {
 }
 
 void append_supports(const Node& node, const Context& context, std::vector<Support>& supports) {
-  const TableReader table(node, label(node, "support"),
-                          {"name", "body", "region", "freedoms", "turned", "mirror"});
+  const TableReader table(node, support_keys(), label(node, "support"));
   for (const Side side : read_sides(table)) {
     Context here = context;
     here.side = side;
@@ -51,6 +49,21 @@ void append_supports(const Node& node, const Context& context, std::vector<Suppo
 }
 
 }  // namespace
+
+const KeyTable& support_keys() {
+  static const KeyTable kTable{
+      "[[support]]",
+      {{"name", {form::Text{"name"}}, kNone, "for a probe of its reaction"},
+       {"body", {form::Text{"name of a tissue"}}, kRequired, "the tissue"},
+       {"region", {form::Table{region_keys}}, kRequired, "its nodes that are held; `{}`: all"},
+       {"freedoms", {list_of_freedoms()}, kRequired, "translations that are held"},
+       {"turned",
+        {form::Vector{kAngle}},
+        standard("0 0 0 rad"),
+        "turns the axes by a rotation vector"},
+       mirror_key()}};
+  return kTable;
+}
 
 std::vector<Support> read_supports(const TableReader& document, const Context& context) {
   std::vector<Support> supports;

@@ -128,19 +128,144 @@ const Node::List& read_list(const Node& node, std::string_view what, std::size_t
   return *list;
 }
 
-TableReader::TableReader(const Node& node, std::string what,
-                         std::initializer_list<std::string_view> keys)
-    : node_(node), what_(std::move(what)) {
-  const std::vector<std::string> names(keys.begin(), keys.end());
+namespace {
+
+/// The form that a reader asks for; a key of another one is a bug.
+template <class Form>
+const Form& form_of(const KeyType& type) {
+  if (const Form* found_form = std::get_if<Form>(&type.variant)) return *found_form;
+  throw std::logic_error("a key is read as what its table does not say");
+}
+
+void check_is_table(const Node& node, const std::vector<std::string>& names) {
   if (node.table() == nullptr)
     fail(node,
          fmt::format("expected a table of {}, found {}", fmt::join(names, ", "), found(node)));
-  for (const Member& member : node.table()->members) {
-    if (std::find(names.begin(), names.end(), member.key) != names.end()) continue;
-    throw InputError(member.key_where,
-                     fmt::format("{}: unknown key `{}`{}", what_, one_line(member.key),
-                                 suggestion(member.key, names)));
+}
+
+void refuse_unknown_keys(const Node& node, const std::vector<std::string>& names,
+                         const std::string& what) {
+  for (const Member& member : node.table()->members)
+    if (std::find(names.begin(), names.end(), member.key) == names.end())
+      throw InputError(member.key_where,
+                       fmt::format("{}: unknown key `{}`{}", what, one_line(member.key),
+                                   suggestion(member.key, names)));
+}
+
+/// The keys of all variants.
+std::vector<std::string> names_of(const form::Variants& variants) {
+  std::vector<std::string> all;
+  for (const auto& [word, keys] : variants.by_word)
+    for (std::string& name : keys().names())
+      if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(std::move(name));
+  return all;
+}
+
+const KeyTable& chosen_variant(const Node& node, const form::Variants& variants,
+                               const std::string& what) {
+  if (node.table() == nullptr) fail(node, "expected a table, found " + found(node));
+  const Node* tag = node.find(variants.tag);
+  if (tag == nullptr) {
+    refuse_unknown_keys(node, names_of(variants), what);  // it may be misspelt
+    throw InputError(node.where, fmt::format("{}: `{}` is missing", what, variants.tag));
   }
+  form::Choice words;
+  for (int i = 0; const auto& [word, keys] : variants.by_word) words.words.emplace_back(word, i++);
+  const int chosen = read_word(*tag, {words});
+  const KeyTable& table = variants.by_word[static_cast<std::size_t>(chosen)].second();
+  for (const Member& member : node.table()->members) {
+    if (table.find(member.key) != nullptr) continue;
+    for (const auto& [word, other] : variants.by_word)
+      if (other().find(member.key) != nullptr)
+        throw InputError(member.key_where, fmt::format("{}: `{}` does not belong here: {} {}", what,
+                                                       member.key, variants.reason, found(*tag)));
+  }
+  return table;
+}
+
+}  // namespace
+
+double read_real(const Node& node, const KeyType& type) {
+  if (const auto* number = std::get_if<form::Number>(&type.variant))
+    return read_number(node, number->range);
+  const auto& quantity = form_of<form::Quantity>(type);
+  return read_quantity(node, quantity.kind, quantity.range);
+}
+
+int read_integer(const Node& node, const KeyType& type) {
+  const auto& integer = form_of<form::Integer>(type);
+  return read_integer(node, integer.min, integer.max);
+}
+
+bool read_boolean(const Node& node, const KeyType& type) {
+  if (std::holds_alternative<form::Choice>(type.variant)) return read_word(node, type) != 0;
+  (void)form_of<form::Boolean>(type);
+  return read_boolean(node);
+}
+
+std::string read_text(const Node& node, const KeyType& type) {
+  (void)form_of<form::Text>(type);
+  return read_text(node);
+}
+
+Eigen::Vector3d read_vector(const Node& node, const KeyType& type) {
+  if (std::holds_alternative<form::Direction>(type.variant)) return read_direction(node);
+  return read_vector(node, form_of<form::Vector>(type).kind);
+}
+
+int read_word(const Node& node, const KeyType& type) {
+  const std::vector<Word>& words = form_of<form::Choice>(type).words;
+  std::vector<std::string> names;
+  std::string list;
+  for (const Word& word : words) {
+    if (node.text() != nullptr && *node.text() == word.text) return word.value;
+    list += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", word.text);
+    names.emplace_back(word.text);
+  }
+  const std::string near = node.text() != nullptr ? nearest_name(*node.text(), names) : "";
+  fail(node,
+       fmt::format("expected {}{}, found {}{}", names.size() > 1 ? "one of " : "", list,
+                   found(node), near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+}
+
+TableReader::TableReader(const Node& node, const KeyTable& keys, std::string what)
+    : node_(node), keys_(keys), what_(std::move(what)) {
+  check_is_table(node, keys.names());
+  refuse_unknown_keys(node, keys.names(), what_);
+}
+
+TableReader::TableReader(const Node& node, const form::Variants& variants, const std::string& what)
+    : TableReader(node, chosen_variant(node, variants, what), what) {}
+
+const Node* TableReader::find(std::string_view key) const {
+  if (!knows(key))
+    throw std::logic_error(fmt::format("{} has no key `{}` in its table", what_, key));
+  return node_.find(key);
+}
+
+std::optional<Node> TableReader::standard_value(std::string_view key) const {
+  const Absence& absence = keys_.find(key)->absence;
+  if (absence.is_error)
+    throw InputError(node_.where, fmt::format("{}: `{}` is missing", what_, key));
+  Node node{0.0, std::string(key), node_.where};
+  if (const auto* number = std::get_if<double>(&absence.value)) {
+    const bool is_whole = std::holds_alternative<form::Integer>(keys_.find(key)->type.variant);
+    if (is_whole)
+      node.value = static_cast<std::int64_t>(*number);
+    else
+      node.value = *number;
+  } else if (const auto* is_so = std::get_if<bool>(&absence.value)) {
+    node.value = *is_so;
+  } else if (const auto* text = std::get_if<std::string_view>(&absence.value)) {
+    node.value = std::string(*text);
+  } else if (const auto* direction = std::get_if<std::array<double, 3>>(&absence.value)) {
+    Node::List parts;
+    for (const double part : *direction) parts.push_back({part, node.name, node.where});
+    node.value = std::move(parts);
+  } else {
+    return std::nullopt;
+  }
+  return node;
 }
 
 const Node& TableReader::at(std::string_view key) const {

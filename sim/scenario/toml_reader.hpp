@@ -4,36 +4,21 @@
 
 #include <concepts>
 #include <initializer_list>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "sim/base/message_text.hpp"
+#include "sim/scenario/key_table.hpp"
 #include "sim/scenario/quantity.hpp"
 #include "sim/scenario/toml_document.hpp"
 
 /// Strict reading of a document: each function returns a checked value in SI or throws InputError
 /// with the place of the value, its key, what was expected and what was found.
 namespace articular::sim {
-
-/// The numbers that a value may have.
-struct Range {
-  double min, max;
-  bool excludes_ends;
-  std::string_view rule;          // "must be positive"
-  std::string_view subject = "";  // in place of the key: "Poisson's ratio"
-};
-
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-inline constexpr Range kAny{-kInfinity, kInfinity, true, "must be finite"};
-inline constexpr Range kPositive{0, kInfinity, true, "must be positive"};
-inline constexpr Range kNotNegative{0, kInfinity, false, "must not be negative"};
-inline constexpr Range kFraction{0, 1, false, "must lie between 0 and 1"};
-inline constexpr Range kPoissonRange{-1, 0.5, true, "must lie between -1 and 0.5 (exclusive)",
-                                     "Poisson's ratio"};
 
 /// What a node holds, for "found ...": `"15 mm"`, `the number 15`, `a list`.
 std::string found(const Node& node);
@@ -54,45 +39,88 @@ Eigen::Vector3d read_direction(const Node& node);  // three bare numbers, return
 /// A list; `what` describes it: "a list of two bodies". count 0 = any, but not empty.
 const Node::List& read_list(const Node& node, std::string_view what, std::size_t count = 0);
 
-/// The names of enumerators.
-template <class E>
-using Choices = std::initializer_list<std::pair<std::string_view, E>>;
+/// Values of a key's type: quantities and plain numbers; yes or no, also as a choice of words; the
+/// enumerator of a word; three numbers, with a unit or as a direction.
+double read_real(const Node& node, const KeyType& type);
+int read_integer(const Node& node, const KeyType& type);
+bool read_boolean(const Node& node, const KeyType& type);
+std::string read_text(const Node& node, const KeyType& type);
+Eigen::Vector3d read_vector(const Node& node, const KeyType& type);
+int read_word(const Node& node, const KeyType& type);
 
-template <class E>
-E read_choice(const Node& node, Choices<E> choices) {
-  std::vector<std::string> names;
-  std::string list;
-  for (const auto& [name, value] : choices) {
-    if (node.text() != nullptr && *node.text() == name) return value;
-    list += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
-    names.emplace_back(name);
+/// The one of these that T asks for.
+template <class T>
+T read_value(const Node& node, const KeyType& type) {
+  if constexpr (std::is_enum_v<T>) {
+    return static_cast<T>(read_word(node, type));
+  } else if constexpr (std::is_same_v<T, double>) {
+    return read_real(node, type);
+  } else if constexpr (std::is_same_v<T, int>) {
+    return read_integer(node, type);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return read_boolean(node, type);
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return read_text(node, type);
+  } else {
+    static_assert(std::is_same_v<T, Eigen::Vector3d>);
+    return read_vector(node, type);
   }
-  const std::string near = node.text() != nullptr ? nearest_name(*node.text(), names) : "";
-  fail(node,
-       fmt::format("expected {}{}, found {}{}", names.size() > 1 ? "one of " : "", list,
-                   found(node), near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
 }
 
-/// A table of which every key is known.
+template <class T>
+struct WithoutOptional {
+  using type = T;
+};
+template <class T>
+struct WithoutOptional<std::optional<T>> {
+  using type = T;
+};
+
+/// A table of the file, read by its table of keys. To ask for a key that this does not have is a
+/// bug.
 class TableReader {
  public:
   /// @param what  for messages: "body `skull`"
-  /// @throws InputError  if the node is no table or has another key than these
-  TableReader(const Node& node, std::string what, std::initializer_list<std::string_view> keys);
+  /// @throws InputError  if the node is no table or has a key that is not among `keys`
+  TableReader(const Node& node, const KeyTable& keys, std::string what);
+
+  /// As its tag says. @throws InputError  also if the tag is missing or none of the words
+  TableReader(const Node& node, const form::Variants& variants, const std::string& what);
 
   const Node& node() const { return node_; }
   const std::string& what() const { return what_; }
+  bool knows(std::string_view key) const { return keys_.find(key) != nullptr; }
 
   /// The value of a key, or nullptr.
-  const Node* find(std::string_view key) const { return node_.find(key); }
+  const Node* find(std::string_view key) const;
 
   /// The value of a key that must be there.
   const Node& at(std::string_view key) const;
 
-  /// Reads the value of a key into `target` if the key is there.
+  /// Reads the value of a key into `target`, or the default that its table has. Without both
+  /// `target` stays. @throws InputError  also if a required key is missing
   template <class T, std::invocable<const Node&> Read>
-  void may(std::string_view key, T& target, Read read) const {
-    if (const Node* value = find(key)) target = read(*value);
+  void read(std::string_view key, T& target, Read read) const {
+    if (const Node* value = find(key))
+      target = read(*value);
+    else if (const auto standard = standard_value(key))
+      target = read(*standard);
+  }
+
+  /// The same for a value of the key's own type.
+  template <class T>
+  void read(std::string_view key, T& target) const {
+    read(key, target, [&](const Node& n) {
+      return read_value<typename WithoutOptional<T>::type>(n, keys_.find(key)->type);
+    });
+  }
+
+  /// What read() gives.
+  template <class T>
+  T get(std::string_view key) const {
+    T value{};
+    read(key, value);
+    return value;
   }
 
   /// Refuses keys that do not go with the rest of the table, at the key's place.
@@ -105,20 +133,13 @@ class TableReader {
   const Node* at_most_one(std::initializer_list<std::string_view> keys) const;
 
  private:
+  /// A node for the default of a key. @throws InputError  if the key is required
+  std::optional<Node> standard_value(std::string_view key) const;
+
   const Node& node_;
+  const KeyTable& keys_;
   std::string what_;
 };
-
-// Readers to pass to TableReader::may().
-inline auto as_quantity(const QuantityKind& kind, const Range& range) {
-  return [&kind, &range](const Node& node) { return read_quantity(node, kind, range); };
-}
-inline auto as_vector(const QuantityKind& kind) {
-  return [&kind](const Node& node) { return read_vector(node, kind); };
-}
-inline auto as_number(const Range& range) {
-  return [&range](const Node& node) { return read_number(node, range); };
-}
 
 /// The entries of an array of tables such as [[body]]; empty if there is none.
 const Node::List& entries(const TableReader& document, std::string_view key);

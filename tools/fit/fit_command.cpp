@@ -8,6 +8,7 @@
 #include "sim/base/atomic_file.hpp"
 #include "tools/fit/fit_report.hpp"
 #include "tools/process/interruption.hpp"
+#include "tools/shipped/shipped_scenarios.hpp"
 #include "tools/study/study_prepare.hpp"
 
 namespace articular::tools {
@@ -26,7 +27,7 @@ struct FitArguments {
 };
 
 int run_fit(const FitArguments& arguments) {
-  const Fit fit = read_fit(arguments.fit);
+  const Fit fit = read_fit(find_scenario(arguments.fit));
   StudyRunOptions options = arguments.options;
   if (options.directory.empty()) options.directory = fs::path("out") / fit.name;
   sim::make_folders(options.directory);
@@ -70,7 +71,10 @@ void add_fit_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<FitArguments>();
   CLI::App& command =
       *app.add_subcommand("fit", "Parameters of a scenario, found from measurements");
-  command.add_option("fit", arguments->fit, "Fit file (.toml)")->required();
+  command
+      .add_option("fit", arguments->fit,
+                  "Fit file (.toml), or the name of a shipped one: see `articular scenarios`")
+      ->required();
   command
       .add_option("--out", arguments->options.directory,
                   "Folder of the results (default: out/NAME)")

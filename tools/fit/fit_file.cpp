@@ -9,8 +9,10 @@
 namespace articular::tools {
 namespace {
 
+using sim::KeyTable;
 using sim::Node;
 using sim::TableReader;
+namespace form = sim::form;
 
 constexpr const char* kOnlyRun = "run";
 constexpr double kStepPerSpread = 0.05;
@@ -59,15 +61,36 @@ bool is_name(const std::string& text) {
          std::all_of(text.begin(), text.end(), is_word);
 }
 
+/// A bare number, or a text with a unit: see read_with_unit().
+sim::KeyType number_with_unit() {
+  return {form::Either{{{form::Number{sim::kAny}}, {form::Text{"number with a unit"}}}}};
+}
+
+const KeyTable& parameter_keys() {
+  static const KeyTable kTable{
+      "[[parameter]] of a fit",
+      {{"name", {form::Text{"name"}}, sim::kRequired, "letters, digits and `_`"},
+       {"path",
+        {form::Text{"path of a value"}},
+        sim::otherwise("or `{name}` in a `set`"),
+        "the value that it is"},
+       {"start", number_with_unit(), sim::kRequired, "where the fit starts"},
+       {"spread", number_with_unit(), sim::otherwise("or `difference_step`"),
+        "standard deviation of what is known of it without the measurements"},
+       {"lowest", number_with_unit(), sim::kNone, "lower bound"},
+       {"highest", number_with_unit(), sim::kNone, "upper bound"},
+       {"difference_step", number_with_unit(), sim::otherwise("a twentieth of `spread`"),
+        "by how much it is changed to see what follows"}}};
+  return kTable;
+}
+
 FitParameter read_parameter(const Node& node) {
-  const TableReader table(
-      node, "[[parameter]]",
-      {"name", "path", "start", "spread", "lowest", "highest", "difference_step"});
+  const TableReader table(node, parameter_keys(), "[[parameter]]");
   FitParameter parameter;
   parameter.name = sim::read_text(table.at("name"));
   if (!is_name(parameter.name))
     sim::fail(table.at("name"), "expected a name of letters, digits and _, such as `acl_strain`");
-  table.may("path", parameter.path, sim::read_text);
+  table.read("path", parameter.path);
   const NumberWithUnit start = read_with_unit(table.at("start"));
   parameter.start = start.number;
   parameter.unit = start.unit;
@@ -78,11 +101,11 @@ FitParameter read_parameter(const Node& node) {
     if (!(value > 0)) sim::fail(n, "must be positive, found " + sim::found(n));
     return value;
   };
-  table.may("spread", parameter.spread, read_positive);
-  table.may("lowest", parameter.lowest, read);
-  table.may("highest", parameter.highest, read);
+  table.read("spread", parameter.spread, read_positive);
+  table.read("lowest", parameter.lowest, read);
+  table.read("highest", parameter.highest, read);
   if (parameter.spread) parameter.step = kStepPerSpread * *parameter.spread;
-  table.may("difference_step", parameter.step, read_positive);
+  table.read("difference_step", parameter.step, read_positive);
   if (!(parameter.step > 0))
     sim::fail(node,
               "expected `spread` (standard deviation of what is known of it without the "
@@ -94,11 +117,17 @@ FitParameter read_parameter(const Node& node) {
   return parameter;
 }
 
+const KeyTable& run_keys() {
+  static const KeyTable kTable = with_settings(
+      "[[run]] of a fit", {{"name", {form::Text{"name"}}, sim::kRequired, "of the run"}});
+  return kTable;
+}
+
 std::vector<FitRun> read_runs(const TableReader& document) {
   const StudySettings common = read_settings(document);
   std::vector<FitRun> runs;
   for (const Node& node : sim::entries(document, "run")) {
-    const TableReader table(node, "[[run]]", {"name", "set", "threads", "prepare"});
+    const TableReader table(node, run_keys(), "[[run]]");
     FitRun run{sim::read_text(table.at("name")), common + read_settings(table)};
     for (const FitRun& other : runs)
       if (other.name == run.name)
@@ -127,10 +156,37 @@ std::vector<std::string> read_columns(const Node& node) {
   return columns;
 }
 
+const KeyTable& measurement_keys() {
+  const sim::KeyType column = {form::Text{"column of history.csv"}};
+  static const KeyTable kTable{
+      "[[measurement]] of a fit",
+      {{"name", {form::Text{"name"}}, sim::kRequired, "of what was measured"},
+       {"run", {form::Text{"name of a run"}}, sim::otherwise("the only one"), "which run shows it"},
+       {"column",
+        {form::Either{{column, {sim::list_of(column)}}}},
+        sim::kRequired,
+        "with its unit; of a list the length of the vector"},
+       {"at", {form::Quantity{sim::kTime, sim::kNotNegative}}, sim::kRequired, "when"},
+       {"minus",
+        {form::Quantity{sim::kTime, sim::kNotNegative}},
+        sim::kNone,
+        "less the value at this time"},
+       {"value",
+        {form::Number{sim::kAny}},
+        sim::otherwise("or `at_most` or `at_least`"),
+        "what was measured, in the column's unit"},
+       {"at_most", {form::Number{sim::kAny}}, sim::kNone, "in its place: a bound from above"},
+       {"at_least", {form::Number{sim::kAny}}, sim::kNone, "in its place: a bound from below"},
+       {"spread", {form::Number{sim::kPositive}}, sim::kRequired, "its standard deviation"},
+       {"held_out",
+        {form::Boolean{}},
+        sim::standard(false),
+        "`true`: not fitted, but compared with what comes out"}}};
+  return kTable;
+}
+
 FitMeasurement read_measurement(const Node& node, const std::vector<FitRun>& runs) {
-  const TableReader table(node, "[[measurement]]",
-                          {"name", "run", "column", "at", "minus", "value", "at_most", "at_least",
-                           "spread", "held_out"});
+  const TableReader table(node, measurement_keys(), "[[measurement]]");
   FitMeasurement measurement;
   measurement.name = sim::read_text(table.at("name"));
   if (const Node* run = table.find("run"))
@@ -138,14 +194,14 @@ FitMeasurement read_measurement(const Node& node, const std::vector<FitRun>& run
   else if (runs.size() > 1)
     table.at("run");
   measurement.columns = read_columns(table.at("column"));
-  measurement.at = sim::read_quantity(table.at("at"), sim::kTime, sim::kNotNegative);
-  table.may("minus", measurement.minus, sim::as_quantity(sim::kTime, sim::kNotNegative));
+  table.read("at", measurement.at);
+  table.read("minus", measurement.minus);
   const Node& target = table.exactly_one({"value", "at_most", "at_least"});
   measurement.value = sim::read_number(target, sim::kAny);
   if (&target == table.find("at_most")) measurement.target = FitTarget::AtMost;
   if (&target == table.find("at_least")) measurement.target = FitTarget::AtLeast;
-  measurement.spread = sim::read_number(table.at("spread"), sim::kPositive);
-  table.may("held_out", measurement.held_out, sim::read_boolean);
+  table.read("spread", measurement.spread);
+  table.read("held_out", measurement.held_out);
   return measurement;
 }
 
@@ -177,18 +233,38 @@ void check_use(const Node& root, const Fit& fit) {
 
 }  // namespace
 
+const KeyTable& fit_keys() {
+  static const KeyTable kTable = [] {
+    KeyTable table = with_settings(
+        "fit",
+        {{"title", {form::Text{"text"}}, sim::otherwise("file name"), "for reports"},
+         {"scenario", {form::Text{"path"}}, sim::kRequired, "the scene, from the fit's folder"},
+         {"time_limit",
+          {form::Quantity{sim::kTime, sim::kPositive}},
+          sim::kNone,
+          "a run that takes longer is stopped"}});
+    const auto add = [&](std::string_view name, const KeyTable& (*keys)(), sim::Absence absence,
+                         std::string_view meaning) {
+      table.keys.push_back({name, {sim::entries_of({form::Table{keys}})}, absence, meaning});
+    };
+    add("parameter", parameter_keys, sim::kRequired, "what is fitted");
+    add("run", run_keys, sim::otherwise("one run"), "runs of the scene, each with its settings");
+    add("measurement", measurement_keys, sim::kRequired, "what was measured");
+    return table;
+  }();
+  return kTable;
+}
+
 Fit read_fit(const std::filesystem::path& file) {
   const Node root = sim::read_toml(file);
-  const TableReader document(root, "fit",
-                             {"title", "scenario", "set", "threads", "prepare", "time_limit",
-                              "parameter", "run", "measurement"});
+  const TableReader document(root, fit_keys(), "fit");
   Fit fit;
   fit.file = file;
   fit.name = file.stem().string();
   fit.title = fit.name;
-  document.may("title", fit.title, sim::read_text);
+  document.read("title", fit.title);
   fit.scenario = file.parent_path() / sim::read_text(document.at("scenario"));
-  document.may("time_limit", fit.time_limit, sim::as_quantity(sim::kTime, sim::kPositive));
+  document.read("time_limit", fit.time_limit);
   fit.runs = read_runs(document);
   for (const Node& node : sim::read_list(document.at("parameter"), "[[parameter]] tables")) {
     FitParameter parameter = read_parameter(node);

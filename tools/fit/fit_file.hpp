@@ -55,6 +55,9 @@ struct Fit {
   std::vector<FitMeasurement> measurements;
 };
 
+/// The keys of a fit file.
+const sim::KeyTable& fit_keys();
+
 /// @throws sim::InputError  with file, line and column
 Fit read_fit(const std::filesystem::path& file);
 

@@ -1,6 +1,8 @@
 // The `articular` program: one subcommand a file. Exit codes: 0 done; 1 a bug of ours; 2 bad input;
 // 3 the simulation could not go on; 4 the system failed; 130 interrupted.
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
@@ -14,13 +16,16 @@
 #include "tools/anatomy/anatomy.hpp"
 #include "tools/collide/collide_command.hpp"
 #include "tools/fit/fit_command.hpp"
+#include "tools/keys/keys_command.hpp"
 #include "tools/manual/manual_command.hpp"
 #include "tools/mesh/mesh_command.hpp"
 #include "tools/plot/plot_command.hpp"
 #include "tools/process/interruption.hpp"
+#include "tools/process/source_excerpt.hpp"
 #include "tools/process/standard_streams.hpp"
 #include "tools/render/render_command.hpp"
 #include "tools/run/commands.hpp"
+#include "tools/shipped/scenarios_command.hpp"
 #include "tools/study/study_command.hpp"
 #include "tools/verify/verify_command.hpp"
 
@@ -28,10 +33,14 @@ namespace {
 
 constexpr int kBug = 1, kBadInput = 2, kCannotGoOn = 3, kSystemFailed = 4;
 
+/// A line for each mistake; on a terminal with the line of the file that it points at.
 int report(const char* message, int exit_code) {
-  std::istringstream lines(message);  // one for each mistake
-  for (std::string line; std::getline(lines, line);)
+  std::istringstream lines(message);
+  const bool is_terminal = isatty(STDERR_FILENO) != 0;
+  for (std::string line; std::getline(lines, line);) {
     std::fprintf(stderr, "articular: %s\n", articular::sim::one_line(line).c_str());
+    if (is_terminal) std::fputs(articular::tools::source_excerpt(line).c_str(), stderr);
+  }
   return exit_code;
 }
 
@@ -44,13 +53,15 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", articular::sim::kVersion);
   app.require_subcommand(1);
   app.footer(
-      "Try: articular run scenarios/mandible/opening.toml --out out/opening\n"
+      "Try: articular run mandible/opening --out out/opening\n"
       "     articular render out/opening\n"
       "     articular plot out/opening\n"
       "Exit codes: 0 done, 2 bad input, 3 the simulation could not go on (results until then are\n"
       "valid), 4 the system failed (disk, display), 130 interrupted, 1 a bug in articular.");
   int exit_code = 0;
   articular::tools::add_run_command(app, exit_code);
+  articular::tools::add_scenarios_command(app, exit_code);
+  articular::tools::add_keys_command(app, exit_code);
   articular::tools::add_check_command(app, exit_code);
   articular::tools::add_explain_command(app, exit_code);
   articular::tools::add_render_command(app, exit_code);

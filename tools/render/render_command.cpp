@@ -1,9 +1,11 @@
 #include "tools/render/render_command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 
 #include "tools/render/render.hpp"
+#include "tools/shipped/shipped_scenarios.hpp"
 
 namespace articular::tools {
 namespace {
@@ -126,17 +128,23 @@ void add_render_command(CLI::App& app, int& exit_code) {
   CLI::App& command =
       *app.add_subcommand("render", "Draw frames of runs, or the set-up of a scenario");
   command
-      .add_option("run", options->runs,
-                  "Folders of runs (or .pvd files): pictures or a film of their frames, with one "
-                  "scale for all. A scenario (.toml): bodies, attached nodes, ends of muscles and "
-                  "ligaments before any run")
+      .add_option(
+          "run", options->runs,
+          "Folders of runs (or .pvd files): pictures or a film of their frames, with one "
+          "scale for all. A scenario (.toml, or the name of a shipped one): bodies, attached "
+          "nodes, ends of muscles and ligaments before any run")
       ->required()
       ->type_name("DIR|SCENARIO");
   add_contents(command, *options);
   add_eye(command, *options);
   add_look(command, *options);
   add_files(command, *options);
-  command.callback([options, &exit_code] { exit_code = render(*options); });
+  command.callback([options, &exit_code] {
+    std::error_code error;
+    for (auto& run : options->runs)
+      if (!std::filesystem::exists(run, error)) run = shipped_file(run).value_or(run);
+    exit_code = render(*options);
+  });
 }
 
 }  // namespace articular::tools

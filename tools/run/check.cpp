@@ -11,6 +11,7 @@
 #include "tools/run/contact_table.hpp"
 #include "tools/run/override_files.hpp"
 #include "tools/run/scene_table.hpp"
+#include "tools/shipped/shipped_scenarios.hpp"
 
 namespace articular::tools {
 namespace {
@@ -31,7 +32,10 @@ void add_check_command(CLI::App& app, int& exit_code) {
                                          "Read a scenario and its meshes, and say what is wrong "
                                          "with them: what is not valid, and bodies "
                                          "that overlap at the start");
-  command->add_option("scenario", arguments->scenario, "Scenario file (.toml)")->required();
+  command
+      ->add_option("scenario", arguments->scenario,
+                   "Scenario file (.toml), or the name of a shipped one: see `articular scenarios`")
+      ->required();
   command->add_option("--set", arguments->overrides, "Override a value, as in run")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
@@ -50,8 +54,8 @@ void add_check_command(CLI::App& app, int& exit_code) {
       "Writes nothing, and runs nothing but for --diagnose. Exit code 0: `run` will start; 2: it "
       "would not; 3: bodies overlap so that `run` could not set them apart, or a step failed.");
   command->callback([arguments, &exit_code] {
-    const sim::Scenario scenario =
-        sim::read_scenario(arguments->scenario, with_override_files(arguments->overrides));
+    const sim::Scenario scenario = sim::read_scenario(find_scenario(arguments->scenario),
+                                                      with_override_files(arguments->overrides));
     const sim::Model model = sim::build_model(scenario);
     for (const std::string& warning : model.warnings) fmt::print("warning: {}\n", warning);
     sim::Stepper stepper(model, sim::step_settings(scenario));

@@ -16,6 +16,7 @@
 #include "tools/run/commands.hpp"
 #include "tools/run/override_files.hpp"
 #include "tools/run/term_costs.hpp"
+#include "tools/shipped/shipped_scenarios.hpp"
 
 namespace articular::tools {
 namespace {
@@ -275,7 +276,10 @@ void add_explain_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "explain", "Say what of a scenario is modelled, what is left out, and what it will need");
-  command->add_option("scenario", arguments->scenario, "Scenario file (.toml)")->required();
+  command
+      ->add_option("scenario", arguments->scenario,
+                   "Scenario file (.toml), or the name of a shipped one: see `articular scenarios`")
+      ->required();
   command->add_option("--set", arguments->overrides, "Override a value, as in run")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
@@ -285,8 +289,8 @@ void add_explain_command(CLI::App& app, int& exit_code) {
                     "times where things are at the start");
   command->callback([arguments, &exit_code] {
     const double before = heap_in_use();
-    const sim::Scenario scenario =
-        sim::read_scenario(arguments->scenario, with_override_files(arguments->overrides));
+    const sim::Scenario scenario = sim::read_scenario(find_scenario(arguments->scenario),
+                                                      with_override_files(arguments->overrides));
     const sim::Model model = sim::build_model(scenario);
     const double model_bytes = heap_in_use() - before;
     Json json = explain(scenario, model);

@@ -15,6 +15,7 @@
 #include "tools/run/override_files.hpp"
 #include "tools/run/portable_start.hpp"
 #include "tools/run/progress.hpp"
+#include "tools/shipped/shipped_scenarios.hpp"
 #include "tools/study/study_prepare.hpp"
 
 namespace articular::tools {
@@ -127,7 +128,8 @@ int print_error_bars(const sim::Scenario& scenario, const RunArguments& argument
 
 int run_scenario(const RunArguments& arguments) {
   if (arguments.reproducible) use_portable_arithmetic();
-  sim::Scenario scenario = sim::read_scenario(arguments.scenario, arguments.overrides);
+  sim::Scenario scenario =
+      sim::read_scenario(find_scenario(arguments.scenario), arguments.overrides);
   scenario.threads = arguments.threads;
   scenario.reproducible = arguments.reproducible;
   const int exit_code = run_once(scenario, arguments);
@@ -139,7 +141,10 @@ int run_scenario(const RunArguments& arguments) {
 void add_run_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("run", "Run a scenario and write its results");
-  command->add_option("scenario", arguments->scenario, "Scenario file (.toml)")->required();
+  command
+      ->add_option("scenario", arguments->scenario,
+                   "Scenario file (.toml), or the name of a shipped one: see `articular scenarios`")
+      ->required();
   command
       ->add_option("--out", arguments->out,
                    "Folder of the results (default: output.directory, else out/NAME)")

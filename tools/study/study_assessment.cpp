@@ -134,12 +134,19 @@ std::vector<std::size_t> front(const Assessment& assessment) {
   return result;
 }
 
-Assessment assess(const Study& study, const std::vector<StudyCase>& cases,
-                  const std::vector<CaseRecord>& records, const std::filesystem::path& directory,
-                  bool cpu_time) {
+std::vector<CaseValues> values_of_cases(const Study& study, const std::vector<StudyCase>& cases,
+                                        const std::vector<CaseRecord>& records,
+                                        const std::filesystem::path& directory) {
   std::vector<CaseValues> values(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i)
     if (records[i].succeeded()) values[i] = values_of(study, results_of(directory, cases[i]));
+  return values;
+}
+
+Assessment assess(const Study& study, const std::vector<StudyCase>& cases,
+                  const std::vector<CaseRecord>& records, const std::filesystem::path& directory,
+                  bool cpu_time) {
+  const std::vector<CaseValues> values = values_of_cases(study, cases, records, directory);
   const std::vector<CaseValues> runs = reference_runs(study, cases, records, values);
   Assessment assessment;
   assessment.cpu_time = cpu_time;

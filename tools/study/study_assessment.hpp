@@ -27,6 +27,13 @@ struct Assessment {
   std::vector<CaseAssessment> cases;
 };
 
+/// The outputs of each case, as it left them in its folder; none of a case that did not finish.
+/// @throws sim::InputError  when an output is not in the results
+std::vector<std::vector<OutputValue>> values_of_cases(const Study& study,
+                                                      const std::vector<StudyCase>& cases,
+                                                      const std::vector<CaseRecord>& records,
+                                                      const std::filesystem::path& directory);
+
 /// Compares what the cases left in their folders with what is right. On the front an error below
 /// the uncertainty of the reference counts as one of that size, and errors within a hundredth of
 /// each other as equal.

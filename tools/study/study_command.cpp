@@ -7,8 +7,10 @@
 #include "sim/base/error.hpp"
 #include "sim/output/frame_writer.hpp"
 #include "tools/process/interruption.hpp"
+#include "tools/shipped/shipped_scenarios.hpp"
 #include "tools/study/study_command.hpp"
 #include "tools/study/study_report.hpp"
+#include "tools/study/study_sweep.hpp"
 
 namespace articular::tools {
 namespace {
@@ -44,7 +46,7 @@ void draw(const std::string& commands, const fs::path& directory, const fs::path
 }
 
 int study(const StudyArguments& arguments) {
-  const Study study = read_study(arguments.study);
+  const Study study = read_study(find_scenario(arguments.study));
   const std::vector<StudyCase> cases = study_cases(study);
   StudyRunOptions options = arguments.options;
   if (options.directory.empty()) options.directory = fs::path("out") / study.name;
@@ -59,10 +61,17 @@ int study(const StudyArguments& arguments) {
     fmt::print(stderr, "articular: interrupted; the same command goes on with what is missing\n");
     return kInterruptedExitCode;
   }
-  const Assessment assessment =
-      assess(study, cases, records, options.directory, arguments.cpu_time || options.jobs > 1);
   const fs::path table = options.directory / "study.csv", text = options.directory / "study.md",
                  picture = options.directory / "pareto.svg";
+  if (study.is_sweep()) {
+    const auto values = values_of_cases(study, cases, records, options.directory);
+    sim::write_text_file(table, sweep_csv(study, cases, records, values));
+    sim::write_text_file(text, sweep_text(study, cases, records, values));
+    fmt::print("{}\n{}\n", text.string(), table.string());
+    return 0;
+  }
+  const Assessment assessment =
+      assess(study, cases, records, options.directory, arguments.cpu_time || options.jobs > 1);
   sim::write_text_file(table, study_csv(study, cases, records, assessment));
   sim::write_text_file(text, study_text(study, cases, records, assessment));
   fmt::print("{}\n{}\n", text.string(), table.string());
@@ -75,9 +84,10 @@ const char* const kStudyHelp =
 ...), and compares each run with what is right: a converged run, an exact value, or an
 extrapolation from three runs. Writes DIR/study.md (what is worth its time, what is not, what the
 next halving of the error costs), DIR/study.csv (all figures) and DIR/pareto.svg (error against
-time). A case that fails is a result like others. Started again, it runs only what is missing or
-was made with another program, scenario or arguments; meshes that changed it does not notice
-(--fresh). The format of STUDY.toml and an example: tools/README.md.)";
+time). Where the study does not say what is right, it lists the outputs of all cases side by side.
+A case that fails is a result like others. Started again, it runs only what is missing or was made
+with another program, scenario or arguments; meshes that changed it does not notice (--fresh). The
+format of STUDY.toml and an example: tools/README.md; its keys: articular keys study)";
 
 }  // namespace
 
@@ -85,7 +95,10 @@ void add_study_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<StudyArguments>();
   CLI::App& command =
       *app.add_subcommand("study", "What settings of a scenario cost, and what they buy");
-  command.add_option("study", arguments->study, "Study file (.toml)")->required();
+  command
+      .add_option("study", arguments->study,
+                  "Study file (.toml), or the name of a shipped one: see `articular scenarios`")
+      ->required();
   command
       .add_option("--out", arguments->options.directory,
                   "Folder of the results (default: out/NAME)")

@@ -7,8 +7,11 @@
 namespace articular::tools {
 namespace {
 
+using sim::Key;
+using sim::KeyTable;
 using sim::Node;
 using sim::TableReader;
+namespace form = sim::form;
 
 constexpr int kMostRepeats = 1000;
 constexpr std::size_t kMostReferences = 3;
@@ -16,6 +19,69 @@ constexpr std::size_t kMostReferences = 3;
 /// As a name of a case: `0.5 ms`, `[8, 2, 2]`.
 std::string short_name(const Node& node) {
   return node.text() != nullptr ? *node.text() : toml_text(node);
+}
+
+const KeyTable& choice_keys() {
+  static const KeyTable kTable =
+      with_settings("[[knob.choice]] of a study",
+                    {{"name", {form::Text{"name"}}, sim::kRequired, "of the choice"}});
+  return kTable;
+}
+
+const KeyTable& knob_keys() {
+  static const KeyTable kTable{
+      "[[knob]] of a study",
+      {{"name", {form::Text{"name"}}, sim::kRequired, "of what is varied"},
+       {"path", {form::Text{"path of a value"}}, sim::otherwise("or `choice`"), "what is varied"},
+       {"values",
+        {sim::list_of({form::Anything{}})},
+        sim::otherwise("required with `path`"),
+        "a case for each"},
+       {"choice",
+        {sim::entries_of({form::Table{choice_keys}})},
+        sim::otherwise("or `path`"),
+        "a case for each, of several settings at once"}}};
+  return kTable;
+}
+
+const KeyTable& case_keys() {
+  static const KeyTable kTable = with_settings(
+      "[[case]] of a study", {{"name", {form::Text{"name"}}, sim::kRequired, "of the case"}});
+  return kTable;
+}
+
+const KeyTable& output_keys() {
+  static const KeyTable kTable{
+      "[[output]] of a study",
+      {{"column", {form::Text{"column of history.csv"}}, sim::kRequired, "with its unit"},
+       {"name", {form::Text{"name"}}, sim::otherwise("the column"), "of the output"},
+       {"value",
+        {form::Choice{{{"last", StudyValue::Last},
+                       {"change", StudyValue::Change},
+                       {"largest", StudyValue::Largest},
+                       {"smallest", StudyValue::Smallest},
+                       {"mean", StudyValue::Mean},
+                       {"history", StudyValue::History}}}},
+        sim::standard("last"),
+        "what of the column is compared; `change`: from the first row to the last"},
+       {"scale",
+        {form::Number{sim::kPositive}},
+        sim::otherwise("the right value, or its range"),
+        "what counts as an error of 1, in the column's unit"},
+       {"exact",
+        {form::Number{sim::kAny}},
+        sim::otherwise("by `[[reference]]`"),
+        "the right value, in the column's unit"}}};
+  return kTable;
+}
+
+const KeyTable& reference_keys() {
+  static const KeyTable kTable = with_settings(
+      "[[reference]] of a study", {{"size",
+                                    {form::Number{sim::kPositive}},
+                                    sim::otherwise("required of several"),
+                                    "of step or element, relative to the other references"}});
+  return kTable;
 }
 
 template <class Entry>
@@ -26,7 +92,7 @@ void check_new(const Node& node, const char* what, const std::string& name,
 }
 
 StudyKnob read_knob(const Node& node) {
-  const TableReader table(node, "[[knob]]", {"name", "path", "values", "choice"});
+  const TableReader table(node, knob_keys(), "[[knob]]");
   StudyKnob knob;
   knob.name = sim::read_text(table.at("name"));
   if (&table.exactly_one({"path", "choice"}) == table.find("path")) {
@@ -39,7 +105,7 @@ StudyKnob read_knob(const Node& node) {
   }
   table.refuse({"values"}, "they go with `path`");
   for (const Node& entry : sim::read_list(table.at("choice"), "[[knob.choice]] tables")) {
-    const TableReader choice(entry, "[[knob.choice]]", {"name", "set", "threads", "prepare"});
+    const TableReader choice(entry, choice_keys(), "[[knob.choice]]");
     const std::string name = sim::read_text(choice.at("name"));
     check_new(choice.at("name"), "choice", name, knob.choices);
     knob.choices.push_back({name, read_settings(choice)});
@@ -48,21 +114,14 @@ StudyKnob read_knob(const Node& node) {
 }
 
 StudyOutput read_output(const Node& node) {
-  const TableReader table(node, "[[output]]", {"name", "column", "value", "scale", "exact"});
+  const TableReader table(node, output_keys(), "[[output]]");
   StudyOutput output;
   output.column = sim::read_text(table.at("column"));
   output.name = output.column;
-  table.may("name", output.name, sim::read_text);
-  table.may("value", output.value, [](const Node& n) {
-    return sim::read_choice<StudyValue>(n, {{"last", StudyValue::Last},
-                                            {"change", StudyValue::Change},
-                                            {"largest", StudyValue::Largest},
-                                            {"smallest", StudyValue::Smallest},
-                                            {"mean", StudyValue::Mean},
-                                            {"history", StudyValue::History}});
-  });
-  table.may("scale", output.scale, sim::as_number(sim::kPositive));
-  table.may("exact", output.exact, sim::as_number(sim::kAny));
+  table.read("name", output.name);
+  table.read("value", output.value);
+  table.read("scale", output.scale);
+  table.read("exact", output.exact);
   if (output.exact && output.value == StudyValue::History)
     sim::fail(table.at("exact"), "a history has no single right value; expected a [[reference]]");
   if (output.exact == 0 && !output.scale)
@@ -74,10 +133,10 @@ std::vector<StudyReference> read_references(const TableReader& document) {
   std::vector<StudyReference> references;
   const Node::List& list = sim::entries(document, "reference");
   for (const Node& node : list) {
-    const TableReader table(node, "[[reference]]", {"size", "set", "threads", "prepare"});
+    const TableReader table(node, reference_keys(), "[[reference]]");
     StudyReference reference;
     if (list.size() > 1)
-      reference.size = sim::read_number(table.at("size"), sim::kPositive);
+      reference.size = sim::read_real(table.at("size"), reference_keys().find("size")->type);
     else
       table.refuse({"size"}, "sizes of several references are compared");
     reference.settings = read_settings(table);
@@ -94,44 +153,84 @@ std::vector<StudyReference> read_references(const TableReader& document) {
 }
 
 void check_references(const Node& root, const Study& study) {
+  if (study.is_sweep()) {
+    for (std::size_t o = 0; o < study.outputs.size(); ++o)
+      if (study.outputs[o].value == StudyValue::History || study.outputs[o].scale)
+        sim::fail((*root.find("output")->list())[o],
+                  "a `scale`, or the difference from a history, needs a [[reference]], and the "
+                  "study has none");
+    return;
+  }
   const bool all_exact = std::all_of(study.outputs.begin(), study.outputs.end(),
                                      [](const StudyOutput& output) { return output.exact; });
   if (all_exact && !study.references.empty())
     sim::fail(*root.find("reference"), "every output has an `exact` value: no reference is needed");
   if (!all_exact && study.references.empty())
     throw sim::InputError(root.where,
-                          "a study needs to know what is right; expected [[reference]] (one "
-                          "converged run, or three of different `size` to extrapolate from), or "
-                          "`exact` in every [[output]]");
+                          "what is right is known of some outputs only; expected [[reference]] "
+                          "(one converged run, or three of different `size` to extrapolate from), "
+                          "or `exact` in every [[output]], or in none");
 }
 
 }  // namespace
 
+const KeyTable& study_keys() {
+  static const KeyTable kTable = [] {
+    KeyTable table = with_settings(
+        "study",
+        {{"title", {form::Text{"text"}}, sim::otherwise("file name"), "for reports"},
+         {"scenario", {form::Text{"path"}}, sim::kRequired, "the base, from the study's folder"},
+         {"repeats",
+          {form::Integer{1, kMostRepeats}},
+          sim::standard(1.0),
+          "runs of each case; times are medians"},
+         {"combine",
+          {form::Choice{{{"each", false}, {"all", true}}}},
+          sim::standard("each"),
+          "each choice of each knob alone, or every combination of choices"},
+         {"time_limit",
+          {form::Quantity{sim::kTime, sim::kPositive}},
+          sim::kNone,
+          "a run that takes longer is stopped"}});
+    const auto add = [&](std::string_view name, const KeyTable& (*keys)(), sim::Absence absence,
+                         std::string_view meaning) {
+      table.keys.push_back({name, {sim::entries_of({form::Table{keys}})}, absence, meaning});
+    };
+    add("knob", knob_keys, sim::kNone, "what is varied");
+    add("case", case_keys, sim::kNone, "a case beside those of the knobs");
+    add("output", output_keys, sim::kRequired, "what is compared");
+    add("reference", reference_keys, sim::otherwise("or `exact` of every output; neither: a sweep"),
+        "what is right: a converged run, or three to extrapolate from");
+    return table;
+  }();
+  return kTable;
+}
+
+bool Study::is_sweep() const {
+  return references.empty() && std::none_of(outputs.begin(), outputs.end(),
+                                            [](const StudyOutput& output) { return output.exact; });
+}
+
 Study read_study(const std::filesystem::path& file) {
   const Node root = sim::read_toml(file);
-  const TableReader document(root, "study",
-                             {"title", "scenario", "set", "threads", "prepare", "repeats",
-                              "combine", "time_limit", "knob", "case", "output", "reference"});
+  const TableReader document(root, study_keys(), "study");
   Study study;
   study.file = file;
   study.name = file.stem().string();
   study.title = study.name;
-  document.may("title", study.title, sim::read_text);
+  document.read("title", study.title);
   study.scenario = file.parent_path() / sim::read_text(document.at("scenario"));
   study.settings = read_settings(document);
-  document.may("repeats", study.repeats,
-               [](const Node& n) { return sim::read_integer(n, 1, kMostRepeats); });
-  document.may("combine", study.every_combination, [](const Node& n) {
-    return sim::read_choice<bool>(n, {{"each", false}, {"all", true}});
-  });
-  document.may("time_limit", study.time_limit, sim::as_quantity(sim::kTime, sim::kPositive));
+  document.read("repeats", study.repeats);
+  document.read("combine", study.every_combination);
+  document.read("time_limit", study.time_limit);
   for (const Node& node : sim::entries(document, "knob")) {
     StudyKnob knob = read_knob(node);
     check_new(*node.find("name"), "knob", knob.name, study.knobs);
     study.knobs.push_back(std::move(knob));
   }
   for (const Node& node : sim::entries(document, "case")) {
-    const TableReader table(node, "[[case]]", {"name", "set", "threads", "prepare"});
+    const TableReader table(node, case_keys(), "[[case]]");
     const std::string name = sim::read_text(table.at("name"));
     check_new(table.at("name"), "case", name, study.extras);
     study.extras.push_back({name, read_settings(table)});

@@ -55,7 +55,13 @@ struct Study {
   std::vector<StudyExtra> extras;
   std::vector<StudyOutput> outputs;
   std::vector<StudyReference> references;  // finest first; one, two or three of them, or none
+
+  /// Nothing says what is right: only the outputs of the cases are listed.
+  bool is_sweep() const;
 };
+
+/// The keys of a study file.
+const sim::KeyTable& study_keys();
 
 /// @throws sim::InputError  with file, line and column
 Study read_study(const std::filesystem::path& file);

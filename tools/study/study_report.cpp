@@ -19,12 +19,6 @@ const char* time_word(const Assessment& assessment) {
   return assessment.cpu_time ? "CPU time" : "wall time";
 }
 
-/// "[mm]" of "tip.position.z [mm]", with a space before, or "".
-std::string unit_of(const std::string& column) {
-  const std::size_t at = column.rfind(" [");
-  return at == std::string::npos ? "" : " " + column.substr(at + 2, column.size() - at - 3);
-}
-
 std::string reference_text(const Study& study, const Assessment& assessment, std::size_t o) {
   const StudyOutput& output = study.outputs[o];
   const ReferenceValue& reference = assessment.references[o];
@@ -153,6 +147,11 @@ std::string front_line(const Assessment& assessment) {
 }
 
 }  // namespace
+
+std::string unit_of(const std::string& column) {
+  const std::size_t at = column.rfind(" [");
+  return at == std::string::npos ? "" : " " + column.substr(at + 2, column.size() - at - 3);
+}
 
 std::string study_csv(const Study& study, const std::vector<StudyCase>& cases,
                       const std::vector<CaseRecord>& records, const Assessment& assessment) {

@@ -8,6 +8,9 @@
 
 namespace articular::tools {
 
+/// " mm" of "tip.position.z [mm]", or "".
+std::string unit_of(const std::string& column);
+
 /// One row a case: outcome, times, memory, error, and value and error of each output.
 std::string study_csv(const Study& study, const std::vector<StudyCase>& cases,
                       const std::vector<CaseRecord>& records, const Assessment& assessment);

@@ -30,10 +30,25 @@ StudySettings read_settings(const sim::TableReader& table) {
     for (const sim::Member& member : set->table()->members)
       settings.overrides.push_back(member.key + "=" + toml_text(member.node));
   }
-  if (const sim::Node* threads = table.find("threads"))
-    settings.threads = sim::read_integer(*threads, 1, kMostCaseThreads);
-  table.may("prepare", settings.prepare, read_texts);
+  table.read("threads", settings.threads);
+  table.read("prepare", settings.prepare, read_texts);
   return settings;
+}
+
+sim::KeyTable with_settings(std::string_view name, std::vector<sim::Key> keys) {
+  keys.push_back({"set",
+                  {sim::form::Map{"path of a value", {{sim::form::Anything{}}}}},
+                  sim::kNone,
+                  "values that it changes, as `articular run --set PATH=VALUE`"});
+  keys.push_back({"threads",
+                  {sim::form::Integer{1, kMostCaseThreads}},
+                  sim::otherwise("1"),
+                  "as of `articular run`"});
+  keys.push_back({"prepare",
+                  {sim::list_of({sim::form::Text{"text"}})},
+                  sim::kNone,
+                  "arguments of an `articular` command that makes meshes"});
+  return {name, std::move(keys)};
 }
 
 std::string toml_text(const sim::Node& node) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/scenario/toml_reader.hpp"
@@ -21,6 +22,9 @@ StudySettings operator+(StudySettings settings, const StudySettings& more);
 
 /// `set`, `threads` and `prepare` of a table.
 StudySettings read_settings(const sim::TableReader& table);
+
+/// A table's own keys, and those that read_settings() reads.
+sim::KeyTable with_settings(std::string_view name, std::vector<sim::Key> keys);
 
 /// A value as TOML writes it, so that an override reads the same again.
 std::string toml_text(const sim::Node& node);

@@ -192,22 +192,25 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"RelaxationOfALinearLaw",
                 material("young_modulus = \"1 Pa\", poisson_ratio = 0.3, @relaxation = "
                          "[{ weight = 0.3, time = \"1 s\" }]"),
-                "material: `relaxation` does not belong here: the law is \"linear\", whose stress "
-                "does not "
-                "turn with rotations"},
+                "material: `relaxation` does not belong here: the law is \"linear\""},
         Mistake{"RelaxationOfAllStress",
                 tissue("density = \"1 t/m^3\"\nmaterial = { law = \"corotated\", young_modulus = "
                        "\"1 Pa\", poisson_ratio = 0.3, relaxation = @[{ weight = 0.3, time = "
                        "\"1 s\" }, { weight = 0.8, time = \"2 s\" }] }\n"),
                 "`relaxation`: the weights sum up to 1.1, which must be below 1: nothing would "
                 "be left of the stress"},
+        Mistake{
+            "MisspeltLaw",
+            tissue("density = \"1 t/m^3\"\nmaterial = { @lw = \"linear\", poisson_ratio = 0 }\n"),
+            "material: unknown key `lw`; did you mean `law`?"},
         Mistake{"BetaOfAnotherLaw", law("st-venant-kirchhoff", kElastic + ", @beta = 2"),
                 "material: `beta` does not belong here: the law is \"st-venant-kirchhoff\""},
         Mistake{"BetaIsMissing", law("holmes-mow", kElastic, "@"), "material: `beta` is missing"},
-        Mistake{"HolmesMowThatSoftens",
-                law("holmes-mow", "young_modulus = \"1 Pa\", poisson_ratio = 0.4, beta = 1", "@"),
-                "material: Poisson's ratio is 0.4, must lie between 0 and 1/3 for a Holmes-Mow "
-                "solid: others soften in tension"},
+        Mistake{
+            "HolmesMowThatSoftens",
+            law("holmes-mow", "young_modulus = \"1 Pa\", poisson_ratio = @0.4, beta = 1"),
+            "Poisson's ratio of the law \"holmes-mow\" must lie between 0 and 1/3 (others soften "
+            "in tension), found 0.4"},
         Mistake{"VolumetricOfACoupledLaw",
                 law("coupled-neo-hookean", kElastic + ", @volumetric = \"logarithmic\""),
                 "material: `volumetric` does not belong here: the law is \"coupled-neo-hookean\""},
@@ -477,8 +480,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"GravityWithForce",
                 kStart + "[[load]]\nkind = \"gravity\"\nacceleration = \"0 0 -9.81 m/s^2\"\n@force "
                          "= \"0 0 1 N\"\n",
-                "[[load]] of kind \"gravity\": unknown key `force`; expected one of `kind`, "
-                "`acceleration`, `profile`"},
+                "[[load]] of kind \"gravity\": `force` does not belong here: the load is of kind "
+                "\"gravity\""},
         Mistake{"ForceOnFixed",
                 kStart + "[[load]]\nkind = \"force\"\nbody = @\"skull\"\npoint = \"0 0 0 "
                          "m\"\nforce = \"0 0 1 N\"\n",

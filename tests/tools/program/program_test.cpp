@@ -319,7 +319,7 @@ TEST(Program, SaysNothingThatATerminalObeys) {
   const ProgramResult result =
       run_shell(folder, R"sh("$articular" check "$(printf '\033[2Ja\001.toml')")sh");
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("[2Ja .toml: cannot read this file"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("[2Ja .toml: no such file"), std::string::npos) << result.err;
   EXPECT_EQ(result.err.find('\033'), std::string::npos);
 }
 
@@ -402,13 +402,24 @@ TEST(Program, RunThatCannotGoOnLeavesValidResults) {
   EXPECT_NE(content(folder / "out/scene.pvd").find("disc_000000.vtu"), std::string::npos);
 }
 
+TEST(Program, AnErrorOnATerminalShowsTheLineWithACaret) {
+  const TemporaryFolder folder;
+  folder.file("scene.toml", "duration = 5\n");
+  const ProgramResult terminal =
+      run_shell(folder, "script -qec '\"$articular\" check scene.toml' /dev/null");
+  EXPECT_NE(terminal.out.find("    1 | duration = 5\r\n      |            ^\r\n"),
+            std::string::npos)
+      << terminal.out;
+  EXPECT_EQ(run_program(folder, "check scene.toml").err.find('^'), std::string::npos);
+}
+
 TEST(Program, HelpNamesEverySubcommand) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(folder, "--help");
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
-  for (const char* command : {"run", "check", "explain", "render", "plot", "study", "verify",
-                              "collide", "mesh", "anatomy", "manual"}) {
+  for (const char* command : {"run", "scenarios", "keys", "check", "explain", "render", "plot",
+                              "study", "fit", "verify", "collide", "mesh", "anatomy", "manual"}) {
     EXPECT_NE(result.out.find(std::string("  ") + command + " "), std::string::npos) << command;
     const ProgramResult own = run_program(folder, std::string(command) + " --help");
     EXPECT_EQ(own.exit_code, 0) << command;

@@ -40,6 +40,28 @@ TEST(Study, WritesItsTableItsTextAndItsPicture) {
   EXPECT_NE(content(folder / "out/s/pareto.svg").find("Bars"), std::string::npos);
 }
 
+// Nothing says what is right.
+TEST(Study, WithoutReferenceItListsWhatCameOut) {
+  const TemporaryFolder folder;
+  folder.file("s.toml", kHead + kCells +
+                            "[[case]]\nname = 'broken'\nset = { "
+                            "'integrator.max_iterations' = 1, 'load.0.acceleration' = "
+                            "'0 0 -9e5 m/s^2', 'body.beam.material.law' = "
+                            "'neo-hookean' }\n" +
+                            kEnd);
+  const ProgramResult result = run_program(folder, "study s.toml");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "out/s/study.md\nout/s/study.csv\n");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/s/pareto.gnuplot"));
+  const std::string text = content(folder / "out/s/study.md");
+  EXPECT_NE(text.find("| Case | end [mm] | wall time [s] |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| cells = [2, 2, 10] | -102.4"), std::string::npos) << text;
+  EXPECT_NE(text.find("| broken | could not go on |"), std::string::npos) << text;
+  const std::string table = content(folder / "out/s/study.csv");
+  EXPECT_NE(table.find("memory [MB],end = end.position.z [mm]\n"), std::string::npos) << table;
+  EXPECT_EQ(count(table, "\n"), 5u);
+}
+
 // The file is as it was: nothing runs. One number in it is another: that case alone runs.
 TEST(Study, RunsAgainOnlyWhatIsMissing) {
   const TemporaryFolder folder;
@@ -173,10 +195,16 @@ INSTANTIATE_TEST_SUITE_P(
     All, StudyMistakes,
     testing::Values(
         StudyMistake{"NoOutput", kHead, "s.toml:1:1: study: `output` is missing"},
-        StudyMistake{"NoReference", kHead + kEnd,
-                     "s.toml:1:1: a study needs to know what is right; expected [[reference]] (one "
-                     "converged run, or three of different `size` to extrapolate from), or `exact` "
-                     "in every [[output]]"},
+        StudyMistake{
+            "ExactOfSomeOutputs",
+            kHead + kEnd + kExact + "[[output]]\ncolumn = 'end.position.x [mm]'\n",
+            "s.toml:1:1: what is right is known of some outputs only; expected "
+            "[[reference]] (one converged run, or three of different `size` to extrapolate "
+            "from), or `exact` in every [[output]], or in none"},
+        StudyMistake{
+            "HistoryOfASweep", kHead + kEnd + "value = 'history'\n",
+            "s.toml:3:1: `output[0]`: a `scale`, or the difference from a history, needs a "
+            "[[reference]], and the study has none"},
         StudyMistake{"UnknownPath",
                      kHead + "[[case]]\nname = 'a'\nset = { duratoin = '1 s' }\n" + kEnd + kExact,
                      "--set duratoin=\"1 s\": scenario: unknown key `duratoin`; did you mean "

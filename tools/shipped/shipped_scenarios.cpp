@@ -1,0 +1,122 @@
+#include "tools/shipped/shipped_scenarios.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "sim/base/message_text.hpp"
+#include "sim/scenario/toml_document.hpp"
+#include "tools/process/this_program.hpp"
+
+namespace articular::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kVariable = "ARTICULAR_SCENARIOS";
+
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+/// Names of all TOML files in the folder, sorted.
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->path().extension() == ".toml")
+      names.push_back(entry->path().lexically_relative(folder).replace_extension().string());
+  if (error)
+    throw sim::InputError({folder.string()}, "the folder can't be read: " + error.message());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string text_of(const sim::Node& document, std::string_view key, std::string_view otherwise) {
+  const sim::Node* node = document.find(key);
+  return node != nullptr && node->text() != nullptr ? *node->text() : std::string(otherwise);
+}
+
+/// "mandible/opening" for what users may write for it: `opening`,
+/// `scenarios/mandible/opening.toml`.
+std::string nearest_shipped(const fs::path& given, const std::vector<std::string>& names) {
+  const fs::path bare = given.extension() == ".toml" ? fs::path(given).replace_extension() : given;
+  const std::string folder_and_name = (bare.parent_path().filename() / bare.filename()).string();
+  for (const std::string& name : names)
+    if (name == folder_and_name) return name;
+  for (const std::string& name : names)
+    if (fs::path(name).filename() == bare.filename()) return name;
+  return sim::nearest_name(folder_and_name, names);
+}
+
+/// Where the shipped scenarios may lie, in the order that counts.
+std::vector<fs::path> candidates() {
+  const char* variable = std::getenv(kVariable);
+  if (variable != nullptr && *variable != '\0') return {variable};
+  return {(this_program().parent_path() / "../share/articular/scenarios").lexically_normal(),
+          ARTICULAR_SOURCE_SCENARIOS};
+}
+
+/// The first candidate that is a folder, or nothing.
+std::optional<fs::path> existing_folder() {
+  for (const fs::path& folder : candidates())
+    if (is_folder(folder)) return folder;
+  return std::nullopt;
+}
+
+}  // namespace
+
+fs::path shipped_folder() {
+  if (const auto folder = existing_folder()) return *folder;
+  std::string places;
+  for (const fs::path& folder : candidates())
+    places += (places.empty() ? "" : " or ") + sim::in_ticks(folder.string());
+  throw sim::InputError(
+      fmt::format("expected the shipped scenarios in {}, found no such folder; "
+                  "the environment variable {} can name another",
+                  places, kVariable));
+}
+
+std::vector<ShippedScenario> shipped_scenarios() {
+  const fs::path folder = shipped_folder();
+  std::vector<ShippedScenario> scenarios;
+  for (const std::string& name : names_in(folder)) {
+    const sim::Node document = sim::read_toml(folder / (name + ".toml"));
+    const bool is_study = document.find("scenario") != nullptr;
+    const bool is_fit = is_study && document.find("parameter") != nullptr;
+    if (!is_study && document.find("duration") == nullptr) continue;
+    scenarios.push_back({name,
+                         is_fit     ? "fit"
+                         : is_study ? "study"
+                                    : text_of(document, "analysis", "dynamic"),
+                         text_of(document, "title", name)});
+  }
+  return scenarios;
+}
+
+std::optional<fs::path> shipped_file(const fs::path& name) {
+  const auto folder = existing_folder();
+  if (!folder) return std::nullopt;
+  const std::vector<std::string> names = names_in(*folder);
+  if (!std::binary_search(names.begin(), names.end(), name.string())) return std::nullopt;
+  return *folder / (name.string() + ".toml");
+}
+
+fs::path find_scenario(const fs::path& given) {
+  std::error_code error;
+  if (fs::exists(given, error) && !is_folder(given)) return given;
+  if (const auto shipped = shipped_file(given)) return *shipped;
+  const sim::Location where{sim::one_line(given.string())};
+  if (is_folder(given)) throw sim::InputError(where, "expected a scenario file, found a folder");
+  const auto folder = existing_folder();
+  const std::string near = folder ? nearest_shipped(given, names_in(*folder)) : "";
+  throw sim::InputError(
+      where, fmt::format("no such file, and no scenario of this name is shipped; {}",
+                         near.empty() ? "`articular scenarios` lists those that are"
+                                      : fmt::format("did you mean {}?", sim::in_ticks(near))));
+}
+
+}  // namespace articular::tools

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The scenarios and studies that come with the program, each known by its path in their folder:
+/// "mandible/opening" is mandible/opening.toml.
+namespace articular::tools {
+
+/// Where they lie: the environment variable ARTICULAR_SCENARIOS, else share/articular/scenarios
+/// beside the program's bin, else the folder of the source tree that the program was built from.
+/// @throws sim::InputError  if none of these is a folder
+std::filesystem::path shipped_folder();
+
+struct ShippedScenario {
+  std::string name;   // "mandible/opening"
+  std::string kind;   // "dynamic", "static", "study" or "fit"
+  std::string title;  // the name if it has none
+};
+
+/// All of them by name; other TOML files in the folder are left out.
+/// @throws sim::InputError  if one is no valid TOML
+std::vector<ShippedScenario> shipped_scenarios();
+
+/// The file of a shipped scenario, or nothing if none has this name.
+std::optional<std::filesystem::path> shipped_file(const std::filesystem::path& name);
+
+/// The file that a user means: `given` if that is a file, else the shipped scenario of that name.
+/// @throws sim::InputError  if there is neither; suggests the nearest name
+std::filesystem::path find_scenario(const std::filesystem::path& given);
+
+}  // namespace articular::tools
