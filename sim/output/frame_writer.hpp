@@ -81,7 +81,7 @@ class FrameWriter {
   /// All published frames outlast a power cut from now on. @throws SystemError
   void sync();
   /// Of the .pvd; at least one frame has been finished.
-  const FileExtent& series() const { return series_.value().extent(); }
+  FileExtent series() const { return series_ ? series_->extent() : FileExtent{}; }
 
  private:
   /// @param part  its name in the .pvd  @param name  of the file, without number and ending

@@ -50,6 +50,7 @@ OutputSize estimated_output(const Scenario& scenario, const Model& model) {
     size.frame_bytes += bytes_of(body, model, scenario.output.contact_surfaces);
   if (!model.lines.empty())
     size.frame_bytes += kFile + kLine * static_cast<double>(model.lines.size());
+  if (!scenario.output.frames) size.frame_bytes = 0;
   double columns = 1;
   for (const ProbeModel& probe : model.probes)
     columns += static_cast<double>(column_names(probe, scenario.output.length_unit).size());

@@ -204,10 +204,12 @@ class Run {
 
   void output_frame() {
     const Stopwatch watch(output_seconds_);
-    write_frame(model_, stepper_, scenario_.output.contact_surfaces, state_.frames, state_.t,
-                writer_);
+    if (scenario_.output.frames) {
+      write_frame(model_, stepper_, scenario_.output.contact_surfaces, state_.frames, state_.t,
+                  writer_);
+      ++state_.frames;
+    }
     write_tables();
-    ++state_.frames;
   }
 
   void write_tables() {

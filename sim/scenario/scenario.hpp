@@ -401,6 +401,7 @@ struct Output {
   double interval = 10e-3;  // [s] between frames; of a static analysis the load step unless given
   LengthUnit length_unit;
   std::optional<std::filesystem::path> directory;
+  bool frames = true;             // else the tables and the summary alone
   bool contact_surfaces = false;  // a file of its own for the surface that each body touches with
   std::optional<double> checkpoint_interval;  // [s]; none: see run.cpp
   std::vector<std::string> directions;        // words for +x, +y, +z, for pictures; empty: none

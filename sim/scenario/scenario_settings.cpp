@@ -123,6 +123,7 @@ void read_output(const Node& node, Output& output) {
   table.read("interval", output.interval);
   table.read("length_unit", output.length_unit, read_length_unit);
   table.read("directory", output.directory, read_directory);
+  table.read("frames", output.frames);
   table.read("contact_surfaces", output.contact_surfaces);
   table.read("checkpoint_interval", output.checkpoint_interval);
   table.read("directions", output.directions, read_directions);
@@ -238,6 +239,10 @@ const KeyTable& output_keys() {
         {form::Text{"path"}},
         kNone,
         "where results go, within the working folder; `--out` takes any folder"},
+       {"frames",
+        {form::Boolean{}},
+        standard(true),
+        "writes meshes and fields over time; `false`: the history and the summary alone"},
        {"contact_surfaces",
         {form::Boolean{}},
         standard(false),
@@ -329,6 +334,7 @@ std::string settings_as_json(const Scenario& scenario) {
       {"tree", scenario.detection.tree == Detection::Tree::Buckets ? "buckets" : "blocks"}};
   json["output"] = {{"interval_s", output.interval},
                     {"length_unit", output.length_unit.name},
+                    {"frames", output.frames},
                     {"contact_surfaces", output.contact_surfaces}};
   if (output.directory) json["output"]["directory"] = output.directory->string();
   if (output.checkpoint_interval)

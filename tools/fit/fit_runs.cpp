@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "sim/base/error.hpp"
 #include "tools/fit/fit_values.hpp"
 #include "tools/fit/parameter_text.hpp"
 
@@ -26,6 +27,7 @@ StudyCase case_of(const Fit& fit, const FitRun& run, const FitTrial& trial) {
   c.name = fit.runs.size() == 1 ? trial.name : trial.name + ", " + run.name;
   c.settings = run.settings;
   c.settings.overrides = overrides_of(fit, run, trial.parameters);
+  c.settings.overrides.emplace_back("output.frames=false");  // hundreds of runs of which rows count
   c.folder = fmt::format("{:016x}", std::hash<std::string>{}(joined(c.settings.overrides)));
   return c;
 }
@@ -47,9 +49,17 @@ class FitCases {
   std::vector<StudyCase> cases_;
 };
 
+/// Why a run gave no values. What is no question of the parameters (bad input, a full disk, a bug)
+/// ends the fit.
 std::string failure_of(const StudyCase& c, const CaseRecord& record) {
-  return fmt::format("{}: {}{}{}", c.name, record.outcome(), record.message.empty() ? "" : ": ",
-                     record.message);
+  constexpr int kBadInput = 2, kCannotGoOn = 3;
+  const std::string why = fmt::format("{}: {}{}{}", c.name, record.outcome(),
+                                      record.message.empty() ? "" : ": ", record.message);
+  const ProgramUse& use = record.runs.back();
+  if (use.end == ProgramUse::End::TimeLimit) return why;
+  if (use.end == ProgramUse::End::Exited && use.code == kCannotGoOn) return why;
+  if (use.end == ProgramUse::End::Exited && use.code == kBadInput) throw sim::InputError(why);
+  throw sim::SystemError(why);
 }
 
 }  // namespace

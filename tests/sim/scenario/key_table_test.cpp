@@ -28,7 +28,7 @@ choice = { disc = "tissue" }
 curve = { ramp = { time = ["0 s", "1 s"], value = [0, 1] } }
 integrator = { step = "1 ms", scheme = "tr-bdf2", position_tolerance = "1 um", max_iterations = 9, solver = "auto" }
 detection = { tree = "blocks" }
-output = { interval = "10 ms", length_unit = "mm", directory = "o", contact_surfaces = true, checkpoint_interval = "1 s", directions = ["left", "posterior", "superior"] }
+output = { interval = "10 ms", length_unit = "mm", directory = "o", frames = true, contact_surfaces = true, checkpoint_interval = "1 s", directions = ["left", "posterior", "superior"] }
 [[body]]
 name = "skull"
 kind = "fixed"

@@ -92,10 +92,14 @@ TEST(Fit, SaysThatItDidNotConverge) {
 
 TEST(Fit, AScenarioThatDoesNotRunIsAnErrorWithTheReason) {
   const TemporaryFolder folder;
-  folder.file("f.toml", kHead + "time_limit = '1 us'\n" + kModulus + sag("sag", -2.6));
+  folder.file("f.toml", kHead +
+                            "[[run]]\nname = 'apart'\nset = { 'integrator.max_iterations' = 1, "
+                            "'load.0.acceleration' = '0 0 -9e5 m/s^2', "
+                            "'body.beam.material.law' = 'neo-hookean' }\n" +
+                            kModulus + sag("sag", -2.6));
   const ProgramResult result = run_program(folder, "fit f.toml");
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_NE(result.err.find("does not run with these parameters: start: time limit"),
+  EXPECT_NE(result.err.find("does not run with these parameters: start: could not go on"),
             std::string::npos)
       << result.err;
 }
@@ -108,6 +112,20 @@ TEST(Fit, AMistypedColumnEndsItAtTheFirstRun) {
   const ProgramResult result = run_program(folder, "fit f.toml");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("did you mean `end.position.x [mm]`"), std::string::npos) << result.err;
+}
+
+// What a fit asks of its runs.
+TEST(Frames, CanBeLeftOut) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(
+      folder, "run '" ARTICULAR_SOURCE_DIR
+              "/scenarios/verification/hanging_beam.toml' --set analysis=static "
+              "--set output.frames=false --set duration='1 s' --set integrator.step='1 s' --out o "
+              "--quiet");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "o/history.csv\no/summary.json\n");
+  EXPECT_FALSE(std::filesystem::exists(folder / "o/hanging_beam.pvd"));
+  EXPECT_NE(content(folder / "o/history.csv").find("\n1,"), std::string::npos);
 }
 
 TEST(OverrideFiles, LinesStandForOverridesAndMistakesHaveTheirLine) {

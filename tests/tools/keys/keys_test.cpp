@@ -49,10 +49,12 @@ TEST(Schema, TakesAllShippedFiles) {
       validate(folder, "scenario.schema.json",
                "$(find " + all + " -name '*.toml' | xargs grep -L '^scenario *=' )");
   EXPECT_EQ(scenarios.exit_code, 0) << scenarios.out << scenarios.err;
-  const ProgramResult studies =
-      validate(folder, "study.schema.json",
-               "$(find " + all + " -name '*.toml' | xargs grep -l '^scenario *=')");
+  const ProgramResult studies = validate(
+      folder, "study.schema.json",
+      "$(grep -L 'parameter' $(find " + all + " -name '*.toml' | xargs grep -l '^scenario *='))");
   EXPECT_EQ(studies.exit_code, 0) << studies.out << studies.err;
+  const ProgramResult fits = validate(folder, "fit.schema.json", all + "/knee/laxity-fit.toml");
+  EXPECT_EQ(fits.exit_code, 0) << fits.out << fits.err;
 }
 
 TEST(Schema, RefusesWhatTheTablesRefuse) {
