@@ -80,7 +80,7 @@ class FrameWriter {
 
   /// All published frames outlast a power cut from now on. @throws SystemError
   void sync();
-  /// Of the .pvd; at least one frame has been finished.
+  /// Of the .pvd; of nothing before the first frame.
   FileExtent series() const { return series_ ? series_->extent() : FileExtent{}; }
 
  private:
