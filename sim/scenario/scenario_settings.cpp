@@ -71,11 +71,10 @@ std::filesystem::path read_directory(const Node& node) {
 
 /// Of a body: sides, depth, height, and the sign of left, posterior, superior. Medial is left or
 /// right, by what is modelled.
-enum Across { kSide, kDepth, kHeight };
-constexpr int kAnySide = 0;
+constexpr int kSide = 0, kDepth = 1, kHeight = 2, kAnySide = 0;
 struct BodyDirection {
   std::string_view word;
-  Across axis;
+  int axis;
   int sign;
 };
 constexpr BodyDirection kDirections[] = {{"left", kSide, 1},          {"right", kSide, -1},
