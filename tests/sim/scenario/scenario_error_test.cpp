@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "`choice`: expected a table [choice] of words, found \"rigid\""},
         Mistake{"WhenOfATable", kStart + "[output]\n@when = { disc = \"rigid\" }\n",
                 "[output]: unknown key `when`; expected one of `interval`, `length_unit`, "
-                "`directory`, `contact_surfaces`, `checkpoint_interval`, `directions`"},
+                "`directory`, `frames`, `contact_surfaces`, `checkpoint_interval`, `directions`"},
         Mistake{"TwoDirectionsToASide",
                 kStart + "[output]\ndirections = @[\"left\", \"medial\", \"superior\"]\n",
                 "`directions`: expected one direction to a side, one to the front or back, and one "
