@@ -343,7 +343,8 @@ TEST_F(ProbeFile, WhatSharesAndJointsCannotBeIsRefused) {
              "distal = { body = \"skull\", point = \"0 0 0 m\", lateral = [1, 0, 0], "
              "up = [0, 0, 1] }\n",
          "a joint needs two bodies");
-  expect("kind = \"joint\"\nmirror = \"x\"\nside = \"right\"\n" + skull, "not mirrored");
+  expect("kind = \"joint\"\nmirror = \"x\"\nside = \"right\"\n" + skull,
+         "`mirror` does not belong here");
   expect("kind = \"energy\"\nregion = {}\n", "the probe is of kind \"energy\"");
 }
 
