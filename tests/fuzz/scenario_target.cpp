@@ -10,6 +10,7 @@
 #include "sim/scenario/scenario.hpp"
 #include "tests/fuzz/input.hpp"
 #include "tests/fuzz/toml_mutator.hpp"
+#include "tools/fit/parameter_text.hpp"
 #include "tools/study/study_cases.hpp"
 
 using namespace articular;
@@ -62,6 +63,17 @@ void read_study_and_its_cases(std::string_view text) {
   });
 }
 
+void read_fit_and_its_start(std::string_view text) {
+  fuzz::read_or_refused([&] {
+    const tools::Fit fit = tools::read_fit(fuzz::as_file("fit.toml", text));
+    Eigen::VectorXd start(static_cast<Eigen::Index>(fit.parameters.size()));
+    for (Eigen::Index i = 0; i < start.size(); ++i)
+      start[i] = fit.parameters[static_cast<std::size_t>(i)].start;
+    static const std::filesystem::path scenario = fuzz::as_file("studied.toml", kStudied);
+    sim::read_scenario(scenario, tools::overrides_of(fit, fit.runs.front(), start));
+  });
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
@@ -72,7 +84,9 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = fuzz::as_text(data, size);
-  if (text.find("[[output]]") != std::string_view::npos)
+  if (text.find("[[measurement]]") != std::string_view::npos)
+    read_fit_and_its_start(text);
+  else if (text.find("[[output]]") != std::string_view::npos)
     read_study_and_its_cases(text);
   else
     fuzz::read_or_refused(

@@ -32,7 +32,7 @@ TEST(ParameterText, StandsInBracesWithASum) {
 }
 
 TEST(ParameterText, NamesAreFoundInBracesAlone) {
-  EXPECT_EQ(names_in_braces("{ a } {b_2 - 1e-3} { \"c\" = 1 } {d e} {3}"),
+  EXPECT_EQ(names_in_braces("{ a } {b_2 - 1e-3} { \"c\" = 1 } {d e} {3} {f -} {g + -2} {h"),
             (std::vector<std::string>{"a", "b_2"}));
 }
 
