@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fem/material/blemker_muscle.hpp"
 #include "sim/base/error.hpp"
 #include "tests/sim/support/probes.hpp"
 #include "tests/sim/support/scenario_file.hpp"
