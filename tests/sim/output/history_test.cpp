@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fem/material/blemker_muscle.hpp"
+#include "fem/material/any_material.hpp"
 #include "sim/base/error.hpp"
 #include "tests/sim/support/probes.hpp"
 #include "tests/sim/support/scenario_file.hpp"
