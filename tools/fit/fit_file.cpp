@@ -141,6 +141,7 @@ std::vector<FitRun> read_runs(const TableReader& document) {
 std::size_t read_run_name(const Node& node, const std::vector<FitRun>& runs) {
   const std::string name = sim::read_text(node);
   std::vector<std::string> names;
+  names.reserve(runs.size());
   for (const FitRun& run : runs) names.push_back(run.name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())

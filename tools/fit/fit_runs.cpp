@@ -53,8 +53,8 @@ class FitCases {
 /// ends the fit.
 std::string failure_of(const StudyCase& c, const CaseRecord& record) {
   constexpr int kBadInput = 2, kCannotGoOn = 3;
-  const std::string why = fmt::format("{}: {}{}{}", c.name, record.outcome(),
-                                      record.message.empty() ? "" : ": ", record.message);
+  std::string why = fmt::format("{}: {}{}{}", c.name, record.outcome(),
+                                record.message.empty() ? "" : ": ", record.message);
   const ProgramUse& use = record.runs.back();
   if (use.end == ProgramUse::End::TimeLimit) return why;
   if (use.end == ProgramUse::End::Exited && use.code == kCannotGoOn) return why;

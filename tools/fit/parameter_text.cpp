@@ -78,6 +78,7 @@ std::string override_of(const FitParameter& parameter, double value) {
 
 std::vector<std::string> parameter_names(const std::vector<FitParameter>& parameters) {
   std::vector<std::string> names;
+  names.reserve(parameters.size());
   for (const FitParameter& parameter : parameters) names.push_back(parameter.name);
   return names;
 }
