@@ -166,7 +166,7 @@ const KeyTable& measurement_keys() {
        {"column",
         {form::Either{{column, {sim::list_of(column)}}}},
         sim::kRequired,
-        "with its unit; of a list the length of the vector"},
+        "with its unit; of a list the sum"},
        {"at", {form::Quantity{sim::kTime, sim::kNotNegative}}, sim::kRequired, "when"},
        {"minus",
         {form::Quantity{sim::kTime, sim::kNotNegative}},
