@@ -299,8 +299,17 @@ NewtonEquations Dynamics::assemble(const SystemScale& scale, fem::Tangent tangen
   if (pressures.prediction != nullptr)
     for (std::size_t t = 0; t < moment_.tissues.size(); ++t)
       if (model_.tissues[t].elements.smoothed() != nullptr) find_pressure(t, pressures);
-  const fem::BlockMatrix& A = matrix_.assemble(moment_, scale, tangent);
-  return {A, matrix_.pressure_part(), matrix_.friction_coupling()};
+  return matrix_.assemble(moment_, scale, tangent);
+}
+
+NewtonEquations Dynamics::assemble_again(const GroupChanges& changes, const SystemScale& scale,
+                                         fem::Tangent tangent,
+                                         const PredictedPressures& pressures) {
+  {
+    const Stopwatch watch(times_.assembly);
+    if (matrix_.add(changes, scale.stiffness)) return matrix_.equations();
+  }
+  return assemble(scale, tangent, pressures);
 }
 
 std::vector<ContactSummary> Dynamics::contacts() const {

@@ -30,14 +30,6 @@ struct Conditions {
   PredictedPressures pressures = {};
 };
 
-/// What Newton's iteration solves: A with what pressures and friction add to it. Valid until the
-/// next assembly.
-struct NewtonEquations {
-  const fem::BlockMatrix& A;  // over the unknown blocks
-  fem::PressurePart pressure;
-  const FrictionCoupling& friction;
-};
-
 /// Computes moments and their matrices. Holds what contact remembers from one to the next.
 class Dynamics {
  public:
@@ -73,6 +65,10 @@ class Dynamics {
   /// @param pressures  what now() has from then on, if any
   NewtonEquations assemble(const SystemScale& scale, fem::Tangent tangent,
                            const PredictedPressures& pressures = {});
+  /// The last of these with changes of contact, or a new one where its pattern lacks a coupling.
+  /// now() must be where that was, or these arguments those that it had.
+  NewtonEquations assemble_again(const GroupChanges& changes, const SystemScale& scale,
+                                 fem::Tangent tangent, const PredictedPressures& pressures = {});
   const NewtonMatrix& matrix() const { return matrix_; }
 
   DynamicsTimes& times() { return times_; }

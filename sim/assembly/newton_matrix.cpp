@@ -1,6 +1,7 @@
 #include "sim/assembly/newton_matrix.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "fem/element/smoothed_elasticity.hpp"
 #include "sim/lines/wrapped_stiffness.hpp"
@@ -294,8 +295,8 @@ void NewtonMatrix::add_masses(const Configuration& now, const SystemScale& scale
   }
 }
 
-const fem::BlockMatrix& NewtonMatrix::assemble(const Moment& now, const SystemScale& scale,
-                                               fem::Tangent tangent) {
+NewtonEquations NewtonMatrix::assemble(const Moment& now, const SystemScale& scale,
+                                       fem::Tangent tangent) {
   couple_contacts(now);
   fem::BlockMatrix& common = smoothed_ ? plain_ : A_;
   common.set_zero();
@@ -319,7 +320,7 @@ const fem::BlockMatrix& NewtonMatrix::assemble(const Moment& now, const SystemSc
   pressure_terms_.clear();
   if (!smoothed_) {
     keep_free_part(model_, A_);
-    return A_;
+    return equations();
   }
   A_.set_zero();
   for (std::size_t s = 0; s < slot_of_plain_.size(); ++s)
@@ -327,11 +328,36 @@ const fem::BlockMatrix& NewtonMatrix::assemble(const Moment& now, const SystemSc
   for (std::size_t t = 0; t < tissues_.size(); ++t) add_smoothed(t, now, scale, tangent);
   keep_free_part(model_, A_);
   keep_free_part(model_, plain_);
-  return A_;
+  return equations();
 }
 
-fem::PressurePart NewtonMatrix::pressure_part() const {
-  return {pressure_terms_, smoothed_ ? &plain_ : nullptr};
+bool NewtonMatrix::add(const GroupChanges& changes, double stiffness) {
+  fem::BlockMatrix& common = smoothed_ ? plain_ : A_;
+  const auto blocks = [&](std::size_t k) {
+    const auto begin = static_cast<std::size_t>(changes.begin[k]);
+    return std::span<const int>(changes.block)
+        .subspan(begin, static_cast<std::size_t>(changes.begin[k + 1]) - begin);
+  };
+  for (std::size_t k = 0; k < changes.size(); ++k)
+    for (const int i : blocks(k))
+      for (const int j : blocks(k))
+        if (common.slot(i, j) < 0) return false;
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    const Vec3* const gradient = changes.gradient.data() + changes.begin[k];
+    const std::span<const int> around = blocks(k);
+    for (std::size_t i = 0; i < around.size(); ++i)
+      for (std::size_t j = 0; j < around.size(); ++j) {
+        const Mat3 K = stiffness * changes.stiffness[k] * gradient[i] * gradient[j].transpose();
+        const int slot = common.slot(around[i], around[j]);
+        common.block(slot) += K;
+        if (smoothed_) A_.block(slot_of_plain_[static_cast<std::size_t>(slot)]) += K;
+      }
+  }
+  return true;
+}
+
+NewtonEquations NewtonMatrix::equations() const {
+  return {A_, {pressure_terms_, smoothed_ ? &plain_ : nullptr}, friction_};
 }
 
 }  // namespace articular::sim

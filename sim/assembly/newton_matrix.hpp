@@ -6,11 +6,20 @@
 
 #include "fem/solver/linear_solver.hpp"
 #include "sim/assembly/moment.hpp"
+#include "sim/contact/contact_forecast.hpp"
 #include "sim/contact/contact_stencils.hpp"
 #include "sim/contact/contact_stiffness.hpp"
 #include "sim/model/system_matrix.hpp"
 
 namespace articular::sim {
+
+/// What Newton's iteration solves: A with what pressures and friction add to it. Valid until the
+/// next assembly.
+struct NewtonEquations {
+  const fem::BlockMatrix& A;   // over the unknown blocks
+  fem::PressurePart pressure;  // of smoothed tissues, which couple all of their nodes
+  const FrictionCoupling& friction;
+};
 
 /// The matrix of Newton's iteration over the unknown blocks: mass, damping and stiffness of
 /// everything in the scene.
@@ -25,16 +34,15 @@ class NewtonMatrix {
   void forget();
   std::uint64_t pattern_id() const { return A_.pattern_id(); }
 
-  const fem::BlockMatrix& assemble(const Moment& now, const SystemScale& scale,
-                                   fem::Tangent tangent);
+  NewtonEquations assemble(const Moment& now, const SystemScale& scale, fem::Tangent tangent);
+  /// The last equations. They refer to this object.
+  NewtonEquations equations() const;
+  /// The last matrix with these changes of contact.
+  /// @return false where its pattern lacks a coupling, and nothing was added: assemble it anew
+  [[nodiscard]] bool add(const GroupChanges& changes, double stiffness);
   /// Of stiffness and inertia.
   const EvaluationCounts& evaluations() const { return evaluations_; }
-  /// What friction adds to that matrix.
-  const FrictionCoupling& friction_coupling() const { return friction_; }
-  /// What smoothed tissues add to that matrix: pressures that couple all of their nodes. Refers to
-  /// this object.
-  fem::PressurePart pressure_part() const;
-  /// Whether there are any.
+  /// Whether there are tissues with pressures.
   bool has_pressures() const { return smoothed_; }
   /// ∂b/∂xᵀ of a smoothed tissue, by its nodes, where the last matrix was taken.
   const fem::PressureGradient& pressure_gradient(std::size_t tissue) const {

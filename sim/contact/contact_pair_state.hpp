@@ -40,10 +40,20 @@ struct ContactPairState {
   double measure_slope(int group) const {
     return pair.averaged && area[group] > 0 ? 0.5 * measure[group] / area[group] : 0;
   }
-  /// <λ + k g> [Pa]: the pressure without that of damping.
-  double penalty(int group) const {
+  /// λ + k g [Pa]: negative where surfaces are apart.
+  double linear_pressure(int group) const {
     const double lambda = multiplier.size() > 0 ? multiplier[group] : 0;
-    return std::max(0.0, lambda + stiffness(group) * depth[group]);
+    return lambda + stiffness(group) * depth[group];
+  }
+  /// <λ + k g> [Pa]: the pressure without that of damping.
+  double penalty(int group) const { return std::max(0.0, linear_pressure(group)); }
+  /// What Newton's matrix takes groups to do: what they do now, or what was foreseen of them.
+  enum class Foreseen : char { AsNow, Presses, IsOpen };
+  std::vector<Foreseen> foreseen;  // by group, see contact_forecast.hpp; empty: all as now
+  bool presses_in_matrix(int group) const {
+    const Foreseen there =
+        foreseen.empty() ? Foreseen::AsNow : foreseen[static_cast<std::size_t>(group)];
+    return there == Foreseen::AsNow ? pressure[group] > 0 : there == Foreseen::Presses;
   }
   /// Where depths are not averaged, k of each point [Pa/m]; then g and p above are but means.
   double point_stiffness = 0;

@@ -265,6 +265,10 @@ void ContactResponse::drop_friction_duals() {
   for (ContactPairState& pair_state : pair_states_) pair_state.friction_dual.resize(3, 0);
 }
 
+void ContactResponse::forget_foreseen() {
+  for (ContactPairState& pair_state : pair_states_) pair_state.foreseen.clear();
+}
+
 void ContactResponse::forget() {
   near_.clear();
   of_contact_.clear();

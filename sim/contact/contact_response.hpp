@@ -82,6 +82,10 @@ class ContactResponse {
 
   /// Those that have candidates, in the order of the contacts.
   std::span<const ContactPairState* const> pair_states() const { return near_; }
+  /// For what is foreseen of them.
+  std::span<ContactPairState* const> pair_states() { return near_; }
+  /// From the next matrix on, groups do what they do now.
+  void forget_foreseen();
 
   /// f += contact forces (block forces).
   void add_force(const Configuration& configuration, Eigen::VectorXd& f);

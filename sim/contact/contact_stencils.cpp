@@ -66,7 +66,7 @@ bool lacks_average(const Model& model, const ContactPairState& pair_state,
   for (const int a : pair_state.groups) of_group(a).clear();
   for (const ContactPairState::Patch& entry : pair_state.patches())
     for (const int a : side.triangles.groups.col(entry.triangle))
-      if (pair_state.pressure[a] > 0)
+      if (pair_state.pressure[a] > 0 || pair_state.presses_in_matrix(a))
         for (const NodeRef* node : nodes_of(side.triangles, side.faces, entry.triangle, entry.face))
           append_blocks(model, *node, of_group(a));
   return std::any_of(pair_state.groups.begin(), pair_state.groups.end(), [&](int a) {

@@ -1,24 +1,10 @@
 #include "sim/contact/contact_stiffness.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace articular::sim {
-namespace {
 
-/// 1 at the corner of the triangle that belongs to the group, 0 at the others.
-Vec3 corner_of_group(const Eigen::Matrix3Xi& groups, int triangle, int group) {
-  Eigen::Index corner = 0;
-  while (groups(corner, triangle) != group) ++corner;
-  return Vec3::Unit(corner);
-}
-
-}  // namespace
-
-ContactStiffness::ContactStiffness(const Model& model) : model_(model) {
-  gradient_.setZero(3, model.num_blocks);
-  has_gradient_.assign(static_cast<std::size_t>(model.num_blocks), 0);
-}
+ContactStiffness::ContactStiffness(const Model& model) : model_(model), gradient_(model) {}
 
 void ContactStiffness::add(const ContactPairState& pair_state, const Configuration& configuration,
                            fem::Tangent tangent, const SystemScale& scale, fem::BlockMatrix& A,
@@ -50,67 +36,17 @@ void ContactStiffness::add(const ContactPairState& pair_state, const Configurati
   }
 }
 
-/// The patches of group i become patch_of_group_[patch_begin_[i] .. patch_begin_[i + 1]).
-void ContactStiffness::find_patches_of_groups(const ContactPairState& pair_state) {
-  const ContactSides side = sides_of(model_, pair_state);
-  const auto& groups = side.triangles.groups;
-  patch_begin_.assign(side.triangles.group_node.size() + 2, 0);
-  for (const ContactPairState::Patch& entry : pair_state.patches())
-    for (const int group : groups.col(entry.triangle))
-      ++patch_begin_[static_cast<std::size_t>(group) + 2];
-  for (std::size_t i = 1; i < patch_begin_.size(); ++i) patch_begin_[i] += patch_begin_[i - 1];
-  patch_of_group_.resize(3 * pair_state.num_patches);
-  for (std::size_t e = 0; e < pair_state.num_patches; ++e)
-    for (const int group : groups.col(pair_state.stored[e].triangle))
-      patch_of_group_[static_cast<std::size_t>(
-          patch_begin_[static_cast<std::size_t>(group) + 1]++)] = static_cast<int>(e);
-}
-
-/// gradient_ becomes the sum of gradient(entry) over the patches of these numbers, by blocks_.
-template <class Gradient>
-void ContactStiffness::gather(const ContactPairState& pair_state, std::span<const int> patches,
-                              const Configuration& configuration, Gradient&& gradient) {
-  const ContactSides side = sides_of(model_, pair_state);
-  const auto add = [&](const NodeRef& node, const Vec3& g) {
-    if (node.rigid >= model_.layout.num_rigid) return;
-    const auto put = [&](int block, const Vec3& part) {
-      if (has_gradient_[static_cast<std::size_t>(block)] == 0) {
-        has_gradient_[static_cast<std::size_t>(block)] = 1;
-        blocks_.push_back(block);
-      }
-      gradient_.col(block) += part;
-    };
-    put(node.block, g);
-    if (node.rigid >= 0) put(node.block + 1, configuration.lever(node).cross(g));
-  };
-  for (const int patch : patches) {
-    const ContactPairState::Patch& entry = pair_state.stored[static_cast<std::size_t>(patch)];
-    const Vec18 g = gradient(entry);
-    const auto nodes = nodes_of(side.triangles, side.faces, entry.triangle, entry.face);
-    for (std::size_t i = 0; i < 6; ++i)
-      add(*nodes[i], g.segment<3>(3 * static_cast<Eigen::Index>(i)));
-  }
-}
-
-void ContactStiffness::drop_gathered() {
-  for (const int block : blocks_) {
-    gradient_.col(block).setZero();
-    has_gradient_[static_cast<std::size_t>(block)] = 0;
-  }
-  blocks_.clear();
-}
-
 /// A += factor g gᵀ, where g sums gradient(entry) over the patches of these numbers.
 template <class Gradient>
 void ContactStiffness::add_rank_one(const ContactPairState& pair_state,
                                     std::span<const int> patches,
                                     const Configuration& configuration, double factor,
                                     Gradient&& gradient, fem::BlockMatrix& A) {
-  gather(pair_state, patches, configuration, gradient);
-  for (const int i : blocks_)
-    for (const int j : blocks_)
-      A.block(A.slot(i, j)) += factor * gradient_.col(i) * gradient_.col(j).transpose();
-  drop_gathered();
+  gradient_.gather(pair_state, patches, configuration, gradient);
+  for (const int i : gradient_.blocks())
+    for (const int j : gradient_.blocks())
+      A.block(A.slot(i, j)) += factor * gradient_.at(i) * gradient_.at(j).transpose();
+  gradient_.clear();
 }
 
 /// One group's columns: `drag` of S, factor times `depth` of G, summed over the patches.
@@ -120,13 +56,14 @@ void ContactStiffness::add_coupling(const ContactPairState& pair_state,
                                     const Configuration& configuration, double factor, Drag&& drag,
                                     Depth&& depth, FrictionCoupling& coupling) {
   coupled_.clear();
-  gather(pair_state, patches, configuration, drag);
-  for (const int block : blocks_) coupled_.push_back({block, gradient_.col(block), Vec3::Zero()});
-  drop_gathered();
-  gather(pair_state, patches, configuration, depth);  // of the same blocks
+  gradient_.gather(pair_state, patches, configuration, drag);
+  for (const int block : gradient_.blocks())
+    coupled_.push_back({block, gradient_.at(block), Vec3::Zero()});
+  gradient_.clear();
+  gradient_.gather(pair_state, patches, configuration, depth);  // of the same blocks
   for (FrictionCoupling::Entry& entry : coupled_)
-    entry.pressure = factor * gradient_.col(entry.block);
-  drop_gathered();
+    entry.pressure = factor * gradient_.at(entry.block);
+  gradient_.clear();
   coupling.add_group(coupled_);
 }
 
@@ -162,13 +99,11 @@ void ContactStiffness::add_node_stiffness(const ContactPairState& pair_state,
                                           FrictionCoupling& coupling) {
   const bool averaged = !(pair_state.point_stiffness > 0);
   if (!averaged && pair_state.drag.empty()) return;
-  find_patches_of_groups(pair_state);
+  patches_.find(model_, pair_state);
   const auto& groups = sides_of(model_, pair_state).triangles.groups;
   for (const int a : pair_state.groups) {
-    if (!(pair_state.pressure[a] > 0)) continue;
-    const auto begin = static_cast<std::size_t>(patch_begin_[static_cast<std::size_t>(a)]);
-    const auto end = static_cast<std::size_t>(patch_begin_[static_cast<std::size_t>(a) + 1]);
-    const std::span<const int> around(patch_of_group_.data() + begin, end - begin);
+    if (!pair_state.presses_in_matrix(a)) continue;
+    const std::span<const int> around = patches_.of(a);
     const auto of_depth = [&](const ContactPairState::Patch& entry) {
       return patch_gradient(entry.patch, mean_depths(pair_state, entry, groups,
                                                      corner_of_group(groups, entry.triangle, a)));

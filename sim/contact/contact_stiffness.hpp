@@ -5,6 +5,7 @@
 
 #include "sim/contact/contact_pair_state.hpp"
 #include "sim/contact/friction_coupling.hpp"
+#include "sim/contact/group_gradient.hpp"
 #include "sim/model/system_matrix.hpp"
 
 namespace articular::sim {
@@ -22,11 +23,6 @@ class ContactStiffness {
            FrictionCoupling& coupling);
 
  private:
-  void find_patches_of_groups(const ContactPairState& pair_state);
-  template <class Gradient>
-  void gather(const ContactPairState& pair_state, std::span<const int> patches,
-              const Configuration& configuration, Gradient&& gradient);
-  void drop_gathered();
   template <class Gradient>
   void add_rank_one(const ContactPairState& pair_state, std::span<const int> patches,
                     const Configuration& configuration, double factor, Gradient&& gradient,
@@ -43,13 +39,9 @@ class ContactStiffness {
                     FrictionCoupling& coupling);
 
   const Model& model_;
-  // Scratch: the patches of each group of the pair state, a gradient by blocks, and what couples
-  // one group.
-  std::vector<int> patch_begin_, patch_of_group_;
-  Positions gradient_;
-  std::vector<int> blocks_;
-  std::vector<char> has_gradient_;
-  std::vector<FrictionCoupling::Entry> coupled_;
+  PatchesOfGroups patches_;
+  GroupGradient gradient_;
+  std::vector<FrictionCoupling::Entry> coupled_;  // scratch: of one group
 };
 
 }  // namespace articular::sim

@@ -100,7 +100,14 @@ class Equilibrium::Solver {
   /// r at u; kept, as KINSOL asks again for what the line search has seen.
   const Eigen::VectorXd& residual_at(const Eigen::VectorXd& u);
   bool prepare(fem::Tangent tangent);
+  bool prepare(const NewtonEquations& equations);
   bool solve_linear();
+  [[nodiscard]] bool solve_for_correction();
+  [[nodiscard]] bool solve_downhill();
+  void make_way();
+  double slope_at(double part);
+  void correct_for(const GroupChanges& changes);
+  std::optional<double> find_correction();
   /// With the projected matrix where the consistent one turns out not to be positive definite: a
   /// factorization says so at once, iterations when they meet it.
   bool solve_by_either_tangent();
@@ -110,19 +117,21 @@ class Equilibrium::Solver {
   }
   double largest_displacement(const Eigen::VectorXd& u) const;
   const Eigen::VectorXd& searched_residual(double part);
-  double line_search(const Eigen::VectorXd& direction);
 
   const Model& model_;
   Dynamics& dynamics_;
   const int max_iterations_;
   std::unique_ptr<fem::LinearSolver> linear_;
-  Eigen::VectorXd start_, y_, u_, r_, before_, r_before_, trial_, rhs_, correction_, inertia_;
+  Eigen::VectorXd start_, y_, u_, r_, before_, r_before_, trial_, rhs_, correction_, first_,
+      inertia_;
   double t_ = 0, damping_ = 0;
+  double most_ = 1;                                  // that may be taken of correction_
   fem::Tangent tangent_ = fem::Tangent::Consistent;  // of the last matrix
   bool known_ = false;                               // r_ belongs to u_
   bool from_afar_ = false;                           // contact is stiff, and things may be far off
   int short_in_a_row_ = 0;                           // corrections of which little was taken
   std::optional<Supports> supports_;                 // where the last correction began
+  ContactForecast forecast_;
   PressurePrediction prediction_;
   PredictedPressures taken_;  // by the last correction
   Conditions conditions_;
@@ -140,6 +149,7 @@ Equilibrium::Solver::Solver(const Model& model, Dynamics& dynamics, const StepSe
       dynamics_(dynamics),
       max_iterations_(settings.max_iterations),
       linear_(make_linear_solver(model)),
+      forecast_(model),
       context_(sundials::make_context()) {
   const Eigen::Index n = 3 * model.layout.num_unknown_blocks();
   solution_ = sundials::make_vector(n, context_);
@@ -215,12 +225,15 @@ const Eigen::VectorXd& Equilibrium::Solver::searched_residual(double part) {
 
 bool Equilibrium::Solver::prepare(fem::Tangent tangent) {
   stop_if_asked();
-  const NewtonEquations equations = dynamics_.assemble({damping_, 0, 1}, tangent, taken_);
+  tangent_ = tangent;
+  if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
+  return prepare(dynamics_.assemble({damping_, 0, 1}, tangent, taken_));
+}
+
+bool Equilibrium::Solver::prepare(const NewtonEquations& equations) {
   stop_if_asked();
   const Stopwatch watch(seconds);
   ++counts.factorizations;
-  tangent_ = tangent;
-  if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
   return prepare_linear(*linear_, equations, dynamics_.now().configuration.x);
 }
 
@@ -261,46 +274,92 @@ double Equilibrium::Solver::largest_displacement(const Eigen::VectorXd& u) const
   return largest;
 }
 
-/// The part of a correction from before_ to take.
-double Equilibrium::Solver::line_search(const Eigen::VectorXd& direction) {
+/// correction_ from before_, with contact as it is foreseen.
+bool Equilibrium::Solver::solve_for_correction() {
+  rhs_ = -r_before_;
+  forecast_.add_force(dynamics_.contact(), dynamics_.now().configuration, rhs_);
+  keep_free_part(model_, rhs_);
+  if (!solve_by_either_tangent()) return false;
+  keep_free_part(model_, correction_);  // round-off out of what is held
+  return true;
+}
+
+/// Where contact that was foreseen leads uphill, it is taken as it is.
+bool Equilibrium::Solver::solve_downhill() {
+  if (!solve_for_correction()) return false;
+  if (correction_.dot(r_before_) < 0 || !forecast_.is_made(dynamics_.contact())) return true;
+  dynamics_.contact().forget_foreseen();
+  return prepare(tangent_) && solve_for_correction();
+}
+
+/// Pressures go along with correction_; a rigid body's becomes a rotation on top of where it is.
+void Equilibrium::Solver::make_way() {
+  prediction_.predict(dynamics_.now(), dynamics_.matrix(), correction_);
+  for (int r = 0; r < model_.layout.num_rigid; ++r) {
+    const int row = 3 * model_.rigid_bodies[static_cast<std::size_t>(r)].block + 3;
+    correction_.segment<3>(row) =
+        inverse_tangent_map(before_.segment<3>(row)) * correction_.segment<3>(row);
+  }
   // What can touch must not be carried through what it is to meet. Nothing else bounds a
   // correction: the search sees where the laws take it.
   const double trusted =
       model_.contacts.empty() ? std::numeric_limits<double>::infinity() : model_.trusted_motion;
-  const double motion = largest_displacement(direction);
-  const double most = motion > trusted ? trusted / motion : 1;
-  if (*cover_) (*cover_)(dynamics_.now().configuration, most * motion);
-  return searched_part(most, direction.dot(r_before_), [&](double part) {
-    trial_ = before_ + part * direction;
-    return direction.dot(searched_residual(part));
-  });
+  const double motion = largest_displacement(correction_);
+  most_ = motion > trusted ? trusted / motion : 1;
+  if (*cover_) (*cover_)(dynamics_.now().configuration, most_ * motion);
 }
 
-int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b,
+/// Of the energy along correction_, by the part of it.
+double Equilibrium::Solver::slope_at(double part) {
+  trial_ = before_ + part * correction_;
+  return correction_.dot(searched_residual(part));
+}
+
+/// correction_ with what it was foreseen to change of contact; as it was where that fails.
+void Equilibrium::Solver::correct_for(const GroupChanges& changes) {
+  first_ = correction_;
+  residual_at(before_);
+  const NewtonEquations equations =
+      dynamics_.assemble_again(changes, {damping_, 0, 1}, tangent_, taken_);
+  if (prepare(equations) && solve_for_correction() && correction_.dot(r_before_) < 0)
+    make_way();
+  else
+    correction_ = first_;
+}
+
+/// Makes correction_ from before_. @return the part of it to take; none where no matrix can be
+/// solved
+std::optional<double> Equilibrium::Solver::find_correction() {
+  if (!solve_downhill()) return std::nullopt;
+  const GroupChanges& changes =
+      forecast_.foresee(dynamics_.contact(), dynamics_.now().configuration, correction_);
+  make_way();
+  double slope = correction_.dot(r_before_), there = slope_at(most_);
+  if (changes.size() > 0 && is_far_uphill(slope, there)) {
+    correct_for(changes);
+    slope = correction_.dot(r_before_);
+    there = slope_at(most_);
+  }
+  return searched_part(most_, slope, there, [this](double part) { return slope_at(part); });
+}
+
+int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector,
                                  realtype) {
   auto& self = *static_cast<Solver*>(solver->content);
   return guarded(self.error_, [&] {
     ++self.counts.newton_iterations;
-    self.rhs_ = view(b);
     Supports supports(self.dynamics_.now());
-    if (!self.solve_by_either_tangent()) return 1;
-    keep_free_part(self.model_, self.correction_);  // round-off out of what is held
-    self.prediction_.predict(self.dynamics_.now(), self.dynamics_.matrix(), self.correction_);
-    // A rigid body's correction is a rotation on top of where it is.
-    for (int r = 0; r < self.model_.layout.num_rigid; ++r) {
-      const int row = 3 * self.model_.rigid_bodies[static_cast<std::size_t>(r)].block + 3;
-      self.correction_.segment<3>(row) =
-          inverse_tangent_map(self.u_.segment<3>(row)) * self.correction_.segment<3>(row);
-    }
     self.before_ = self.u_;
     self.r_before_ = self.r_;
     const double residual = self.largest(self.r_) / self.dynamics_.now().largest_force;
-    const double s = self.line_search(self.correction_);
-    self.taken_ = {&self.prediction_, s};
-    view(x) = s * self.correction_;
-    self.short_in_a_row_ = s <= kShort ? self.short_in_a_row_ + 1 : 0;
+    const std::optional<double> part = self.find_correction();
+    if (!part) return 1;
+    self.taken_ = {&self.prediction_, *part};
+    view(x) = *part * self.correction_;
+    self.short_in_a_row_ = *part <= kShort ? self.short_in_a_row_ + 1 : 0;
     if (self.from_afar_ && self.short_in_a_row_ == kMostShort) return 1;
-    self.iterations.push_back({residual, s * self.largest_displacement(self.correction_), s});
+    self.iterations.push_back(
+        {residual, *part * self.largest_displacement(self.correction_), *part});
     if (self.supports_) self.iterations.back().changes = supports.changes_since(*self.supports_);
     self.supports_ = std::move(supports);
     if (self.watch && self.watch(self.t_, self.iterations.back())) throw Interruption();
@@ -361,6 +420,7 @@ bool Equilibrium::Solver::balance(bool soft) {
   conditions_.contact.soft = soft;
   known_ = false;
   taken_ = {};
+  dynamics_.contact().forget_foreseen();
   const bool balanced = iterate(soft ? kAboutBalanced : kBalanced);
   conditions_.contact.soft = false;
   return balanced;

@@ -281,7 +281,7 @@ Eigen::VectorXd times(const fem::BlockMatrix& A, const Eigen::VectorXd& w) {
 
 /// What friction adds to a product with the last matrix.
 Eigen::VectorXd coupled(const Dynamics& dynamics, const Eigen::VectorXd& w) {
-  const FrictionCoupling& coupling = dynamics.matrix().friction_coupling();
+  const FrictionCoupling& coupling = dynamics.matrix().equations().friction;
   Eigen::VectorXd y = Eigen::VectorXd::Zero(w.size());
   coupling.add_drag(coupling.pressures(w), 1, y);
   return y;

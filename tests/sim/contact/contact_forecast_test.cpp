@@ -1,0 +1,187 @@
+// What a correction is foreseen to open and close, between two tissues whose meshes don't match.
+#include "sim/contact/contact_forecast.hpp"
+#include "sim/assembly/dynamics.hpp"
+#include "sim/build/build_model.hpp"
+#include "sim/contact/contact_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/sim/support/contact_scene.hpp"
+
+namespace articular::sim::contact_forecast_test {
+
+using Foreseen = ContactPairState::Foreseen;
+
+constexpr double kSide = 0.02;  // [m]
+
+/// A block on a wider one, all nodes displaced at random: around some nodes they touch, around
+/// others they are apart.
+struct UnevenBlocks {
+  UnevenBlocks()
+      : model(build_model(scenario())), search(model, {}), dynamics(model), forecast(model) {
+    Random random(1);
+    const int n = 3 * model.layout.num_free_nodes;
+    y = initial_state(model);
+    y.head(n) += 0.02 * kSide * random.vector(n);
+    Configuration configuration;
+    read_state(model, y.data(), 0, configuration);
+    search.find(configuration, 0.1 * kSide);
+    dynamics.set_candidates(search.candidates());
+    dynamics.evaluate(y.data(), 0);
+  }
+
+  static Scenario scenario() {
+    Scenario s = scene(1e-3);
+    s.analysis = Scenario::Analysis::Static;
+    s.contact = true;
+    s.bodies = {box_body("lower", Body::Kind::Tissue, {2 * kSide, 2 * kSide, kSide}, Vec3::Zero(),
+                         {5, 5, 1}),
+                box_body("upper", Body::Kind::Tissue, Vec3::Constant(kSide),
+                         Vec3(0.1, 0.07, 1.01) * kSide, {6, 6, 2})};
+    return s;
+  }
+
+  const ContactPairState& pair_state() { return *dynamics.contact().pair_states()[0]; }
+  const GroupChanges& foresee(const Eigen::VectorXd& correction) {
+    return forecast.foresee(dynamics.contact(), dynamics.now().configuration, correction);
+  }
+  void move(const Eigen::VectorXd& w, double part) {
+    Eigen::VectorXd there = y;
+    there.head(w.size()) += part * w;
+    dynamics.evaluate(there.data(), 0);
+  }
+  /// Of the upper block's way down by this.
+  Eigen::VectorXd down(double way) const {
+    Eigen::VectorXd w = Eigen::VectorXd::Zero(3 * model.layout.num_unknown_blocks());
+    for (const NodeRef& node : model.tissues[1].nodes) w[3 * node.block + 2] = -way;
+    return w;
+  }
+  /// ∂g/∂w of all groups, by central differences.
+  Eigen::VectorXd depth_rates(const Eigen::VectorXd& w) {
+    constexpr double kPart = 1e-6;
+    move(w, kPart);
+    Eigen::VectorXd rate = pair_state().depth;
+    move(w, -kPart);
+    rate -= pair_state().depth;
+    move(w, 0);
+    return rate / (2 * kPart);
+  }
+  Eigen::VectorXd random_way() const {
+    Random random(7);
+    return kSide * random.vector(3 * model.layout.num_unknown_blocks());
+  }
+
+  const Model model;
+  ContactSearch search;
+  Dynamics dynamics;
+  ContactForecast forecast;
+  Eigen::VectorXd y;
+};
+
+std::vector<bool> pressing(const ContactPairState& pair_state) {
+  std::vector<bool> result;
+  for (const double p : pair_state.pressure) result.push_back(p > 0);
+  return result;
+}
+
+// Most groups cross their kink, nearly all of them as foreseen: weights of what fades in are not
+// linear.
+TEST(ContactForecast, GroupsOpenAndCloseAsForeseen) {
+  UnevenBlocks blocks;
+  for (const double way : {0.01 * kSide, -0.02 * kSide}) {
+    blocks.move(blocks.y, 0);
+    const std::vector<bool> before = pressing(blocks.pair_state());
+    const std::vector<int> near = blocks.pair_state().groups;
+    blocks.foresee(blocks.down(way));
+    const std::vector<Foreseen> foreseen = blocks.pair_state().foreseen;
+    blocks.move(blocks.down(way), 1);
+    const std::vector<bool> after = pressing(blocks.pair_state());
+    int changed = 0, wrong = 0;
+    for (const int a : near) {
+      const auto g = static_cast<std::size_t>(a);
+      changed += before[g] != after[g] ? 1 : 0;
+      wrong += (foreseen[g] == Foreseen::Presses) != after[g] ? 1 : 0;
+    }
+    EXPECT_GT(changed, 10) << way;
+    EXPECT_LE(10 * wrong, changed) << way;
+    blocks.dynamics.contact().forget_foreseen();
+  }
+}
+
+TEST(ContactForecast, WhatIsForeseenAgainIsNoChange) {
+  UnevenBlocks blocks;
+  const Eigen::VectorXd w = blocks.down(0.01 * kSide);
+  EXPECT_GT(blocks.foresee(w).size(), 10U);
+  EXPECT_TRUE(ContactForecast::is_made(blocks.dynamics.contact()));
+  EXPECT_EQ(blocks.foresee(w).size(), 0U);
+  EXPECT_GT(blocks.foresee(Eigen::VectorXd::Zero(w.size())).size(), 10U);
+  EXPECT_FALSE(ContactForecast::is_made(blocks.dynamics.contact()));
+}
+
+// Against depths by differences: wᵀ ΔA w = Σ ± k A (∂g/∂w)².
+TEST(ContactForecast, MatrixGainsTheStiffnessOfWhatClosesAndLosesThatOfWhatOpens) {
+  for (const double way : {0.01 * kSide, -0.02 * kSide}) {
+    UnevenBlocks blocks;
+    const Eigen::VectorXd w = blocks.random_way(), rates = blocks.depth_rates(w);
+    const auto quadratic = [&](const fem::BlockMatrix& A) {
+      Eigen::VectorXd product(w.size());
+      A.multiply(w, product);
+      return w.dot(product);
+    };
+    const SystemScale scale{0, 0, 1};
+    double before = quadratic(blocks.dynamics.assemble(scale, fem::Tangent::Consistent).A);
+    const GroupChanges& changes = blocks.foresee(blocks.down(way));
+    const ContactPairState& state = blocks.pair_state();
+    double expected = 0;
+    for (const int a : state.groups) {
+      const bool takes = state.presses_in_matrix(a), acts = state.pressure[a] > 0;
+      if (takes != acts)
+        expected +=
+            (takes ? 1 : -1) * state.stiffness(a) * state.measure[a] * std::pow(rates[a], 2);
+    }
+    const double after =
+        quadratic(blocks.dynamics.assemble_again(changes, scale, fem::Tangent::Consistent).A);
+    EXPECT_NEAR(after - before, expected, 1e-5 * std::abs(expected)) << way;
+    EXPECT_EQ(expected > 0, way > 0);
+  }
+}
+
+// Where a coupling was not in the pattern, the matrix is made anew, with the same groups in it.
+TEST(ContactForecast, MatrixMadeAnewHasWhatIsForeseen) {
+  const SystemScale scale{0, 0, 1};
+  UnevenBlocks one, other;
+  const Eigen::VectorXd w = one.random_way();
+  Eigen::VectorXd changed(w.size()), anew(w.size());
+  one.dynamics.assemble(scale, fem::Tangent::Projected);
+  one.dynamics.assemble_again(one.foresee(one.down(0.01 * kSide)), scale, fem::Tangent::Projected)
+      .A.multiply(w, changed);
+  other.foresee(other.down(0.01 * kSide));
+  other.dynamics.assemble(scale, fem::Tangent::Projected).A.multiply(w, anew);
+  EXPECT_LT((changed - anew).norm(), 1e-12 * anew.norm());
+}
+
+// A closed gap pulls, as its line goes on beyond the kink, and what opens does no longer push.
+TEST(ContactForecast, ForcesAreThoseOfTheLinesBeyondTheKinks) {
+  for (const double way : {0.01 * kSide, -0.02 * kSide}) {
+    UnevenBlocks blocks;
+    const Eigen::VectorXd w = blocks.random_way(), rates = blocks.depth_rates(w);
+    blocks.foresee(blocks.down(way));
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(w.size());
+    blocks.forecast.add_force(blocks.dynamics.contact(), blocks.dynamics.now().configuration, f);
+    const ContactPairState& state = blocks.pair_state();
+    double expected = 0;
+    for (const int a : state.groups) {
+      const bool takes = state.presses_in_matrix(a), acts = state.pressure[a] > 0;
+      if (takes != acts)
+        expected -=
+            (takes ? 1 : -1) * state.stiffness(a) * state.depth[a] * state.measure[a] * rates[a];
+    }
+    EXPECT_NEAR(f.dot(w), expected, 1e-5 * std::abs(expected)) << way;
+    EXPECT_NE(expected, 0);
+  }
+}
+
+}  // namespace articular::sim::contact_forecast_test
