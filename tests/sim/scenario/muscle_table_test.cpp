@@ -59,9 +59,10 @@ TEST_F(MuscleTable, LeavesOutMusclesThatAreNamed) {
                                              "muscle_table.0.excitation={}"});
   ASSERT_EQ(scenario.muscles.size(), 1U);
   EXPECT_EQ(scenario.muscles[0].name, "lgh");
-  EXPECT_EQ(refusal(scenario_, {"muscle_table.0.leave_out=['anterior temporali']"}),
-            "--set muscle_table.0.leave_out=['anterior temporali']: the muscle table has no muscle "
-            "`anterior temporali`; did you mean `anterior temporalis`?");
+  EXPECT_EQ(
+      refusal(scenario_, {"muscle_table.0.leave_out=['anterior temporali']"}),
+      "--set muscle_table.0.leave_out=['anterior temporali']: `leave_out[0]`: the muscle table has "
+      "no muscle `anterior temporali`; did you mean `anterior temporalis`?");
 }
 
 // x -> scale R (x - about) + about + translation: a quarter turn about z at (0, 0, 0) takes x to y.
