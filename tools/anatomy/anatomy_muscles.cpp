@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "fem/mesh/fibre_field.hpp"
@@ -17,15 +18,16 @@ constexpr double kClear = 1.6;      // [mm] from the bone, of all others
 constexpr double kRoundness = 0.6;  // of cross-sections: 0 a rectangle, 1 an ellipse
 constexpr double kReach = 0.25;     // of the length, that gives way as an end sits down on its bone
 
-/// The same everywhere: a cubic through values at 0, 1, 2, ... (Catmull-Rom).
-Vec3 spline(const std::vector<Vec3>& values, double s) {
+/// A cubic through values at 0, 1, 2, ... (Catmull-Rom).
+template <class Value>
+Value spline(const std::vector<Value>& values, double s) {
   const auto last = static_cast<double>(values.size() - 1);
   const auto i = static_cast<std::size_t>(std::clamp(std::floor(s), 0.0, last - 1));
   const double t = s - static_cast<double>(i);
-  const Vec3 p1 = values[i], p2 = values[i + 1];
-  const Vec3 p0 = i > 0 ? values[i - 1] : Vec3(2 * p1 - p2);
-  const Vec3 p3 = i + 2 < values.size() ? values[i + 2] : Vec3(2 * p2 - p1);
-  const Vec3 m1 = (p2 - p0) / 2, m2 = (p3 - p1) / 2;
+  const Value p1 = values[i], p2 = values[i + 1];
+  const Value p0 = i > 0 ? values[i - 1] : Value(2 * p1 - p2);
+  const Value p3 = i + 2 < values.size() ? values[i + 2] : Value(2 * p2 - p1);
+  const Value m1 = (p2 - p0) / 2, m2 = (p3 - p1) / 2;
   return (2 * t * t * t - 3 * t * t + 1) * p1 + (t * t * t - 2 * t * t + t) * m1 +
          (3 * t * t - 2 * t * t * t) * p2 + (t * t * t - t * t) * m2;
 }
@@ -38,15 +40,16 @@ class MiddleSurface {
       front_.push_back(section.front);
       middle_.push_back(section.middle);
       back_.push_back(section.back);
-      half_thickness_.emplace_back(section.half_thickness, 0, 0);
+      half_thickness_.push_back(section.half_thickness);
     }
     constexpr int kSamples = 200;
     const auto last = static_cast<double>(middle_.size() - 1);
+    Vec3 before = middle_.front();
     for (int i = 0; i <= kSamples; ++i) {
       parameter_.push_back(last * i / kSamples);
       const Vec3 p = spline(middle_, parameter_.back());
-      way_.push_back(i == 0 ? 0 : way_.back() + (p - previous_).norm());
-      previous_ = p;
+      way_.push_back(i == 0 ? 0 : way_.back() + (p - before).norm());  // [mm]
+      before = p;
     }
   }
 
@@ -58,11 +61,10 @@ class MiddleSurface {
     return sum / static_cast<double>(front_.size());
   }
   double thickness() const {  // [mm], the mean of all rows
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& half : half_thickness_) sum += half;
-    return 2 * sum.x() / static_cast<double>(half_thickness_.size());
+    const double sum = std::accumulate(half_thickness_.begin(), half_thickness_.end(), 0.0);
+    return 2 * sum / static_cast<double>(half_thickness_.size());
   }
-  double half_thickness(double w) const { return spline(half_thickness_, parameter(w)).x(); }
+  double half_thickness(double w) const { return spline(half_thickness_, parameter(w)); }
 
   Vec3 point(double x, double w) const {
     const double s = parameter(w);
@@ -85,9 +87,9 @@ class MiddleSurface {
     return parameter_[i - 1] + t * (parameter_[i] - parameter_[i - 1]);
   }
 
-  std::vector<Vec3> front_, middle_, back_, half_thickness_;
+  std::vector<Vec3> front_, middle_, back_;  // of the rows
+  std::vector<double> half_thickness_;
   std::vector<double> parameter_, way_;  // samples of the middle line
-  Vec3 previous_ = Vec3::Zero();
 };
 
 Vec3 gradient(const Distance& distance, const Vec3& p) {
