@@ -24,7 +24,7 @@ Value spline(const std::vector<Value>& values, double s) {
   const auto last = static_cast<double>(values.size() - 1);
   const auto i = static_cast<std::size_t>(std::clamp(std::floor(s), 0.0, last - 1));
   const double t = s - static_cast<double>(i);
-  const Value p1 = values[i], p2 = values[i + 1];
+  const Value &p1 = values[i], &p2 = values[i + 1];
   const Value p0 = i > 0 ? values[i - 1] : Value(2 * p1 - p2);
   const Value p3 = i + 2 < values.size() ? values[i + 2] : Value(2 * p2 - p1);
   const Value m1 = (p2 - p0) / 2, m2 = (p3 - p1) / 2;
