@@ -98,22 +98,29 @@ MuscleFibre::MuscleFibre(const Constants& c) : c_(c) {
   check_at_least_one(c.optimal_stretch, "stretch of the largest active force", true);
   check_below(c.p2 * (c.toe_end - 1), "P2 times the strain at the end of the toe",
               kLargestExponent);
+  checked_not_negative(c.tendon_ratio, "tendon ratio", "(no unit)");
+  check_below(c.tendon_ratio, "tendon ratio", 1);
   end_slope_ = c.p1 * c.p2 * std::exp(c.p2 * (c.toe_end - 1));
 }
 
+double MuscleFibre::relative_length(double stretch) const {
+  return (stretch / c_.optimal_stretch - c_.tendon_ratio) / (1 - c_.tendon_ratio);
+}
+
 double MuscleFibre::energy(double stretch, double activation) const {
-  const double n = stretch / c_.optimal_stretch;
-  return c_.max_stress * (passive_integral(n) + activation * active_integral(n));
+  const double n = relative_length(stretch);
+  return c_.max_stress * (1 - c_.tendon_ratio) *
+         (passive_integral(n) + activation * active_integral(n));
 }
 
 double MuscleFibre::tension(double stretch, double activation) const {
-  const double n = stretch / c_.optimal_stretch;
+  const double n = relative_length(stretch);
   return c_.max_stress / c_.optimal_stretch * (passive(n) + activation * active(n));
 }
 
 double MuscleFibre::stiffness(double stretch, double activation) const {
-  const double n = stretch / c_.optimal_stretch, per_stretch = 1 / c_.optimal_stretch;
-  return c_.max_stress * per_stretch * per_stretch *
+  const double n = relative_length(stretch), per_stretch = 1 / c_.optimal_stretch;
+  return c_.max_stress * per_stretch * per_stretch / (1 - c_.tendon_ratio) *
          (passive_slope(n) + activation * active_slope(n));
 }
 

@@ -4,10 +4,15 @@
 
 namespace articular::fem {
 
-/// Passive and active tension of muscle fibres [Blemker 2005], at the length n = λ/λ_ofl relative
-/// to that of the largest active force (the isometric σ_max):
+/// Passive and active tension of muscle fibres [Blemker 2005], at the length n relative to that of
+/// the largest active force (the isometric σ_max):
 ///
-///   dW/dλ = σ_max/λ_ofl (f_p(n) + a f_a(n)),   Cauchy stress λ dW/dλ = σ_max (f_p + a f_a) n
+///   dW/dλ = σ_max/λ_ofl (f_p(n) + a f_a(n)),   n = (λ/λ_ofl − r)/(1 − r)
+///
+/// r is the part of the line of fibres that is tendon and does not stretch, as in the lines of sim:
+/// muscle whose fibres end at aponeuroses, spread out evenly. It is not in the paper; without it
+/// n = λ/λ_ofl, and the Cauchy stress λ dW/dλ is σ_max (f_p + a f_a) n. The curves are
+///
 ///   f_p = 0 up to n = 1, P1 (exp(P2 (n − 1)) − 1) up to n*, its tangent line beyond
 ///   f_a = 9 (n − 0.4)² from 0.4 to 0.6, 1 − 4 (1 − n)² to 1.4, 9 (n − 1.6)² to 1.6, 0 elsewhere
 ///
@@ -25,6 +30,7 @@ class MuscleFibre {
     double p1 = 0.05, p2 = 6.6;  // P1, P2 [-], > 0
     double toe_end = 1.4;  // n* [-], > 1; times optimal_stretch it is the λ* of [Blemker 2005]
     double optimal_stretch = 1;  // λ_ofl [-], >= 1: no passive tension at rest
+    double tendon_ratio = 0;     // r [-], from 0 to below 1
   };
   /// @throws std::invalid_argument naming a constant that is out of range
   explicit MuscleFibre(const Constants& c);
@@ -39,6 +45,7 @@ class MuscleFibre {
   static double active_integral(double n);
 
  private:
+  double relative_length(double stretch) const;  // n
   double passive(double n) const;
   double passive_slope(double n) const;
   double passive_integral(double n) const;

@@ -117,6 +117,20 @@ FibreDirections normalized_fibres(const Eigen::Matrix3Xd& directions) {
   return fibres;
 }
 
+FibreDirections moved_fibres(const Positions& X, const Tetrahedra& tets,
+                             const FibreDirections& fibres, const Positions& x) {
+  FibreDirections moved(3, tets.cols());
+  for (Eigen::Index e = 0; e < tets.cols(); ++e) {
+    Mat3 rest, now;
+    for (int a = 0; a < 3; ++a) {
+      rest.col(a) = X.col(tets(a + 1, e)) - X.col(tets(0, e));
+      now.col(a) = x.col(tets(a + 1, e)) - x.col(tets(0, e));
+    }
+    moved.col(e) = (now * rest.inverse() * fibres.col(e)).normalized();
+  }
+  return moved;
+}
+
 Eigen::VectorXd harmonic_potential(const Positions& X, const Tetrahedra& tets,
                                    std::span<const int> from, std::span<const int> to) {
   const int num_nodes = static_cast<int>(X.cols());

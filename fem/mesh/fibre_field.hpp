@@ -14,6 +14,10 @@ FibreDirections constant_fibres(const Vec3& direction, Eigen::Index num_elements
 /// @throws std::invalid_argument naming an element whose direction is 0 or not finite
 FibreDirections normalized_fibres(const Eigen::Matrix3Xd& directions);
 
+/// Where fibres point once the nodes have moved from X to x: F a₀, of length 1.
+FibreDirections moved_fibres(const Positions& X, const Tetrahedra& tets,
+                             const FibreDirections& fibres, const Positions& x);
+
 /// The potential φ with Δφ = 0 inside, φ = 0 on the nodes `from`, 1 on the nodes `to` and no flux
 /// through the rest of the surface, with linear tetrahedra; one entry a node. A node that belongs
 /// to no element has 0.

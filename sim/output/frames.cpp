@@ -1,6 +1,7 @@
 #include "sim/output/frames.hpp"
 
 #include "fem/material/von_mises.hpp"
+#include "fem/mesh/fibre_field.hpp"
 
 namespace articular::sim {
 namespace {
@@ -57,7 +58,9 @@ std::vector<Field> tissue_cell_fields(const Tissue& tissue, const Positions& x,
       {"volume_ratio", "1", e.volume_ratio(x).transpose()},
       {"strain_energy_density", "J/m^3", e.strain_energy_density(x, activation).transpose()}};
   if (tissue.fibres.cols() > 0)
-    fields.push_back({"fibre_stretch", "1", e.fibre_stretch(x).transpose()});
+    append({{"fibre_stretch", "1", e.fibre_stretch(x).transpose()},
+            {"fibre_direction", "1", fem::moved_fibres(tissue.X, e.tets(), tissue.fibres, x)}},
+           fields);
   return fields;
 }
 

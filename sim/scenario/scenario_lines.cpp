@@ -127,6 +127,30 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
   return muscle;
 }
 
+/// The muscles of a table, each once.
+std::vector<std::string> muscle_names(const std::vector<MuscleRow>& rows) {
+  std::vector<std::string> names;
+  for (const MuscleRow& row : rows)
+    if (std::find(names.begin(), names.end(), row.muscle) == names.end())
+      names.push_back(row.muscle);
+  return names;
+}
+
+/// The rows without those of the muscles in `leave_out`; every name there must be one of the rows'.
+std::vector<MuscleRow> rows_to_take(const TableReader& table, std::vector<MuscleRow> rows) {
+  const Node* node = table.find("leave_out");
+  if (node == nullptr) return rows;
+  const std::vector<std::string> names = muscle_names(rows);
+  for (const Node& element : read_list(*node, "names of muscles such as [\"geniohyoid\"]")) {
+    const std::string left_out = read_text(element);
+    if (std::find(names.begin(), names.end(), left_out) == names.end())
+      fail(element, fmt::format("the muscle table has no muscle `{}`{}", one_line(left_out),
+                                suggestion(left_out, names)));
+    std::erase_if(rows, [&](const MuscleRow& row) { return row.muscle == left_out; });
+  }
+  return rows;
+}
+
 /// The excitations of a table by muscle name; every name must be one of the rows'.
 std::vector<std::pair<std::string, Curve>> read_excitations(const TableReader& table,
                                                             const std::vector<MuscleRow>& rows,
@@ -134,10 +158,7 @@ std::vector<std::pair<std::string, Curve>> read_excitations(const TableReader& t
   std::vector<std::pair<std::string, Curve>> curves;
   const Node* node = table.find("excitation");
   if (node == nullptr) return curves;
-  std::vector<std::string> names;
-  for (const MuscleRow& row : rows)
-    if (std::find(names.begin(), names.end(), row.muscle) == names.end())
-      names.push_back(row.muscle);
+  const std::vector<std::string> names = muscle_names(rows);
   if (node->table() == nullptr)
     fail(*node, fmt::format("expected a table of curves by muscle name, found {}", found(*node)));
   for (const Member& member : node->table()->members) {
@@ -204,7 +225,7 @@ void append_table(const Node& node, const Context& context, std::vector<Muscle>&
   const TableReader table(node, muscle_table_keys(), "[[muscle_table]]");
   const Node& file = table.at("file");
   const std::vector<MuscleRow> rows =
-      read_muscle_table(read_path(file, context.folder), file.where);
+      rows_to_take(table, read_muscle_table(read_path(file, context.folder), file.where));
   const TableBodies bodies(table, rows, context);
   const auto excitations = read_excitations(table, rows, context);
   Placement placement;
@@ -339,6 +360,10 @@ const KeyTable& muscle_table_keys() {
         "[[muscle_table]]",
         {{"file", {form::Text{"path"}}, kRequired, "CSV table with a row for each muscle"},
          {"place", {form::Table{place_keys}}, kNone, "moves the points"},
+         {"leave_out",
+          {list_of({form::Text{"muscle of the table"}})},
+          kNone,
+          "muscles of the table that are not taken"},
          {"bodies",
           {form::Map{"body of the table", {{form::Text{"name of a body"}}}}},
           kNone,

@@ -189,6 +189,8 @@ std::vector<Key> constants_of(Law law) {
                      "straight"),
           number_key("optimal_stretch", kOneOrMore, standard(1.0),
                      "stretch of greatest active force"),
+          number_key("tendon_ratio", kFraction, standard(0.0),
+                     "part of the fibres' line that is tendon and does not stretch, below 1"),
           stress_key("shear_along", kPositive, standard("500 Pa"),
                      "shear modulus along the fibres"),
           stress_key("shear_across", kPositive, standard("500 Pa"), "shear modulus across them"),
@@ -295,7 +297,8 @@ fem::MuscleFibre read_muscle_fibre(const TableReader& table) {
                            .p1 = number(table, "p1"),
                            .p2 = number(table, "p2"),
                            .toe_end = number(table, "toe_end"),
-                           .optimal_stretch = number(table, "optimal_stretch")});
+                           .optimal_stretch = number(table, "optimal_stretch"),
+                           .tendon_ratio = number(table, "tendon_ratio")});
 }
 
 /// Laws with a volumetric energy κ/2 Θ².

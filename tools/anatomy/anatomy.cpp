@@ -41,16 +41,31 @@ void add_mandible(CLI::App& anatomy, int& exit_code) {
       "mandible", "Jaw: mandible, skull parts, joint surfaces, discs, muscle attachments");
   struct Options {
     double size_mm = 1.2;
+    bool muscles = false;
+    double muscle_size_mm = 4;
     std::filesystem::path folder;
   };
   const auto options = std::make_shared<Options>();
   mandible->add_option("--size", options->size_mm, "Element size of the discs in mm (0.3 to 2.5)")
       ->capture_default_str();
+  CLI::Option* muscles = mandible->add_flag(
+      "--muscles", options->muscles,
+      "Adds masseter and temporalis of both sides as tissue with fibres, and the bone they touch");
+  mandible
+      ->add_option("--muscle-size", options->muscle_size_mm,
+                   "Element size of the muscles in mm (3 to 6)")
+      ->needs(muscles)
+      ->capture_default_str();
   mandible->add_option("--out", options->folder, "Folder for the files, made if it is not there")
       ->required()
       ->type_name("DIR");
   mandible->callback([options, &exit_code] {
-    run([&] { return mandible_anatomy(options->size_mm); }, options->folder);
+    const auto build = [&] {
+      Anatomy result = mandible_anatomy(options->size_mm);
+      if (options->muscles) add_muscle_bodies(options->muscle_size_mm, result);
+      return result;
+    };
+    run(build, options->folder);
     exit_code = 0;
   });
 }

@@ -174,14 +174,14 @@ Sheet skull_sheet() {
   // Pterygoid plate and the floor of the skull that carries it.
   add_strip(sheet, {{24, 1, 60, 2}, {25, 4, 67, 2.2}, {25, 6, 78, 2.4}, {26, 8, 92, 3}},
             {{26, 9, 60, 1.6}, {27, 11, 67, 1.8}, {27, 13, 78, 2.2}, {28, 16, 92, 3}});
-  add_strip(sheet, {{0, 6, 96, 4}, {27, 8, 95, 3.2}, {46, 8, 96, 3.2}, {55, 0, 98, 2.6}},
-            {{0, 36, 94, 4}, {27, 36, 94, 3.4}, {46, 40, 95, 3.4}, {60, 42, 97, 3.4}});
-  // Temporal squama, where the temporalis comes from: rows from its root to its rounded top;
-  // mastoid.
+  add_strip(sheet, {{0, 6, 96, 4}, {27, 8, 95, 3.2}, {38, 4, 96, 3}, {41, -1, 97, 2.6}},
+            {{0, 36, 94, 4}, {27, 36, 94, 3.4}, {46, 40, 95, 3.4}, {57, 42, 97, 3.4}});
+  // Temporal squama, where the temporalis comes from: rows from its root, which leaves room for
+  // that muscle within the zygomatic arch, to its rounded top; mastoid.
   const std::vector<std::vector<Knot>> squama = {
-      {{55, -2, 96, 2.4}, {59, 10, 97, 2.6}, {61, 26, 97, 3.2}, {61, 44, 97, 3.6}},
-      {{56, -6, 112, 2.2}, {62, 10, 113, 2.2}, {65, 30, 113, 2.2}, {64, 52, 111, 2.6}},
-      {{55, -3, 130, 2.0}, {63, 14, 132, 2.2}, {66.5, 34, 132, 2.2}, {65, 55, 128, 2.2}},
+      {{40, -3, 96, 2.4}, {43, 10, 97, 2.6}, {50, 26, 97, 3.2}, {58, 44, 97, 3.6}},
+      {{47, -8, 112, 2.2}, {53, 8, 113, 2.2}, {60, 30, 113, 2.2}, {62, 52, 111, 2.6}},
+      {{52, -4, 130, 2.0}, {60.5, 14, 132, 2.2}, {65.5, 34, 132, 2.2}, {65, 55, 128, 2.2}},
       {{54, 6, 145, 1.8}, {60, 17, 148, 2.0}, {64, 33, 148, 2.0}, {63, 50, 142, 1.8}}};
   for (std::size_t row = 0; row + 1 < squama.size(); ++row)
     add_strip(sheet, smoothed(squama[row], 4), smoothed(squama[row + 1], 4));
@@ -260,20 +260,15 @@ Vec3 arch_point(double x) {
   return {x, y, kIncisor.z() + 0.085 * (y + 45)};
 }
 
-Mesh mandible_surface(double h) {
-  const Sheet sheet = mandible_sheet();
-  const std::vector<Crown> teeth = crowns(false);
-  const auto distance_to = [&](const Vec3& p) {
+Distance mandible_distance() {
+  return [sheet = mandible_sheet(), teeth = crowns(false)](const Vec3& p) {
     const double bone = smooth_min(distance(sheet, p), head_distance(p), 2.5);
     return smooth_min(bone, distance(teeth, p), 0.5);
   };
-  return contour_even(distance_to, {-62, -56, 0}, {62, 44, 92}, h);
 }
 
-Mesh skull_surface(double h) {
-  const Sheet sheet = skull_sheet();
-  const std::vector<Crown> teeth = crowns(true);
-  const auto distance_to = [&](const Vec3& p) {
+Distance skull_distance() {
+  return [sheet = skull_sheet(), teeth = crowns(true)](const Vec3& p) {
     const double bone = smooth_min(distance(sheet, p), temporal_block_distance(p), 2.0);
     const double solid = smooth_min(bone, distance(teeth, p), 0.5);
     const Vec3 d = p - kCondyle;  // nothing may stand in the joint
@@ -281,7 +276,14 @@ Mesh skull_surface(double h) {
         std::abs(d.x()) < 12 && d.y() < 9 && d.y() > -26 && d.z() > -12 && d.z() < 14;
     return joint ? std::max(solid, distance_below_fossa(d)) : solid;
   };
-  return contour_even(distance_to, {-82, -56, 36}, {82, 66, 160}, h);
+}
+
+Mesh mandible_surface(double h) {
+  return contour_even(mandible_distance(), {-62, -56, 0}, {62, 44, 92}, h);
+}
+
+Mesh skull_surface(double h) {
+  return contour_even(skull_distance(), {-82, -56, 36}, {82, 66, 160}, h);
 }
 
 Mesh lower_teeth_sheet(double h) { return arch_strip(h, 0, true); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tools/anatomy/anatomy_joint.hpp"
+#include "tools/anatomy/anatomy_solids.hpp"
 
 /// Mandible and skull parts to look at, with teeth. Unions of thick
 /// triangles and superellipsoids, symmetric about x = 0. mm.
@@ -14,6 +15,10 @@ Mesh mandible_surface(double h);
 /// Closed surface: upper teeth and maxilla, zygomatic arches, temporal bones with fossa and
 /// eminence.
 Mesh skull_surface(double h);
+
+/// Signed distances from both bones before they are contoured, < 0 inside; to use for x >= 0.
+Distance mandible_distance();
+Distance skull_distance();
 
 /// Occlusal strips that meet at closed mouth with a gap of kOcclusalGap; normals up (lower), down
 /// (upper).

@@ -1,14 +1,16 @@
 #include "tools/anatomy/anatomy_mandible.hpp"
 
 #include "tools/anatomy/anatomy_bones.hpp"
+#include "tools/anatomy/anatomy_muscles.hpp"
 
 namespace articular::anatomy {
 namespace {
 
 constexpr double kMandibleGrid = 1.2;  // contouring grids of the bones that are looked at
 constexpr double kSkullGrid = 1.7;
-constexpr double kSheetEdge = 0.9;  // contact surfaces of the joint
-constexpr double kTeethEdge = 2.5;  // occlusal strips
+constexpr double kSheetEdge = 0.9;       // contact surfaces of the joint
+constexpr double kTeethEdge = 2.5;       // occlusal strips
+constexpr double kMuscleBoneGrid = 2.2;  // parts of the bones that muscles touch
 
 /// Left attachments, on the surfaces of mandible_surface and skull_surface. Directions follow the
 /// lines of action of MPE18 where it has them (superficial masseter, anterior temporalis, medial
@@ -141,6 +143,12 @@ std::vector<MuscleRow> left_muscles() {
   };
 }
 
+void add_both_sides(const std::string& name, const std::string& ending, const Mesh& left,
+                    Anatomy& anatomy) {
+  anatomy.meshes[name + "_left" + ending] = left;
+  anatomy.meshes[name + "_right" + ending] = mirrored(left);
+}
+
 }  // namespace
 
 std::vector<MuscleRow> mandible_muscles() {
@@ -160,14 +168,9 @@ std::vector<MuscleRow> mandible_muscles() {
 
 Anatomy mandible_anatomy(double disc_edge) {
   Anatomy anatomy;
-  const auto both_sides = [&anatomy](const std::string& name, const std::string& ending,
-                                     const Mesh& left) {
-    anatomy.meshes[name + "_left" + ending] = left;
-    anatomy.meshes[name + "_right" + ending] = mirrored(left);
-  };
-  both_sides("disc", ".vtu", disc(disc_edge));
-  both_sides("condyle", ".vtp", condyle_sheet(kSheetEdge));
-  both_sides("fossa", ".vtp", fossa_sheet(kSheetEdge));
+  add_both_sides("disc", ".vtu", disc(disc_edge), anatomy);
+  add_both_sides("condyle", ".vtp", condyle_sheet(kSheetEdge), anatomy);
+  add_both_sides("fossa", ".vtp", fossa_sheet(kSheetEdge), anatomy);
   anatomy.meshes["mandible.vtp"] = mandible_surface(kMandibleGrid);
   anatomy.meshes["skull.vtp"] = skull_surface(kSkullGrid);
   anatomy.meshes["lower_teeth.vtp"] = lower_teeth_sheet(kTeethEdge);
@@ -184,6 +187,13 @@ Anatomy mandible_anatomy(double disc_edge) {
       {"pogonion", "mandible", {0, -48, 12}},
   };
   return anatomy;
+}
+
+void add_muscle_bodies(double element_size, Anatomy& anatomy) {
+  for (const MuscleShape& shape : closing_muscles())
+    add_both_sides(shape.name, ".vtu", muscle_mesh(shape, element_size), anatomy);
+  add_both_sides("ramus", ".vtp", ramus_sheet(kMuscleBoneGrid), anatomy);
+  add_both_sides("temporal", ".vtp", temporal_sheet(kMuscleBoneGrid), anatomy);
 }
 
 }  // namespace articular::anatomy

@@ -10,6 +10,11 @@ namespace articular::anatomy {
 /// @throws std::invalid_argument for disc_edge outside [0.3, 2.5] mm
 Anatomy mandible_anatomy(double disc_edge);
 
+/// Adds the closing muscles of both sides as tissue, and the parts of the bones that they touch.
+/// @param element_size  of the muscles
+/// @throws std::invalid_argument for element_size outside [3, 6] mm
+void add_muscle_bodies(double element_size, Anatomy& anatomy);
+
 /// Left and right muscles, attached to the surfaces of mandible_anatomy.
 std::vector<MuscleRow> mandible_muscles();
 

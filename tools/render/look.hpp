@@ -14,6 +14,7 @@ namespace articular::tools {
 struct Look {
   Paper paper;
   bool mesh_edges = false;
+  bool fibres = false;                    // on the surface of tissue
   std::map<std::string, double> opacity;  // of parts, where it is not the usual one
   std::optional<Clip> clip;
 };

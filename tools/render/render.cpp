@@ -247,7 +247,8 @@ int render(const RenderOptions& options) {
     return render_setup(options);
   Setting setting;
   setting.page = page_of(options.size, options.dpi);
-  setting.look = {paper_of(options.background), options.mesh_edges, options.opacity, std::nullopt};
+  setting.look = {paper_of(options.background), options.mesh_edges, options.fibres, options.opacity,
+                  std::nullopt};
   if (!options.clip.empty()) setting.look.clip = parse_clip(options.clip);
   if (setting.look.paper.transparent && !options.movie.empty())
     throw sim::InputError("--background transparent: a film has none; expected a colour");

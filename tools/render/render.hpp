@@ -36,6 +36,7 @@ struct RenderOptions {
   std::string background = "white";
   std::map<std::string, double> opacity;  // of bodies
   bool mesh_edges = false;
+  bool fibres = false;
   std::string size = "1600x1000";  // see page_of()
   std::optional<double> dpi;
 

@@ -97,6 +97,8 @@ void add_look(CLI::App& command, RenderOptions& options) {
       ->delimiter(',')
       ->type_name("BODY=NUMBER,...");
   command.add_flag("--mesh-edges", options.mesh_edges, "Draw the edges of meshes");
+  command.add_flag("--fibres", options.fibres,
+                   "Draw fibres on the surface of tissue that has them");
   command
       .add_option("--size", options.size,
                   "Size in pixels, or in print with mm, e.g. 170x110mm [1600x1000]")

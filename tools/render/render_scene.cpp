@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/render/fibre_strokes.hpp"
+
 namespace articular::tools {
 namespace {
 
@@ -114,11 +116,16 @@ vtkActor& RenderScene::add_surface(vtkRenderer& panel, vtkPolyData& surface) {
 
 void RenderScene::add_outline(vtkRenderer& panel, vtkPolyData& surface, Surface of) {
   if (surface.GetNumberOfCells() == 0) return;
-  vtkNew<vtkPolyDataMapper> mapper;
   // Light shows how a surface bends.
-  mapper->SetInputData(
-      outline_of(surface, *panel.GetActiveCamera(),
-                 of == Surface::Lit ? Outline::Contour : Outline::ContourAndBends));
+  add_ink(panel,
+          *outline_of(surface, *panel.GetActiveCamera(),
+                      of == Surface::Lit ? Outline::Contour : Outline::ContourAndBends),
+          kOutlineWidth, of);
+}
+
+void RenderScene::add_ink(vtkRenderer& panel, vtkPolyData& lines, double width, Surface of) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(&lines);
   mapper->ScalarVisibilityOff();
   // In front of the surface that they lie in, by 20/65536 of the depth that the camera sees.
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
@@ -127,7 +134,7 @@ void RenderScene::add_outline(vtkRenderer& panel, vtkPolyData& surface, Surface 
   actor->SetMapper(mapper);
   vtkProperty& property = *actor->GetProperty();
   set_colour(property, setting_.look.paper.ink);
-  property.SetLineWidth(static_cast<float>(std::max(1.0, kOutlineWidth * fine_.text)));
+  property.SetLineWidth(static_cast<float>(std::max(1.0, width * fine_.text)));
   property.LightingOff();
   panel.AddActor(actor);
   if (of == Surface::Coloured) coloured_.push_back(actor);
@@ -184,8 +191,11 @@ void RenderScene::add_body(vtkRenderer& panel, const Part& part) {
       seen.coloured.contains(part.name) ? drawn_values(part, seen) : FieldValues{};
   const double factor = setting_.field ? setting_.field->factor : 1;
   const Skin skin = skin_of(part, values, factor, setting_.look.clip, metres_of(seen.length_unit));
-  if (skin.faces->GetNumberOfCells() > 0)
-    add_outline(panel, *skin.faces, add_skin(panel, part, skin));
+  if (skin.faces->GetNumberOfCells() > 0) {
+    const Surface surface = add_skin(panel, part, skin);
+    add_outline(panel, *skin.faces, surface);
+    if (setting_.look.fibres) add_ink(panel, *fibre_strokes(*skin.faces), kEdgeWidth, surface);
+  }
   if (skin.blank == nullptr) return;
   vtkActor& blank = add_surface(panel, *skin.blank);
   set_colour(*blank.GetProperty(), kBlankColour);

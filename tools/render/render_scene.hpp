@@ -70,6 +70,8 @@ class RenderScene {
   void add_tubes(vtkRenderer& panel, LineKind kind, vtkPolyData& tubes, const ColourScale* scale);
   vtkActor& add_surface(vtkRenderer& panel, vtkPolyData& surface);
   void add_outline(vtkRenderer& panel, vtkPolyData& surface, Surface of);
+  /// Lines that lie in a surface. @param width  of the page's text
+  void add_ink(vtkRenderer& panel, vtkPolyData& lines, double width, Surface of);
   void colour_by(const ColourScale& scale, bool per_cell, vtkActor& actor);
   double opacity_of(const Part& part, bool has_values) const;
   void add_marks(vtkRenderer& panel);

@@ -164,7 +164,8 @@ int render_setup(const RenderOptions& options) {
 
   Setting setting;
   setting.page = page_of(options.size, options.dpi);
-  setting.look = {paper_of(options.background), options.mesh_edges, options.opacity, std::nullopt};
+  setting.look = {paper_of(options.background), options.mesh_edges, options.fibres, options.opacity,
+                  std::nullopt};
   if (!options.clip.empty()) setting.look.clip = parse_clip(options.clip);
   std::copy(scenario.output.directions.begin(), scenario.output.directions.end(),
             setting.directions.begin());

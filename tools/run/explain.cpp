@@ -120,6 +120,8 @@ Json left_out(const sim::Model& model) {
   if (model.forces.empty() && model.surface_loads.empty())
     items.push_back("forces: the scene has none");
   if (model.gravity.empty()) items.push_back("gravity: the scene has none");
+  if (any(model.tissues, [](const sim::Tissue& t) { return t.muscle >= 0; }))
+    items.push_back("force and velocity of fibres in tissue (muscle lines have it)");
   items.push_back("fluid flow in cartilage (poroelasticity)");
   items.push_back("wrapping of muscles over tissue (over bone with `wrap`)");
   items.push_back("deformation of bone");

@@ -130,6 +130,17 @@ TEST(MuscleFibre, PassiveTensionIsExponentialAndThenLinear) {
   EXPECT_NEAR(1.1 * fibre.tension(1.1, 0.5), 0.5, kRoundOff);  // the isometric force
 }
 
+// Half of the line is tendon: what the line stretches by, the fibres stretch by twice.
+TEST(MuscleFibre, TendonLeavesItsShareOfTheStretchToTheFibres) {
+  const MuscleFibre bare({.max_stress = 1}), half({.max_stress = 1, .tendon_ratio = 0.5});
+  for (const double strain : {-0.25, -0.1, 0.0, 0.15, 0.3}) {
+    EXPECT_NEAR(half.tension(1 + strain, 0.7), bare.tension(1 + 2 * strain, 0.7), kRoundOff);
+    EXPECT_NEAR(half.stiffness(1 + strain, 0.7), 2 * bare.stiffness(1 + 2 * strain, 0.7),
+                kRoundOff);
+  }
+  EXPECT_EQ(half.tension(0.7, 1), 0);  // the fibres are at 0.4 of their length
+}
+
 template <class Law>
 void expect_consistent(const Law& law, double scale) {
   for (const double activation : {0.0, 0.6}) {
@@ -153,6 +164,7 @@ TEST(FibreLaw, EnergyTensionAndStiffnessBelongTogether) {
   expect_consistent(ActiveFibre({.stress = 5e6}), 5e6);
   expect_consistent(MuscleFibre({}), 0.3e6);
   expect_consistent(MuscleFibre({.optimal_stretch = 1.1}), 0.3e6);
+  expect_consistent(MuscleFibre({.optimal_stretch = 1.1, .tendon_ratio = 0.5}), 0.3e6);
 }
 
 Mat3 along_fibre(double stretch) {
@@ -327,6 +339,8 @@ TEST(Materials, RefuseBadConstantsAndSayWhy) {
   expect_refusal([] { (void)MuscleFibre({.p2 = 2000}); }, {"P2", "800", "700"});
   expect_refusal([] { (void)MuscleFibre({.toe_end = 0.9}); }, {"toe", "0.9", "above 1"});
   expect_refusal([] { (void)MuscleFibre({.optimal_stretch = 0.9}); }, {"0.9", "at least 1"});
+  expect_refusal([] { (void)MuscleFibre({.tendon_ratio = -0.1}); }, {"tendon ratio", "-0.1"});
+  expect_refusal([] { (void)MuscleFibre({.tendon_ratio = 1}); }, {"tendon ratio", "below 1"});
   expect_refusal([] { (void)BlemkerMuscle<>(MuscleFibre({}), {.G1 = 0}); }, {"G1", "0 Pa"});
   expect_refusal([] { (void)BlemkerMuscle<>(MuscleFibre({}), {.G2 = -1}); }, {"G2", "-1 Pa"});
   expect_refusal([] { (void)BlemkerMuscle<>(MuscleFibre({}), {.c10 = -1}); }, {"c10", "-1 Pa"});

@@ -185,6 +185,17 @@ TEST(HarmonicFibres, LeaveUnusedNodesAlone) {
   EXPECT_LT((fibres.colwise() - Vec3(1, 0, 0)).norm(), 1e-11);
 }
 
+TEST(Fibres, MoveWithTheTissueAndKeepLengthOne) {
+  const TetMesh mesh = box_mesh({2, 2, 2}, Vec3(0.02, 0.02, 0.02));
+  const FibreDirections fibres = constant_fibres(Vec3(3, 4, 0), mesh.tets.cols());
+  Mat3 F;
+  F << 1.2, 0.3, 0, 0, 0.9, 0.1, 0.2, 0, 1.1;
+  const FibreDirections moved =
+      moved_fibres(mesh.X, mesh.tets, fibres, (F * mesh.X).colwise() + Vec3(1, 2, 3));
+  const Vec3 expected = (F * Vec3(0.6, 0.8, 0)).normalized();
+  EXPECT_LT((moved.colwise() - expected).norm(), 1e-11);
+}
+
 TEST(Fibres, AreNormalizedAndCheckedWhereTheyAreGiven) {
   EXPECT_LT((constant_fibres(Vec3(0, 3, 4), 5).colwise() - Vec3(0, 0.6, 0.8)).norm(), 1e-15);
   EXPECT_EQ(constant_fibres(Vec3(0, 3, 4), 5).cols(), 5);

@@ -103,6 +103,7 @@ excitation = "ramp"
 [[muscle_table]]
 file = "muscles.csv"
 place = { scale = 1 }
+leave_out = ["geniohyoid"]
 bodies = { hyoid = "skull" }
 passive_fraction = 0.02
 max_velocity = "5 1/s"
@@ -270,10 +271,11 @@ std::string tissues() {
        R"(zero_length = "1.5 um", b = "4 1/um", calcium = 4, max_calcium = 5 }, )"
        R"(fibres = { from = {}, to = {} }, )" +
            kappa + relaxation},
-      {"muscle", R"(max_stress = "1 kPa", p1 = 0.1, p2 = 5, toe_end = 1.3, optimal_stretch = 1.1, )"
-                 R"(shear_along = "1 kPa", shear_across = "1 kPa", c10 = "1 kPa", )"
-                 R"(fibres = { direction = [0, 0, 1] }, )" +
-                     kappa + relaxation}};
+      {"muscle",
+       R"(max_stress = "1 kPa", p1 = 0.1, p2 = 5, toe_end = 1.3, optimal_stretch = 1.1, )"
+       R"(tendon_ratio = 0.4, shear_along = "1 kPa", shear_across = "1 kPa", c10 = "1 kPa", )"
+       R"(fibres = { direction = [0, 0, 1] }, )" +
+           kappa + relaxation}};
   std::string text;
   for (const auto& [law, constants] : laws)
     text += fmt::format(
@@ -391,7 +393,8 @@ class KeyTables : public ScenarioTest {
   KeyTables() {
     write("muscles.csv",
           "id,muscle,body_upper,ux_mm,uy_mm,uz_mm,body_lower,lx_mm,ly_mm,lz_mm,max_force_N,"
-          "max_over_opt_length,tendon_ratio\nm1,masseter,hyoid,0,0,0,free,0,0,9,1,1.3,0\n");
+          "max_over_opt_length,tendon_ratio\nm1,masseter,hyoid,0,0,0,free,0,0,9,1,1.3,0\n"
+          "m2,geniohyoid,hyoid,0,0,0,free,0,0,9,1,1.3,0\n");
     write("motion.csv", "time [s],translation.x [mm]\n0,0\n1,1\n2,2\n");
   }
 
@@ -587,6 +590,7 @@ TEST_F(KeyTables, DefaultsOfLawsAreThePublishedConstants) {
   EXPECT_EQ(standard_of(muscle, "p2"), fibre.p2);
   EXPECT_EQ(standard_of(muscle, "toe_end"), fibre.toe_end);
   EXPECT_EQ(standard_of(muscle, "optimal_stretch"), fibre.optimal_stretch);
+  EXPECT_EQ(standard_of(muscle, "tendon_ratio"), fibre.tendon_ratio);
   const fem::BlemkerMuscle<fem::LogVolumeChange>::Constants ground;
   EXPECT_EQ(standard_of(muscle, "shear_along"), ground.G1);
   EXPECT_EQ(standard_of(muscle, "shear_across"), ground.G2);

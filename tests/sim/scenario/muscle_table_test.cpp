@@ -53,6 +53,18 @@ TEST_F(MuscleTable, RowsBecomeMuscles) {
   EXPECT_TRUE(scenario.muscles[2].excitation.time.empty());
 }
 
+TEST_F(MuscleTable, LeavesOutMusclesThatAreNamed) {
+  write("muscles.csv", std::string(kHeader) + kRows);
+  const Scenario scenario = read(scenario_, {"muscle_table.0.leave_out=['anterior temporalis']",
+                                             "muscle_table.0.excitation={}"});
+  ASSERT_EQ(scenario.muscles.size(), 1U);
+  EXPECT_EQ(scenario.muscles[0].name, "lgh");
+  EXPECT_EQ(
+      refusal(scenario_, {"muscle_table.0.leave_out=['anterior temporali']"}),
+      "--set muscle_table.0.leave_out=['anterior temporali']: `leave_out[0]`: the muscle table has "
+      "no muscle `anterior temporali`; did you mean `anterior temporalis`?");
+}
+
 // x -> scale R (x - about) + about + translation: a quarter turn about z at (0, 0, 0) takes x to y.
 TEST_F(MuscleTable, PointsArePlaced) {
   write("muscles.csv", std::string(kHeader) + kRows);

@@ -1,0 +1,76 @@
+// The jaw whose closing muscles are tissue, in scenarios/mandible/.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sim/build/build_model.hpp"
+#include "sim/step/stepper.hpp"
+#include "tests/scenarios/scenario_results.hpp"
+
+namespace articular::muscles_test {
+
+using sim::Vec3;
+
+Vec3 vector(const ScenarioResults& results, const std::string& name, const std::string& unit) {
+  const auto last = [&](const char* axis) {
+    return results.last(name + "." + axis + " [" + unit + "]");
+  };
+  return {last("x"), last("y"), last("z")};
+}
+
+// It pulls both bones together with less than the lines, for its fibres bulge and are shorter in
+// the middle.
+TEST(MasseterOfTissue, PullsBothBonesTogetherAlongTheLines) {
+  const std::vector<std::string> coarse = {"integrator.step=0.5 s"};
+  const ScenarioResults tissue = run_scenario("mandible/masseter.toml", coarse),
+                        lines = run_scenario("mandible/masseter.toml",
+                                             {"integrator.step=0.5 s", "choice.muscle=line"});
+  const Vec3 on_skull = vector(tissue, "skull.force", "N"),
+             on_mandible = vector(tissue, "mandible.force", "N"),
+             of_lines = vector(lines, "mandible.force", "N");
+  EXPECT_LT((on_skull + on_mandible).norm(), 1e-4 * on_skull.norm());  // the balance of statics
+  EXPECT_GT(on_mandible.norm(), 0.4 * of_lines.norm());
+  EXPECT_LT(on_mandible.norm(), of_lines.norm());
+  EXPECT_GT(on_mandible.normalized().dot(of_lines.normalized()), std::cos(0.2));  // 11 degrees
+}
+
+double volume(const Tetrahedra& tets, const Positions& x) {  // [m³]
+  double sum = 0;
+  for (const Eigen::Vector4i& tet : tets.colwise()) {
+    const Vec3 x0 = x.col(tet(0)), a = x.col(tet(1)) - x0, b = x.col(tet(2)) - x0,
+               c = x.col(tet(3)) - x0;
+    sum += a.cross(b).dot(c) / 6;
+  }
+  return sum;
+}
+
+// Left and right contract alike, keep their volume, and no element turns over.
+TEST(JawWithMuscles, MusclesKeepTheirVolumeAndAreMirrorImages) {
+  const sim::Scenario scenario = shipped_scenario(
+      "mandible/muscles.toml",
+      {"duration=0.03 s", "curve.closers.time=['0 s', '0.02 s']", "curve.closers.value=[0, 0.15]"});
+  const sim::Model model = sim::build_model(scenario);
+  sim::Stepper stepper(model, sim::step_settings(scenario));
+  sim::State state = stepper.initial();
+  while (state.t < 0.0299) stepper.step(state, state.t + 3e-3);
+  ASSERT_EQ(model.tissues.size(), 4U);
+  for (std::size_t t = 0; t < model.tissues.size(); ++t) {
+    SCOPED_TRACE(model.bodies[static_cast<std::size_t>(model.tissues[t].body)].name);
+    const sim::Tissue& tissue = model.tissues[t];
+    const Positions& x = stepper.now().tissues[t].x;
+    EXPECT_NEAR(volume(tissue.elements.tets(), x) / volume(tissue.elements.tets(), tissue.X), 1,
+                0.01);
+    EXPECT_GT(tissue.elements.volume_ratio(x).minCoeff(), 0.1);
+    EXPECT_LT(tissue.elements.fibre_stretch(x).mean(), 0.99);  // it has contracted
+  }
+  for (const std::size_t left : {0U, 2U}) {
+    const Positions a = stepper.now().tissues[left].x, b = stepper.now().tissues[left + 1].x;
+    EXPECT_LT((a.row(0) + b.row(0)).cwiseAbs().maxCoeff(), 0.02e-3);  // [m]
+    EXPECT_LT((a.bottomRows(2) - b.bottomRows(2)).cwiseAbs().maxCoeff(), 0.02e-3);
+  }
+}
+
+}  // namespace articular::muscles_test
