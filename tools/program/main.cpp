@@ -24,6 +24,7 @@
 #include "tools/process/source_excerpt.hpp"
 #include "tools/process/standard_streams.hpp"
 #include "tools/render/render_command.hpp"
+#include "tools/report/report_command.hpp"
 #include "tools/run/commands.hpp"
 #include "tools/shipped/scenarios_command.hpp"
 #include "tools/study/study_command.hpp"
@@ -66,6 +67,7 @@ int run_program(int argc, char** argv) {
   articular::tools::add_explain_command(app, exit_code);
   articular::tools::add_render_command(app, exit_code);
   articular::tools::add_plot_command(app, exit_code);
+  articular::tools::add_report_command(app, exit_code);
   articular::tools::add_study_command(app, exit_code);
   articular::tools::add_fit_command(app, exit_code);
   articular::tools::add_verify_command(app, exit_code);
