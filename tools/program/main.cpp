@@ -57,6 +57,7 @@ int run_program(int argc, char** argv) {
       "Try: articular run mandible/opening --out out/opening\n"
       "     articular render out/opening\n"
       "     articular plot out/opening\n"
+      "     articular report out/opening\n"
       "Exit codes: 0 done, 2 bad input, 3 the simulation could not go on (results until then are\n"
       "valid), 4 the system failed (disk, display), 130 interrupted, 1 a bug in articular.");
   int exit_code = 0;

@@ -75,8 +75,11 @@ std::string packed_doubles(const std::vector<double>& numbers) {
 Json quantised(const std::vector<double>& numbers, std::size_t frame_size) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const double number : numbers)
-    if (std::isfinite(number)) low = std::min(low, number), high = std::max(high, number);
-  if (low > high) low = high = 0;
+    if (std::isfinite(number)) {
+      low = std::min(low, number);
+      high = std::max(high, number);
+    }
+  if (low > high) low = high = 0;  // nothing is finite
   const double step = (high - low) / kSteps;
   std::vector<std::uint32_t> steps;
   steps.reserve(numbers.size());

@@ -61,7 +61,7 @@ void append(const std::vector<double>& numbers, std::vector<double>& all) {
 /// In its own words where that is no unit we know.
 ShownUnit shown_unit_of(const std::string& unit, double largest) {
   try {
-    return shown_unit(axis_unit(unit), largest);
+    return shown_unit(axis_unit(unit == "1" ? "-" : unit), largest);  // frames call no unit 1
   } catch (const std::invalid_argument&) {
     return {1, unit};
   } catch (const sim::InputError&) {

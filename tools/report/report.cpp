@@ -27,8 +27,12 @@ bool is_folder(const fs::path& path) {
 
 std::vector<fs::path> series_in(const fs::path& folder) {
   std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".pvd") found.push_back(entry.path());
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->path().extension() == ".pvd") found.push_back(entry->path());
+  if (error)
+    throw sim::InputError({sim::one_line(folder.string())}, "cannot be read: " + error.message());
   return found;
 }
 

@@ -74,7 +74,7 @@ async function picture(name, selector) {
   writeFileSync(join(folder, `${name}.png`), Buffer.from(data, 'base64'));
 }
 
-const setValue = (selector, value) => evaluate(`(() => { const e = document.querySelector('${selector}'); if (!e) return false; e.value = '${value}';
+const setValue = (selector, value) => evaluate(`(() => { const e = document.querySelector(${JSON.stringify(selector)}); if (!e) return false; e.value = '${value}';
   e.dispatchEvent(new Event('input', { bubbles: true })); e.dispatchEvent(new Event('change', { bubbles: true })); return true; })()`);
 
 async function click(selector) {
@@ -125,6 +125,13 @@ async function look() {
     if (await setValue('.time input', 0)) await picture('first', '.stage');
     await setValue('select[name=cut]', 0);
     await picture('cut', '.stage');
+    await setValue('select[name=cut]', '');
+    // All values lie above this range, so that all have the colour of its upper end.
+    await evaluate("document.querySelector('input[name=shading]').click()");
+    if (await setValue("[aria-label='lowest colour']", -2)) {
+      await setValue("[aria-label='highest colour']", -1);
+      await picture('above', '.stage');
+    }
   }
   return { ...seen, errors, requests: requests.filter((url) => !url.startsWith('file:')) };
 }

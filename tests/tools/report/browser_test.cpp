@@ -48,6 +48,19 @@ std::size_t num_colours(vtkImageData& picture) {
   return colours.size();
 }
 
+/// Pixels of about this colour.
+vtkIdType num_pixels_like(const std::array<int, 3>& colour, vtkImageData& picture) {
+  vtkIdType count = 0;
+  for (vtkIdType i = 0; i < picture.GetNumberOfPoints(); ++i) {
+    const auto found = colour_at(picture, i);
+    count += std::abs(found[0] - colour[0]) <= 2 && std::abs(found[1] - colour[1]) <= 2 &&
+                     std::abs(found[2] - colour[2]) <= 2
+                 ? 1
+                 : 0;
+  }
+  return count;
+}
+
 /// A page of a run, opened on a desk and on a phone.
 class Browser : public ::testing::TestWithParam<std::pair<int, int>> {
  protected:
@@ -103,6 +116,10 @@ TEST_P(Browser, ShowsARunWithoutAnErrorAndWithoutAnyRequest) {
   EXPECT_GT(num_colours(*last), 8U);
   EXPECT_GT(difference(*last, *picture("first")), 0.01);
   EXPECT_GT(difference(*picture("first"), *picture("cut")), 0.01);
+  // Without shading a value beyond the upper end has the colour that ends the legend, #fde725.
+  constexpr std::array<int, 3> kHighest = {253, 231, 37};
+  EXPECT_GT(num_pixels_like(kHighest, *picture("above")),
+            5 * num_pixels_like(kHighest, *last) + last->GetNumberOfPoints() / 100);
   EXPECT_NE(seen["legend"].get<std::string>().find("von Mises stress [kPa]"), std::string::npos);
   const std::string readout = seen["readout"];
   EXPECT_EQ(readout.find("block von Mises stress "), 0U) << readout;

@@ -105,11 +105,16 @@ TEST_F(Report, FieldsHaveTheirUnitsAndReachAsInTheFrames) {
                    [](const nlohmann::json& body) { return body["name"] == "block"; });
   EXPECT_EQ((*block)["fields"]["von_mises"]["low"], 0);
   EXPECT_GT((*block)["fields"]["von_mises"]["high"], 1000);
-  for (const nlohmann::json& field : scene["fields"])
+  for (const nlohmann::json& field : scene["fields"]) {
     if (field["name"] == "von_mises") {
       EXPECT_EQ(field["unit"], "kPa");
       EXPECT_EQ(field["factor"], 1e-3);
     }
+    if (field["name"] == "activation") {
+      EXPECT_EQ(field["unit"], "");
+      EXPECT_TRUE(field["is_of_lines"]);
+    }
+  }
 }
 
 TEST_F(Report, HasPicturesThatLieInTheFolder) {

@@ -1,4 +1,5 @@
 // The 3D scene as numbers: what is where in which frame.
+import { noMotion } from './shapes.js';
 import { unpackDoubles, unpackIntegers, unpackQuantised } from './unpack.js';
 
 async function unpackFields(packed, frameSize) {
@@ -13,8 +14,6 @@ function interleaved(planes, first, count) {
   return points;
 }
 
-const kNoMotion = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
-
 /** Nodes of tissue move, and a bone moves as a whole: pose() has three rows of rotation and translation. */
 async function unpackBody(packed) {
   const isTissue = packed.kind === 'tissue';
@@ -25,9 +24,9 @@ async function unpackBody(packed) {
   const fields = await unpackFields(packed.fields, count);
   const still = isTissue ? null : interleaved(planes, 0, count);
   return {
-    name: packed.name, isTissue, details: packed.details ?? [], triangles, fields,
+    name: packed.name, isTissue, details: packed.details ?? [], triangles, fields, numNodes: count,
     points: (frame) => still ?? interleaved(planes, 3 * count * frame, count),
-    pose: (frame) => (poses.length > 12 * frame ? poses.slice(12 * frame, 12 * frame + 12) : kNoMotion),
+    pose: (frame) => (poses.length > 12 * frame ? poses.slice(12 * frame, 12 * frame + 12) : noMotion),
     values: (field, frame) => fields[field]?.subarray(count * frame, count * (frame + 1)),
   };
 }

@@ -1,6 +1,6 @@
 import { addCurves } from './curves.js';
 import { element } from './elements.js';
-import { addPictures, addProvenance, addSettings, addSetup, addSummary, addTimings, addTrust } from './sections.js';
+import { addOutcome, addPictures, addProvenance, addSettings, addSetup, addSummary, addTimings, addTrust } from './sections.js';
 import { addView } from './view.js';
 
 const data = JSON.parse(document.getElementById('data').textContent);
@@ -18,6 +18,7 @@ function showRemarks() {
 async function show() {
   document.getElementById('title').textContent = data.title;
   showRemarks();
+  if (data.kind === 'run') addOutcome(data.summary);
   if (data.summary) addSummary(data.summary, data.error_bars);
   if (data.kind === 'setup') addSetup(data);
   if (data.scene) await addView(data.scene);

@@ -10,9 +10,16 @@ function rowsOf(value, before = '') {
   return Object.entries(value).flatMap(([key, inner]) => rowsOf(inner, before === '' ? key : `${before}.${key}`));
 }
 
+/** "0.3 s of 0.9 s", in statics "30 % of the load". */
+function reached({ simulated_time_s: time, settings }) {
+  const { duration_s: whole, analysis } = settings ?? {};
+  return analysis === 'static' ? `${shortNumber((100 * time) / whole)} % of the load` : `${shortNumber(time)} s of ${shortNumber(whole)} s`;
+}
+
 function outcomeWords(summary) {
-  const { outcome } = summary;
-  const until = `${shortNumber(summary.simulated_time_s)} s of ${shortNumber(summary.settings?.duration_s)} s were computed`;
+  const outcome = summary?.outcome;
+  if (!outcome) return ['bad', 'There is no summary.json that says how the run ended.'];
+  const until = `it came to ${reached(summary)}`;
   if (outcome === 'finished') return ['good', 'The run finished.'];
   if (outcome === 'unfinished') return ['bad', 'The run has not come to its end: it goes on, or was killed.'];
   if (outcome === 'interrupted') return ['bad', `The run was interrupted: ${until}.`];
@@ -26,15 +33,18 @@ function errorBarWords(bars) {
   return `${bars.rows.length} quantities, ${sound} of them in the range where bars hold`;
 }
 
-export function addSummary(summary, bars) {
+export function addOutcome(summary) {
   const [kind, text] = outcomeWords(summary);
   document.getElementById('verdict').append(element('span', { className: `outcome ${kind}` }, text));
+}
+
+export function addSummary(summary, bars) {
   const { settings = {}, size = {} } = summary;
   const rows = [
     ['scenario', summary.scenario],
     ['analysis', settings.analysis],
     ['accuracy', settings.accuracy],
-    ['simulated time', summary.simulated_time_s === undefined ? undefined : `${shortNumber(summary.simulated_time_s)} s`],
+    ['computed', summary.simulated_time_s === undefined ? undefined : reached(summary)],
     ['tissue', size.tetrahedra === undefined ? undefined : `${size.tetrahedra} tetrahedra in ${size.bodies} bodies`],
     ['unknown velocities', size.unknown_velocities],
     ['muscles, ligaments', size.muscles === undefined ? undefined : `${size.muscles}, ${size.ligaments}`],

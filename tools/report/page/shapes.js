@@ -1,18 +1,51 @@
 // Triangles and what is computed of them.
 
-/** Unit normals at the nodes: means over the faces around, by their area. */
-export function nodeNormals(points, triangles) {
-  const normals = new Float32Array(points.length);
-  for (let t = 0; t < triangles.length; t += 3) {
-    const [a, b, c] = [3 * triangles[t], 3 * triangles[t + 1], 3 * triangles[t + 2]];
-    const [ux, uy, uz] = [points[b] - points[a], points[b + 1] - points[a + 1], points[b + 2] - points[a + 2]];
-    const [vx, vy, vz] = [points[c] - points[a], points[c + 1] - points[a + 1], points[c + 2] - points[a + 2]];
-    const face = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
-    for (const node of [a, b, c]) for (let k = 0; k < 3; ++k) normals[node + k] += face[k];
+/** For each node the triangles around it: those of node i are list[begin[i]] to list[begin[i + 1]] (excluded). */
+export function trianglesAround(triangles, numNodes) {
+  const begin = new Uint32Array(numNodes + 2);
+  for (const node of triangles) ++begin[node + 2];
+  for (let i = 2; i < begin.length; ++i) begin[i] += begin[i - 1];
+  const list = new Uint32Array(triangles.length);
+  triangles.forEach((node, corner) => { list[begin[node + 1]++] = Math.floor(corner / 3); });
+  return { begin, list };
+}
+
+/** What belongs to nodes, for each corner of each triangle. @param size numbers of a node */
+export function atCorners(values, triangles, size) {
+  const spread = new Float32Array(size * triangles.length);
+  for (let corner = 0; corner < triangles.length; ++corner)
+    for (let k = 0; k < size; ++k) spread[size * corner + k] = values[size * triangles[corner] + k];
+  return spread;
+}
+
+const kSharp = Math.cos((45 * Math.PI) / 180);
+
+/** Unit normals at the corners of triangles: of the faces around by their area, but not across a sharp edge. */
+export function cornerNormals(points, triangles, { begin, list }) {
+  const faces = new Float32Array(triangles.length), areas = new Float32Array(triangles.length / 3);
+  for (let t = 0; t < areas.length; ++t) {
+    const [a, b, c] = [3 * triangles[3 * t], 3 * triangles[3 * t + 1], 3 * triangles[3 * t + 2]];
+    const ux = points[b] - points[a], uy = points[b + 1] - points[a + 1], uz = points[b + 2] - points[a + 2];
+    const vx = points[c] - points[a], vy = points[c + 1] - points[a + 1], vz = points[c + 2] - points[a + 2];
+    faces[3 * t] = uy * vz - uz * vy;
+    faces[3 * t + 1] = uz * vx - ux * vz;
+    faces[3 * t + 2] = ux * vy - uy * vx;
+    areas[t] = Math.hypot(faces[3 * t], faces[3 * t + 1], faces[3 * t + 2]);
   }
-  for (let i = 0; i < normals.length; i += 3) {
-    const length = Math.hypot(normals[i], normals[i + 1], normals[i + 2]) || 1;
-    for (let k = 0; k < 3; ++k) normals[i + k] /= length;
+  const normals = new Float32Array(3 * triangles.length);
+  for (let corner = 0; corner < triangles.length; ++corner) {
+    const own = Math.floor(corner / 3), node = triangles[corner];
+    let x = 0, y = 0, z = 0;
+    for (let i = begin[node]; i < begin[node + 1]; ++i) {
+      const other = list[i];
+      const dot = faces[3 * own] * faces[3 * other] + faces[3 * own + 1] * faces[3 * other + 1] + faces[3 * own + 2] * faces[3 * other + 2];
+      if (dot < kSharp * areas[own] * areas[other]) continue;
+      x += faces[3 * other];
+      y += faces[3 * other + 1];
+      z += faces[3 * other + 2];
+    }
+    const length = Math.hypot(x, y, z) || 1;
+    normals.set([x / length, y / length, z / length], 3 * corner);
   }
   return normals;
 }
@@ -84,6 +117,9 @@ export function firstHit(origin, direction, points, triangles, counts) {
   }
   return best;
 }
+
+/** A pose: three rows of rotation and translation. */
+export const noMotion = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
 /** Inverse of a rigid pose, on a point (w = 1) or a direction (w = 0). */
 export function intoBody(pose, x, w) {

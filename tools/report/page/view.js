@@ -113,23 +113,22 @@ function clipControls(packed, view, changed) {
 }
 
 /** Whether each part is drawn, and how opaque. */
-function partRow({ name, isBone, isMark, surfaces }, hasTissue, changed) {
+function partRow({ name, isBone, isMark, actor }, hasTissue, changed) {
   const seen = element('input', {
     type: 'checkbox', checked: true, change: () => {
-      for (const actor of surfaces) actor.setVisibility(seen.checked);
+      actor.setVisibility(seen.checked);
       changed();
     },
   });
-  const setOpacity = (value) => { for (const actor of surfaces) actor.getProperty().setOpacity(value); };
   const opacity = element('input', {
     type: 'range', min: 0.05, max: 1, step: 0.05, value: isBone && hasTissue ? kBoneOpacity : 1, 'aria-label': `opacity of ${name}`,
     input: () => {
-      setOpacity(opacity.valueAsNumber);
+      actor.getProperty().setOpacity(opacity.valueAsNumber);
       changed();
     },
   });
-  setOpacity(opacity.valueAsNumber);
-  return element('div', { className: 'part' }, element('label', {}, seen, ` ${name}`), isMark ? null : opacity);
+  actor.getProperty().setOpacity(opacity.valueAsNumber);
+  return element('div', { className: 'part' }, element('label', { title: name }, seen, ` ${name}`), isMark ? null : opacity);
 }
 
 /** Tells what was clicked on; a drag turns the scene and tells nothing. */
@@ -142,7 +141,7 @@ function tellClicks(place, readout, view, told, unit) {
     const hit = view.pick(event.clientX - corner.left, event.clientY - corner.top);
     if (!hit) return readout.replaceChildren('Nothing there. Click on a body to read it.');
     const words = [told(hit.value), `at (${hit.at.map((x) => x.toFixed(1)).join(', ')}) ${unit}`].filter(Boolean).join(', ');
-    const details = (hit.body?.details ?? []).map(([key, value]) => element('div', {}, `${key}: ${value}`));
+    const details = hit.details.map(([key, value]) => element('div', {}, `${key}: ${value}`));
     return readout.replaceChildren(element('strong', {}, hit.name), ` ${words}`, ...details);
   }, true);
 }
@@ -168,7 +167,7 @@ export async function addView(packedScene) {
       view.render();
     },
   }, ...Object.keys(packed.views).map((name) => option(name, name)));
-  const shaded = element('input', { type: 'checkbox', checked: true, change: () => look() });
+  const shaded = element('input', { type: 'checkbox', name: 'shading', checked: true, change: () => look() });
   const edges = element('input', { type: 'checkbox', change: () => look() });
   function look() {
     view.setLook({ isShaded: shaded.checked, hasEdges: edges.checked });
