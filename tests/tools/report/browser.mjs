@@ -116,6 +116,7 @@ async function look() {
   seen.sections = await evaluate("[...document.querySelectorAll('section')].map((section) => section.id)");
   seen.text = await evaluate('document.body.innerText');
   seen.inkOfPlots = await evaluate(inkOfPlots);
+  seen.widthsOfPictures = await evaluate("[...document.querySelectorAll('img')].map((image) => image.naturalWidth)");
   await picture('page');
   if (await evaluate("document.querySelector('.stage') !== null")) {
     seen.legend = await evaluate("document.querySelector('.legend').innerText");

@@ -68,6 +68,9 @@ class Browser : public ::testing::TestWithParam<std::pair<int, int>> {
     folder_ = std::make_unique<TemporaryFolder>();
     const ProgramResult run = run_block(*folder_);
     ASSERT_EQ(run.exit_code, 0) << run.err;
+    std::filesystem::create_directories(*folder_ / "block/plot");
+    folder_->file("block/plot/all.svg",
+                  "<svg xmlns='http://www.w3.org/2000/svg' width='70' height='30'/>");
     const ProgramResult report =
         run_program(*folder_, "report block && \"$articular\" report block.toml");
     ASSERT_EQ(report.exit_code, 0) << report.err;
@@ -98,8 +101,9 @@ TEST_P(Browser, ShowsARunWithoutAnErrorAndWithoutAnyRequest) {
   EXPECT_EQ(seen["state"], "ready");
   EXPECT_EQ(seen["errors"], nlohmann::json::array());
   EXPECT_EQ(seen["requests"], nlohmann::json::array());
-  EXPECT_EQ(seen["sections"], (nlohmann::json{"summary", "view", "curves", "trust", "settings",
-                                              "timings", "provenance"}));
+  EXPECT_EQ(seen["sections"], (nlohmann::json{"summary", "view", "curves", "pictures", "trust",
+                                              "settings", "timings", "provenance"}));
+  EXPECT_EQ(seen["widthsOfPictures"], nlohmann::json::array({70}));
   const std::string text = seen["text"];
   for (const char* const words : {"A block <pulled> & </script> pressed", "The run finished."})
     EXPECT_NE(text.find(words), std::string::npos) << words;

@@ -67,7 +67,7 @@ export function addSetup({ scenario, counts }) {
 export function addPictures(pictures) {
   addSection('pictures', 'Pictures', element('div', { className: 'pictures' },
     ...pictures.map(({ name, source }) => element('figure', {},
-      element('img', { src: source, alt: name, loading: 'lazy' }), element('figcaption', {}, name)))));
+      element('img', { src: source, alt: name }), element('figcaption', {}, name)))));
 }
 
 function energyRows({ start, end = {}, ...rest }) {
