@@ -37,7 +37,7 @@ std::vector<fs::path> series_in(const fs::path& folder) {
 }
 
 std::string title_of(const Json& summary, const fs::path& folder) {
-  const auto name = fs::weakly_canonical(folder).filename().string();
+  std::string name = fs::weakly_canonical(folder).filename().string();
   if (!summary.is_object()) return name;
   const Json title = summary.value(Json::json_pointer("/settings/title"), Json(""));
   return title.is_string() && title != "" ? title.get<std::string>() : name;

@@ -7,9 +7,9 @@ namespace articular::tools {
 std::array<double, 12> rigid_pose(const Positions& before, const Positions& now) {
   const Eigen::Matrix4d motion = Eigen::umeyama(before, now, false);
   std::array<double, 12> pose{};
+  std::size_t i = 0;
   for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column)
-      pose[static_cast<std::size_t>(4 * row + column)] = motion(row, column);
+    for (int column = 0; column < 4; ++column) pose[i++] = motion(row, column);
   return pose;
 }
 

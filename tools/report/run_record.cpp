@@ -73,7 +73,7 @@ std::vector<fs::path> picture_files(const fs::path& folder) {
 Json summary_of(const fs::path& folder) {
   const fs::path file = folder / "summary.json";
   if (!is_file(file)) return nullptr;
-  const Json summary = Json::parse(sim::file_bytes(file), nullptr, false);
+  Json summary = Json::parse(sim::file_bytes(file), nullptr, false);
   if (!summary.is_object()) throw sim::InputError({file.string()}, "this is no JSON object");
   return summary;
 }

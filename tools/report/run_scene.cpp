@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "tools/render/render_series.hpp"
 #include "tools/report/page_scene.hpp"
@@ -11,11 +10,12 @@
 namespace articular::tools {
 
 std::vector<std::size_t> spread_frames(std::size_t count, double fitting) {
-  const double last = static_cast<double>(count) - 1;
-  const double intervals = std::clamp(std::floor(fitting) - 1, std::min(1.0, last), last);
+  const std::size_t last = count - 1;
+  const double most = std::clamp(fitting - 1, 1.0, std::max(1.0, static_cast<double>(last)));
+  const std::size_t intervals = std::min(last, static_cast<std::size_t>(most));
   std::vector<std::size_t> chosen{0};
-  for (double k = 1; k <= intervals; ++k)
-    chosen.push_back(static_cast<std::size_t>(std::lround(k * last / intervals)));
+  for (std::size_t k = 1; k <= intervals; ++k)
+    chosen.push_back((2 * k * last + intervals) / (2 * intervals));  // rounded
   return chosen;
 }
 

@@ -29,8 +29,9 @@ TEST(PackedDoubles, KeepAllTheirBits) {
 }
 
 TEST(Quantised, IsOffByHalfAStepAtMost) {
-  std::vector<double> numbers;
-  for (int i = 0; i < 1000; ++i) numbers.push_back(-3 + 17 * std::sin(i * 0.37));
+  std::vector<double> numbers(1000);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    numbers[i] = -3 + 17 * std::sin(static_cast<double>(i) * 0.37);
   for (const std::size_t frame_size : {0U, 10U}) {
     const Json json = quantised(numbers, frame_size);
     const std::vector<double> values = unquantised(json, frame_size);
