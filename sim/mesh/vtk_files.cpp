@@ -99,6 +99,13 @@ void insert(vtkCellArray& array, const Cells& cells) {
   }
 }
 
+void add_texts(const std::string& name, const std::vector<std::string>& texts, vtkFieldData& data) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(name.c_str());
+  for (const std::string& text : texts) array->InsertNextValue(text);
+  data.AddArray(array);
+}
+
 std::recursive_mutex& error_output() {
   static std::recursive_mutex mutex;
   return mutex;
@@ -161,12 +168,9 @@ vtkSmartPointer<vtkPointSet> read_vtk_file(const std::filesystem::path& file) {
   set->SetPoints(points);
   add_fields(content.point_fields, *set->GetPointData());
   add_fields(content.cell_fields, *set->GetCellData());
-  for (const auto& [name, text] : content.texts) {
-    vtkNew<vtkStringArray> array;
-    array->SetName(name.c_str());
-    array->InsertNextValue(text);
-    set->GetFieldData()->AddArray(array);
-  }
+  for (const VtkXmlTexts& array : content.cell_texts)
+    add_texts(array.name, array.texts, *set->GetCellData());
+  for (const auto& [name, text] : content.texts) add_texts(name, {text}, *set->GetFieldData());
   return set;
 }
 

@@ -35,8 +35,8 @@ class QuietVtk {
   int previous_verbosity_;
 };
 
-/// A .vtu or .vtp with all its fields, and the first text of each array of texts, for VTK's
-/// filters. Read by read_vtk_xml().
+/// A .vtu or .vtp with all its fields, the texts of its cells, and the first text of each array of
+/// texts of the whole file, for VTK's filters. Read by read_vtk_xml().
 /// @throws InputError in one line when anything is wrong with the file
 vtkSmartPointer<vtkPointSet> read_vtk_file(const std::filesystem::path& file);
 

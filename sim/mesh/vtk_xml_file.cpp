@@ -49,7 +49,8 @@ class VtkXmlReader {
     expect_whole(content);
     for (const VtkXmlArray& array : field_data_)
       if (array.holds_texts && fields_ == VtkXmlFields::All)
-        content.texts.emplace_back(array.name, first_text(decode(array, encoding_, budget)));
+        content.texts.emplace_back(
+            array.name, text_at(decode(array, encoding_, budget), 0, "its field data hold"));
     return content;
   }
 
@@ -261,6 +262,7 @@ class VtkXmlReader {
     }
     add_fields(piece, "PointData", piece.num_points, budget, content.point_fields);
     add_fields(piece, "CellData", num_cells, budget, content.cell_fields);
+    if (fields_ == VtkXmlFields::All) add_cell_texts(piece, num_cells, budget, content.cell_texts);
   }
 
   void add_cells(const Piece& piece, const char* section, std::uint64_t count,
@@ -304,23 +306,47 @@ class VtkXmlReader {
       if (!is_wanted || array.holds_texts || array.name.empty()) continue;
       const Numbers values = decode(array, encoding_, budget);
       expect_size(values, tuples, array.components, "`" + one_line(array.name) + "`");
-      auto field = std::find_if(fields.begin(), fields.end(),
-                                [&](const VtkXmlField& other) { return other.name == array.name; });
-      if (field == fields.end()) {
-        if (fields.size() == kMostFields)
-          fail("it has more than " + std::to_string(kMostFields) + " fields");
-        field = fields.insert(fields.end(), {array.name, array.components, {}});
-      }
-      for (std::size_t i = 0; i < values.size(); ++i) field->values.push_back(values[i]);
+      VtkXmlField& field = named(array.name, "fields", fields);
+      field.components = array.components;
+      for (std::size_t i = 0; i < values.size(); ++i) field.values.push_back(values[i]);
+    }
+  }
+
+  /// An entry of `all` by its name; a new one where there is none. @param what  they are
+  template <class Named>
+  Named& named(const std::string& name, const char* what, std::vector<Named>& all) const {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+    if (found != all.end()) return *found;
+    if (all.size() == kMostFields)
+      fail("it has more than " + std::to_string(kMostFields) + " " + what);
+    all.emplace_back().name = name;
+    return all.back();
+  }
+
+  void add_cell_texts(const Piece& piece, std::uint64_t num_cells, VtkXmlBudget& budget,
+                      std::vector<VtkXmlTexts>& all) const {
+    const auto found = piece.sections.find("CellData");
+    if (found == piece.sections.end()) return;
+    for (const VtkXmlArray& array : found->second) {
+      if (!array.holds_texts || array.name.empty()) continue;
+      const Numbers characters = decode(array, encoding_, budget);
+      std::vector<std::string>& texts = named(array.name, "texts of cells", all).texts;
+      std::uint64_t count = 0;
+      for (std::size_t at = 0; at < characters.size(); at += texts.back().size() + 1, ++count)
+        texts.push_back(text_at(characters, at, "its cells have"));
+      if (count != num_cells)
+        fail("`" + one_line(array.name) + "` has " + std::to_string(count) + " texts for " +
+             std::to_string(num_cells) + " cells");
     }
   }
 
   /// Texts stand one behind the other, each with a zero at its end.
-  std::string first_text(const Numbers& characters) const {
+  std::string text_at(const Numbers& characters, std::size_t at, const char* who) const {
     std::string text;
-    for (std::size_t i = 0; i < characters.size() && characters[i] != 0; ++i) {
+    for (std::size_t i = at; i < characters.size() && characters[i] != 0; ++i) {
       if (!(characters[i] >= -128 && characters[i] <= 255))
-        fail("its field data hold a text with a number that is no character");
+        fail(std::string(who) + " a text with a number that is no character");
       text += static_cast<char>(static_cast<int>(characters[i]));
     }
     return text;

@@ -21,6 +21,12 @@ struct VtkXmlField {
   std::vector<double> values;
 };
 
+/// A text a cell, such as the names of muscles.
+struct VtkXmlTexts {
+  std::string name;
+  std::vector<std::string> texts;
+};
+
 /// What a .vtu or .vtp holds. Several pieces are joined.
 struct VtkXmlContent {
   bool is_grid = false;
@@ -29,6 +35,7 @@ struct VtkXmlContent {
   std::vector<int> types;                         // of a grid's cells, as VTK numbers them
   VtkXmlCells vertices, lines, strips, polygons;  // of a surface
   std::vector<VtkXmlField> point_fields, cell_fields;
+  std::vector<VtkXmlTexts> cell_texts;  // with VtkXmlFields::All
   /// Of the whole file: names and first texts, such as {"force.unit", "N"}.
   std::vector<std::pair<std::string, std::string>> texts;
 };

@@ -24,6 +24,7 @@
 #include "tools/process/source_excerpt.hpp"
 #include "tools/process/standard_streams.hpp"
 #include "tools/render/render_command.hpp"
+#include "tools/report/report_command.hpp"
 #include "tools/run/commands.hpp"
 #include "tools/shipped/scenarios_command.hpp"
 #include "tools/study/study_command.hpp"
@@ -56,6 +57,7 @@ int run_program(int argc, char** argv) {
       "Try: articular run mandible/opening --out out/opening\n"
       "     articular render out/opening\n"
       "     articular plot out/opening\n"
+      "     articular report out/opening\n"
       "Exit codes: 0 done, 2 bad input, 3 the simulation could not go on (results until then are\n"
       "valid), 4 the system failed (disk, display), 130 interrupted, 1 a bug in articular.");
   int exit_code = 0;
@@ -66,6 +68,7 @@ int run_program(int argc, char** argv) {
   articular::tools::add_explain_command(app, exit_code);
   articular::tools::add_render_command(app, exit_code);
   articular::tools::add_plot_command(app, exit_code);
+  articular::tools::add_report_command(app, exit_code);
   articular::tools::add_study_command(app, exit_code);
   articular::tools::add_fit_command(app, exit_code);
   articular::tools::add_verify_command(app, exit_code);

@@ -1,34 +1,25 @@
 #include "tools/render/setup_picture.hpp"
 
 #include <fmt/format.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
 #include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
 
 #include <algorithm>
 #include <set>
 
 #include "sim/base/error.hpp"
 #include "sim/build/build_model.hpp"
-#include "sim/lines/line_path.hpp"
-#include "sim/mesh/vtk_files.hpp"
 #include "sim/model/configuration.hpp"
 #include "tools/render/nearest.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/picture_name.hpp"
 #include "tools/render/render_scene.hpp"
+#include "tools/render/setup_frame.hpp"
 #include "tools/render/virtual_display.hpp"
 
 namespace articular::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr Rgb kAttached = {0.80, 0.10, 0.10}, kSupported = {0.10, 0.55, 0.20},
-              kLineEnd = {0.10, 0.25, 0.75};
 
 void refuse_frames(const RenderOptions& options) {
   if (options.all || options.frame || !options.movie.empty() || options.deformation != 1 ||
@@ -40,46 +31,6 @@ void refuse_frames(const RenderOptions& options) {
                           "--colour-map, --only, --hide; or the folder of a run");
 }
 
-vtkSmartPointer<vtkPointSet> lines_of(const sim::Model& model, const sim::Configuration& now,
-                                      double unit) {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> paths;
-  vtkNew<vtkDoubleArray> kind;
-  kind->SetName("kind");
-  for (const sim::Line& line : model.lines) {
-    const std::vector<sim::WeightedPoint> path = sim::path_from_start(model, line, now);
-    paths->InsertNextCell(static_cast<int>(path.size()));
-    for (const sim::WeightedPoint& point : path) {
-      const Vec3 x = now.position(point) / unit;
-      paths->InsertCellPoint(points->InsertNextPoint(x.data()));
-    }
-    kind->InsertNextValue(line.muscle >= 0 ? 0 : 1);
-  }
-  auto set = vtkSmartPointer<vtkPolyData>::New();
-  set->SetPoints(points);
-  set->SetLines(paths);
-  set->GetCellData()->AddArray(kind);
-  return set;
-}
-
-Frame start_of(const sim::Model& model, const sim::Configuration& now, double unit) {
-  Frame frame{0, 0, {}};
-  for (const sim::BodyModel& body : model.bodies) {
-    if (body.tissue >= 0) {
-      const sim::Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
-      frame.parts.push_back({body.name, PartKind::Tissue,
-                             sim::make_grid(tissue.X, unit, tissue.elements.tets(), {})});
-    } else if (body.X.cols() > 0) {
-      frame.parts.push_back(
-          {body.name, PartKind::Bone,
-           sim::make_surface(start_positions(model, body), unit, body.triangles)});
-    }
-  }
-  if (!model.lines.empty())
-    frame.parts.push_back({"lines", PartKind::Lines, lines_of(model, now, unit)});
-  return frame;
-}
-
 void add_bodies(const Frame& frame, Marks& marks) {
   for (const Part& part : frame.parts) {
     if (part.kind == PartKind::Lines) continue;
@@ -88,33 +39,6 @@ void add_bodies(const Frame& frame, Marks& marks) {
     marks.labels.push_back(
         {0.5 * Vec3(box[0] + box[1], box[2] + box[3], box[4] + box[5]), part.name});
   }
-}
-
-void add_attached_nodes(const sim::Model& model, double unit, Marks& marks) {
-  Marks::Points attached{{}, kAttached};
-  for (const sim::Tissue& tissue : model.tissues)
-    for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
-      if (tissue.nodes[i].rigid >= 0)
-        attached.at.emplace_back(tissue.X.col(static_cast<Eigen::Index>(i)) / unit);
-  marks.points.push_back(std::move(attached));
-}
-
-void add_supported_nodes(const sim::Model& model, double unit, Marks& marks) {
-  Marks::Points supported{{}, kSupported};
-  for (const sim::SupportModel& support : model.supports)
-    for (const sim::SupportModel::Node& node : support.nodes)
-      supported.at.emplace_back(
-          model.tissues[static_cast<std::size_t>(support.tissue)].X.col(node.node) / unit);
-  marks.points.push_back(std::move(supported));
-}
-
-void add_line_ends(const sim::Model& model, const sim::Configuration& now, double unit,
-                   Marks& marks) {
-  Marks::Points ends{{}, kLineEnd};
-  for (const sim::Line& line : model.lines)
-    for (const sim::WeightedPoint* point : {&line.path.front(), &line.path.back()})
-      ends.at.emplace_back(now.position(*point) / unit);
-  marks.points.push_back(std::move(ends));
 }
 
 /// What a picture of a run surveys, of this one frame.
@@ -157,7 +81,7 @@ int render_setup(const RenderOptions& options) {
   const double unit = scenario.output.length_unit.metres;
   sim::Configuration now;
   sim::read_state(model, sim::initial_state(model).data(), 0, now);
-  const Frame frame = start_of(model, now, unit);
+  const Frame frame = start_frame(model, now, unit);
   if (frame.parts.empty())
     throw sim::InputError({file.string()}, "no body of this scenario has a mesh to draw");
   require_known_parts(options, frame);
@@ -174,9 +98,8 @@ int render_setup(const RenderOptions& options) {
 
   Marks marks;
   add_bodies(frame, marks);
-  add_attached_nodes(model, unit, marks);
-  add_supported_nodes(model, unit, marks);
-  add_line_ends(model, now, unit, marks);
+  marks.points = {attached_nodes(model, unit), supported_nodes(model, unit),
+                  line_ends(model, now, unit)};
   marks.legend = std::string("red: attached nodes; ") +
                  (model.supports.empty() ? "" : "green: supported nodes; ") +
                  "blue: ends of muscles and ligaments";

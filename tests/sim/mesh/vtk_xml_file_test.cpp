@@ -253,6 +253,24 @@ TEST(VtkXml, ATextHoldsCharacters) {
     EXPECT_THROW(unit_of(characters), InputError) << characters;
 }
 
+TEST(VtkXml, CellsHaveTextsSuchAsTheNamesOfMuscles) {
+  const TemporaryFolder folder;
+  const auto with_texts = [&](const std::string& characters) {
+    std::string text = grid_with(
+        "<DataArray type='Float64' NumberOfComponents='3'>0 0 0 1 0 0 0 1 0 0 0 1</DataArray>");
+    text.insert(text.find("</Piece>"),
+                "<CellData><Array type='String' Name='name'>" + characters + "</Array></CellData>");
+    return folder.file("m.vtu", text);
+  };
+  const VtkXmlContent content = read_vtk_xml(with_texts("109 49 0"), VtkXmlFields::All);
+  ASSERT_EQ(content.cell_texts.size(), 1U);
+  EXPECT_EQ(content.cell_texts[0].name, "name");
+  EXPECT_EQ(content.cell_texts[0].texts, (std::vector<std::string>{"m1"}));
+  EXPECT_TRUE(read_vtk_xml(with_texts("109 0"), VtkXmlFields::CellVectors).cell_texts.empty());
+  EXPECT_THROW(read_vtk_xml(with_texts("109 0 110 0"), VtkXmlFields::All), InputError);
+  EXPECT_THROW(read_vtk_xml(with_texts("300 0"), VtkXmlFields::All), InputError);
+}
+
 // Zeros fold to a thousandth at best.
 TEST(VtkXml, DataThatUnfoldToMoreThanAnyCompressorCanAreRefused) {
   const TemporaryFolder folder;

@@ -42,6 +42,14 @@ TEST_F(Installed, RunsAShippedScenario) {
   EXPECT_TRUE(std::filesystem::exists(*folder / "out/two/two.pvd"));
 }
 
+TEST_F(Installed, MakesTheReportOfARun) {
+  const ProgramResult report = run_installed(
+      "run verification/hanging_beam --out out/beam --quiet && prefix/bin/articular "
+      "report out/beam");
+  EXPECT_EQ(report.exit_code, 0) << report.err;
+  EXPECT_TRUE(std::filesystem::exists(*folder / "out/beam/report.html"));
+}
+
 /// The values of `file = "..."` in a scenario, but for those that lie in a folder of the user.
 std::vector<std::filesystem::path> shipped_files(const std::filesystem::path& scenario) {
   const std::string text = content(scenario);
