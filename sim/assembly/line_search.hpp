@@ -27,15 +27,18 @@ double searched_part(double most, double slope, double there, SlopeAt&& slope_at
   constexpr int kMostTrials = 8;
   if (!is_far_uphill(slope, there)) return most;
   double low = 0, high = most, slope_low = slope, slope_high = there;
-  double part = most;
-  for (int trial = 1; trial < kMostTrials; ++trial) {
+  const auto between = [&] {
     const double secant = std::isfinite(slope_high) ? slope_low / (slope_low - slope_high) : 0.25;
-    part = low + std::clamp(secant, 0.1, 0.5) * (high - low);
+    return low + std::clamp(secant, 0.1, 0.5) * (high - low);
+  };
+  double part = between();
+  for (int trial = 1; trial < kMostTrials; ++trial) {
     there = slope_at(part);
     const bool is_beyond = is_far_uphill(slope, there);
     if (!is_beyond && there >= kMostDownhill * slope) return part;
     (is_beyond ? high : low) = part;
     (is_beyond ? slope_high : slope_low) = there;
+    part = between();
   }
   return low > 0 ? low : part;
 }
