@@ -125,11 +125,10 @@ class FebioMesh {
     const std::string* const type = elements.attribute("type");
     if (type == nullptr) throw InputError(at(elements), "<Elements> has no `type`");
     const CellShape shape = shape_called(elements, *type);
-    const std::string name = set_name(elements);
+    const std::string name = febio_part_name(elements, ++num_parts_);
     for (const XmlElement& element : elements.children) {
       const std::size_t cell = add_cell(element, shape);
       cell_of_[whole(element, "id")] = cell;
-      if (name.empty()) continue;
       mesh_.add_cell_to_set(name, cell);
       cells_of_[name].push_back(cell);
     }
@@ -171,11 +170,17 @@ class FebioMesh {
 
   std::string file_;
   NumberedMesh mesh_;
+  int num_parts_ = 0;
   std::unordered_map<std::int64_t, std::size_t> cell_of_;
   std::unordered_map<std::string, std::vector<std::size_t>> cells_of_;  // in the order of a set
 };
 
 }  // namespace
+
+std::string febio_part_name(const XmlElement& elements, int number) {
+  const std::string* const name = elements.attribute("name");
+  return name != nullptr && !name->empty() ? *name : fmt::format("part {}", number);
+}
 
 std::vector<std::int64_t> febio_numbers(const Location& where, std::string_view text,
                                         std::size_t most) {
