@@ -125,15 +125,22 @@ class ScenarioWriter {
     if (material->activation) {
       TomlEntry muscle("[[muscle]]");
       muscle.add("name", toml_text(body.name + " fibres")).add("tissue", toml_text(body.name));
-      muscle.add("excitation", excitation(*material->activation));
+      muscle.add("excitation", excitation(*material->activation, body.material->element->line));
       text_ += muscle.text();
     }
     return true;
   }
 
-  std::string excitation(const FebioValue& value) {
+  std::string excitation(const FebioValue& value, int line) {
     sim::Curve curve{{0}, {1}};
-    if (!value.curve.empty()) curve = model_.curves.at(value.curve);
+    if (!value.curve.empty()) {
+      const auto given = model_.curves.find(value.curve);
+      if (given == model_.curves.end())
+        throw sim::InputError({file_, line},
+                              fmt::format("there is no load curve {} that can be taken over",
+                                          sim::in_ticks(value.curve)));
+      curve = given->second;
+    }
     std::string times, values;
     for (std::size_t k = 0; k < curve.time.size(); ++k) {
       times += fmt::format("{}{}", k == 0 ? "" : ", ", toml_quantity(curve.time[k], "s"));
