@@ -27,7 +27,7 @@ MeshData load(const MeshFile& file, const std::string& body) {
     throw InputError(file.where, file.path.string() + ": no such mesh file; it is made by `" +
                                      file.made_by + "`");
   try {
-    mesh = read_mesh(file.path, file.unit);
+    mesh = read_mesh(file.path, file.unit, file.parts);
   } catch (const InputError& error) {
     throw InputError(file.where, fmt::format("{} (mesh of body `{}`)", error.what(), body));
   }
@@ -104,6 +104,19 @@ void take_surface(MeshData& mesh) {
   mesh.triangles = collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())).faces;
 }
 
+/// A scan is a surface: its user is led to the mesher.
+[[noreturn]] void refuse_surface_of_tissue(const Body& body) {
+  const auto* const file = std::get_if<MeshFile>(&body.geometry);
+  const std::string surface = file != nullptr ? file->path.string() : "SURFACE";
+  throw InputError(
+      mesh_place(body),
+      fmt::format(
+          "the mesh of tissue `{}`{} has no tetrahedra; expected a tetrahedral mesh ({}); "
+          "`articular mesh {} --size \"2 mm\" --out {}.vtu` fills a closed surface with them",
+          body.name, mesh_name(body), kTissueEndings, surface,
+          std::filesystem::path(surface).stem().string()));
+}
+
 /// Of a file: a closed surface of which the outside is within.
 void refuse_inside_out(const MeshData& mesh, const MeshFile& file, const std::string& body) {
   if (mesh.tets.cols() > 0 || !is_closed(mesh.triangles)) return;
@@ -131,11 +144,7 @@ BodyGeometry read_geometry(const Body& body) {
   BodyGeometry geometry;
   geometry.mesh = std::visit(MakeMesh{body.placement, body.name}, body.geometry);
   const bool tissue = body.kind == Body::Kind::Tissue;
-  if (tissue && geometry.mesh.tets.cols() == 0)
-    throw InputError(mesh_place(body),
-                     fmt::format("the mesh of tissue `{}`{} has no tetrahedra; expected "
-                                 "a tetrahedral mesh (.vtu, .vtk or .inp)",
-                                 body.name, mesh_name(body)));
+  if (tissue && geometry.mesh.tets.cols() == 0) refuse_surface_of_tissue(body);
   if (const auto* file = std::get_if<MeshFile>(&body.geometry))
     refuse_inside_out(geometry.mesh, *file, body.name);
   if (!tissue && geometry.mesh.X.cols() > 0) take_surface(geometry.mesh);

@@ -209,12 +209,12 @@ class Builder {
   void attach(const Attachment& attachment, const collision::Surface& surface, Tissue& tissue,
               std::vector<const Attachment*>& taken) const {
     const int rigid = model_.bodies[static_cast<std::size_t>(body_index(attachment.to))].rigid;
-    const RegionTest test(attachment.region, model_, geometry_);
+    const RegionTest test(attachment.region, tissue.body, model_, geometry_);
     const std::vector<char> on_surface = surface_nodes(tissue, surface);
     int count = 0;
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
       const Vec3 x = tissue.X.col(static_cast<Eigen::Index>(i));
-      if (!test.contains(x, on_surface[i] != 0)) continue;
+      if (!test.contains_node(static_cast<int>(i), x, on_surface[i] != 0)) continue;
       ++count;
       if (taken[i] != nullptr && taken[i]->to != attachment.to)
         throw InputError(

@@ -123,10 +123,16 @@ struct Resolver {
   /// By face of the collider: its middle, at the start, lies in the region.
   std::vector<char> faces_in(const Region& region, const std::string& name) const {
     const Collider& collider = *body(name).collider;
-    const RegionTest test(region, model, geometry);
+    if (region.set && body(name).tissue < 0)  // bones touch with a mesh that is made of theirs
+      throw InputError(region.where,
+                       fmt::format("[[probe]] `{}`: `{}` is a bone, whose contact has no sets; "
+                                   "expected a box or a sphere",
+                                   probe.name, name));
+    const RegionTest test(region, body_index(scenario, name), model, geometry);
     std::vector<char> inside;
     for (const auto& face : collider.surface.faces.colwise())
-      inside.push_back(test.contains(collider.X(Eigen::all, face).rowwise().mean(), true) ? 1 : 0);
+      inside.push_back(test.contains_face(face, collider.X(Eigen::all, face).rowwise().mean()) ? 1
+                                                                                               : 0);
     if (std::find(inside.begin(), inside.end(), 1) == inside.end())
       throw InputError(region.where,
                        fmt::format("[[probe]] `{}`: no face of `{}` has its middle in the region",

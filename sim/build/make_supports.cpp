@@ -38,12 +38,14 @@ Mat3 orthogonal_projection(const Eigen::Matrix3Xd& axes) {
 
 /// "the [[attach]] at jaw.toml:12" that has taken a node of a tissue.
 std::string attachment_of(const Scenario& scenario, const Model& model,
-                          const std::vector<BodyGeometry>& geometry, const std::string& tissue,
-                          int rigid, const Vec3& x, bool on_surface) {
+                          const std::vector<BodyGeometry>& geometry, const Tissue& tissue, int node,
+                          bool on_surface) {
+  const int rigid = tissue.nodes[static_cast<std::size_t>(node)].rigid;
   for (const Attachment& attachment : scenario.attachments) {
     const auto to = static_cast<std::size_t>(body_index(scenario, attachment.to));
-    if (attachment.body == tissue && model.bodies[to].rigid == rigid &&
-        RegionTest(attachment.region, model, geometry).contains(x, on_surface))
+    if (body_index(scenario, attachment.body) == tissue.body && model.bodies[to].rigid == rigid &&
+        RegionTest(attachment.region, tissue.body, model, geometry)
+            .contains_node(node, tissue.X.col(node), on_surface))
       return fmt::format("`{}`, by the [[attach]] at {}:{}", attachment.to, attachment.where.file,
                          attachment.where.line);
   }
@@ -69,14 +71,14 @@ class Supporter {
     SupportModel support{given.name, model_.bodies[body].tissue, {}, Vec3::Zero()};
     const auto t = static_cast<std::size_t>(support.tissue);
     const Tissue& tissue = model_.tissues[t];
-    const RegionTest test(given.region, model_, geometry_);
+    const RegionTest test(given.region, static_cast<int>(body), model_, geometry_);
     const std::vector<char> on_surface = surface_nodes(tissue, surfaces_[t]);
     Eigen::AlignedBox3d box;
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
       const Vec3 x = tissue.X.col(static_cast<Eigen::Index>(i));
-      if (!test.contains(x, on_surface[i] != 0)) continue;
+      if (!test.contains_node(static_cast<int>(i), x, on_surface[i] != 0)) continue;
       if (tissue.nodes[i].rigid >= 0)
-        refuse_attached(given, tissue.nodes[i].rigid, x, on_surface[i] != 0);
+        refuse_attached(given, tissue, static_cast<int>(i), on_surface[i] != 0);
       holders_[static_cast<std::size_t>(tissue.nodes[i].block)].push_back(
           {model_.supports.size(), support.nodes.size()});
       support.nodes.push_back({static_cast<int>(i), 0, Mat3::Zero()});
@@ -91,14 +93,15 @@ class Supporter {
     model_.supports.push_back(std::move(support));
   }
 
-  [[noreturn]] void refuse_attached(const Support& given, int rigid, const Vec3& x,
+  [[noreturn]] void refuse_attached(const Support& given, const Tissue& tissue, int node,
                                     bool on_surface) const {
+    const Vec3 x = tissue.X.col(node);
     throw InputError(
         given.where,
         fmt::format("the node of `{}` at ({:.3f} {:.3f} {:.3f}) mm is supported here and attached "
                     "to {}: expected regions without common nodes",
                     given.body, 1e3 * x.x(), 1e3 * x.y(), 1e3 * x.z(),
-                    attachment_of(scenario_, model_, geometry_, given.body, rigid, x, on_surface)));
+                    attachment_of(scenario_, model_, geometry_, tissue, node, on_surface)));
   }
 
   /// Of the force R = B a on all axes B at the node, each support takes what its own axes carry,

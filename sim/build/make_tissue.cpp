@@ -23,15 +23,16 @@ namespace {
 
 using collision::Surface;
 
-std::vector<int> nodes_in(const Region& region, const Model& model,
+std::vector<int> nodes_in(const Region& region, int body, const Model& model,
                           const std::vector<BodyGeometry>& geometry, const Surface& surface,
                           const Positions& X) {
   std::vector<bool> on_surface(static_cast<std::size_t>(X.cols()), false);
   for (const int node : surface.faces.reshaped()) on_surface[static_cast<std::size_t>(node)] = true;
-  const RegionTest test(region, model, geometry);
+  const RegionTest test(region, body, model, geometry);
   std::vector<int> nodes;
   for (int i = 0; i < X.cols(); ++i)
-    if (test.contains(X.col(i), on_surface[static_cast<std::size_t>(i)])) nodes.push_back(i);
+    if (test.contains_node(i, X.col(i), on_surface[static_cast<std::size_t>(i)]))
+      nodes.push_back(i);
   return nodes;
 }
 
@@ -49,16 +50,17 @@ FibreDirections fibres_of_array(const std::string& name, const Body& body, const
                                 : fmt::format("; it has {}", names)));
 }
 
-FibreDirections make_fibres(const Body& body, const MeshData& mesh, const Surface& surface,
-                            const Model& model, const std::vector<BodyGeometry>& geometry) {
+FibreDirections make_fibres(const Body& body, int index, const MeshData& mesh,
+                            const Surface& surface, const Model& model,
+                            const std::vector<BodyGeometry>& geometry) {
   const Fibres& fibres = *body.material->fibres;
   if (const auto* direction = std::get_if<Vec3>(&fibres.along))
     return fem::constant_fibres(*direction, mesh.tets.cols());
   if (const auto* array = std::get_if<FibreArray>(&fibres.along))
     return fibres_of_array(array->name, body, mesh);
   const auto& between = std::get<FibresBetween>(fibres.along);
-  const auto from = nodes_in(between.from, model, geometry, surface, mesh.X);
-  const auto to = nodes_in(between.to, model, geometry, surface, mesh.X);
+  const auto from = nodes_in(between.from, index, model, geometry, surface, mesh.X);
+  const auto to = nodes_in(between.to, index, model, geometry, surface, mesh.X);
   if (from.empty() || to.empty())
     throw std::invalid_argument(
         fmt::format("the region {} holds no node", from.empty() ? "`from`" : "`to`"));
@@ -90,7 +92,7 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
   const MeshData& mesh = geometry[b].mesh;
   FibreDirections fibres;
   try {
-    if (material.fibres) fibres = make_fibres(body, mesh, surface, model, geometry);
+    if (material.fibres) fibres = make_fibres(body, index, mesh, surface, model, geometry);
   } catch (const std::invalid_argument& error) {
     throw InputError(material.fibres->where, fmt::format("fibres of tissue `{}`{}: {}", body.name,
                                                          mesh_name(body), error.what()));

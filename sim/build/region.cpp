@@ -1,5 +1,12 @@
 #include "sim/build/region.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/base/message_text.hpp"
+#include "sim/mesh/mesh_sets.hpp"
+
 namespace articular::sim {
 namespace {
 
@@ -9,14 +16,45 @@ TriangleTree surface_of(const BodyGeometry& geometry) {
   return {mesh.X, collision::build_surface(mesh.tets, static_cast<int>(mesh.X.cols())).faces};
 }
 
+std::array<int, 3> in_order(std::array<int, 3> nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
 }  // namespace
 
-RegionTest::RegionTest(const Region& region, const Model& model,
+RegionTest::RegionTest(const Region& region, int body, const Model& model,
                        const std::vector<BodyGeometry>& geometry)
     : region_(region) {
-  if (!region.near_body) return;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (model.bodies[b].name == region.near_body->first) near_ = surface_of(geometry[b]);
+  if (region.near_body)
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      if (model.bodies[b].name == region.near_body->first) near_ = surface_of(geometry[b]);
+  if (!region.set) return;
+  const MeshData& mesh = geometry[static_cast<std::size_t>(body)].mesh;
+  const MeshSet* const set = find_set(mesh, *region.set);
+  if (set == nullptr)
+    throw InputError(region.where, fmt::format("the mesh of `{}` has no set {}{}",
+                                               model.bodies[static_cast<std::size_t>(body)].name,
+                                               in_ticks(*region.set), known_sets(mesh)));
+  in_set_.resize(static_cast<std::size_t>(mesh.X.cols()));
+  for (const int node : set->nodes) in_set_[static_cast<std::size_t>(node)] = 1;
+  for (const auto& face : set->faces) faces_of_set_.insert(in_order(face));
+}
+
+bool RegionTest::contains_node(int node, const Vec3& x, bool on_surface) const {
+  return (!region_.set || in_set_[static_cast<std::size_t>(node)] != 0) && contains(x, on_surface);
+}
+
+bool RegionTest::contains_face(const Eigen::Vector3i& nodes, const Vec3& middle) const {
+  if (region_.set) {
+    const bool is_in =
+        faces_of_set_.empty()
+            ? std::all_of(nodes.begin(), nodes.end(),
+                          [&](int a) { return in_set_[static_cast<std::size_t>(a)] != 0; })
+            : faces_of_set_.contains(in_order({nodes[0], nodes[1], nodes[2]}));
+    if (!is_in) return false;
+  }
+  return contains(middle, true);
 }
 
 bool RegionTest::contains(const Vec3& x, bool on_surface) const {

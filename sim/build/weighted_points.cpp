@@ -142,11 +142,12 @@ WeightedPoint region_point(const Region& region, int tissue, const Model& model,
                            const std::vector<BodyGeometry>& geometry,
                            const collision::Surface& surface) {
   const Tissue& of = model.tissues[static_cast<std::size_t>(tissue)];
-  const RegionTest test(region, model, geometry);
+  const RegionTest test(region, of.body, model, geometry);
   const std::vector<char> on_surface = surface_nodes(of, surface);
   WeightedPoint point;
   for (std::size_t i = 0; i < of.nodes.size(); ++i)
-    if (test.contains(of.X.col(static_cast<Eigen::Index>(i)), on_surface[i] != 0))
+    if (test.contains_node(static_cast<int>(i), of.X.col(static_cast<Eigen::Index>(i)),
+                           on_surface[i] != 0))
       point.nodes.push_back(of.nodes[i]);
   if (!point.nodes.empty()) set_equal_weights(point);
   return point;

@@ -5,10 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <stdexcept>
 
 #include "sim/base/error.hpp"
 #include "sim/mesh/mesh_defects.hpp"
 #include "sim/mesh/mesh_readers.hpp"
+#include "sim/mesh/mesh_sets.hpp"
 
 namespace articular::sim {
 namespace {
@@ -17,10 +19,19 @@ struct Reader {
   std::string_view ending;
   MeshData (*read)(const std::filesystem::path& file);
 };
-constexpr Reader kReaders[] = {{".vtu", read_vtk_xml_mesh}, {".vtp", read_vtk_xml_mesh},
-                               {".vtk", read_legacy_vtk},   {".stl", read_stl},
-                               {".obj", read_obj},          {".ply", read_ply},
-                               {".inp", read_abaqus}};
+constexpr Reader kReaders[] = {
+    {".vtu", read_vtk_xml_mesh}, {".vtp", read_vtk_xml_mesh}, {".vtk", read_legacy_vtk},
+    {".stl", read_stl},          {".obj", read_obj},          {".ply", read_ply},
+    {".inp", read_abaqus},       {".msh", read_gmsh},         {".feb", read_febio},
+    {".bdf", read_nastran},      {".nas", read_nastran},      {".mesh", read_medit},
+    {".ele", read_tetgen},       {".node", read_tetgen}};
+
+std::string known_endings() {
+  std::string endings;
+  for (const Reader& reader : kReaders)
+    endings += (endings.empty() ? "" : ", ") + std::string(reader.ending);
+  return endings;
+}
 
 /// Calls visit(index) for every node index of every cell.
 template <class Visit>
@@ -51,18 +62,19 @@ void drop_unused_nodes(MeshData& mesh) {
   }
   mesh.X.conservativeResize(Eigen::NoChange, num_used);
   for_each_index(mesh, [&](int& a) { a = entry(a); });
+  renumber_sets(mesh, new_index);
 }
 
 }  // namespace
 
-MeshData read_mesh(const std::filesystem::path& file, double unit) {
+MeshData read_mesh(const std::filesystem::path& file, double unit,
+                   const std::vector<std::string>& parts) {
   const std::string name = file.string();
   const std::string ending = lower_ending(file);
   const auto reader = std::find_if(std::begin(kReaders), std::end(kReaders),
                                    [&](const Reader& known) { return known.ending == ending; });
   if (reader == std::end(kReaders))
-    throw InputError({name}, "unknown mesh format `" + ending +
-                                 "`; known: .vtu, .vtp, .vtk, .stl, .obj, .ply, .inp");
+    throw InputError({name}, "unknown mesh format `" + ending + "`; known: " + known_endings());
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw InputError({name}, "no such mesh file");
   if (std::filesystem::is_directory(file, error))
@@ -75,6 +87,11 @@ MeshData read_mesh(const std::filesystem::path& file, double unit) {
     throw InputError({name}, "the mesh file is empty");
 
   MeshData mesh = reader->read(file);
+  try {
+    if (!parts.empty()) keep_parts(mesh, parts);
+  } catch (const std::invalid_argument& error) {
+    throw InputError({name}, error.what());
+  }
   if (mesh.tets.cols() == 0 && mesh.triangles.cols() == 0)
     throw InputError({name}, "holds no tetrahedra and no surface triangles");
   check_indices(name, mesh);
@@ -100,6 +117,15 @@ std::optional<double> parse_number(std::string_view text) {
   const char* const end = text.data() + text.size();
   const auto [stop, status] = std::from_chars(text.data(), end, value);
   if (status != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<std::int64_t> parse_long(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  std::int64_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data(), end, value);
+  if (status != std::errc() || stop != end) return std::nullopt;
   return value;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -9,6 +10,14 @@
 
 namespace articular::sim {
 
+/// A named part of a mesh: of elements, of faces, of nodes, or of several of these.
+struct MeshSet {
+  std::string name;
+  std::vector<int> nodes;  // ascending; where the file lists none, those of the faces or elements
+  std::vector<int> tets;   // columns of MeshData::tets
+  std::vector<std::array<int, 3>> faces;  // nodes of each
+};
+
 /// What a mesh file holds: tetrahedra (tissue), triangles (bone surfaces), or both.
 struct MeshData {
   Positions X;          // [unit of the file * unit]
@@ -16,16 +25,27 @@ struct MeshData {
   Triangles triangles;  // surface triangles of the file, polygons split; 3 x 0 if none
   /// Cell arrays with three components by their names, one column a tetrahedron (.vtu, .vtk).
   std::vector<std::pair<std::string, Eigen::Matrix3Xd>> cell_vectors{};
+  std::vector<MeshSet> sets{};  // where the format has them
 };
 
-/// Reads .vtu, .vtp, .vtk, .stl, .obj, .ply or Abaqus .inp (*NODE, *ELEMENT TYPE=C3D4; others
-/// skipped), by the file's ending. Nodes that no cell uses are dropped; coincident vertices of .stl
-/// are merged. Positions are in double precision, but for binary .stl, which has single.
-/// @param unit  metres per unit of the file
-/// @throws InputError naming the file (and line, for .inp) when it is missing, not readable as its
-///         format, empty, holds other volume cells than linear tetrahedra, or a position that is
-///         not finite or beyond 1e18 m, an element twice, or a node twice in an element
-MeshData read_mesh(const std::filesystem::path& file, double unit);
+/// Reads a mesh by the file's ending: .vtu, .vtp, .vtk, .stl, .obj, .ply; with named sets Gmsh .msh
+/// (2.2 and 4.1, text or binary), Abaqus .inp, FEBio .feb, Nastran .bdf and .nas, Medit .mesh,
+/// TetGen .ele and .node (with the files of the same name beside it). Those with sets may have
+/// pyramids, wedges and hexahedra, which become tetrahedra (tetrahedra_of()). Nodes that no cell
+/// uses are dropped; coincident vertices of .stl are merged. Positions are in double precision, but
+/// for binary .stl, which has single.
+/// @param unit   metres per unit of the file
+/// @param parts  if not empty: only the elements of these sets, or if they have none, their faces
+/// @throws InputError naming the file (and line, where the format is text) when it is missing, not
+///         readable as its format, empty, holds cells that are not of first order, or a position
+///         that is not finite or beyond 1e18 m, an element twice, or a node twice in an element; or
+///         has no such part
+MeshData read_mesh(const std::filesystem::path& file, double unit,
+                   const std::vector<std::string>& parts = {});
+
+/// The endings of files that may hold tetrahedra, as messages list them.
+inline constexpr const char* kTissueEndings =
+    ".vtu, .vtk, .msh, .inp, .feb, .bdf, .nas, .mesh, .ele, .node";
 
 /// Writes tetrahedra (and triangles, if there are both) with their cell arrays as .vtu, or
 /// triangles alone as .vtp: binary, compressed, whole or not at all (write beside, then rename).

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,9 +14,31 @@
 /// all of its nodes, used or not; read_mesh() drops, checks and scales. All throw InputError.
 namespace articular::sim {
 
-/// Abaqus input deck: nodes of every *NODE block, tetrahedra of every *ELEMENT block with
-/// TYPE=C3D4. Node numbers may have gaps; other keywords and other elements are skipped.
+/// Abaqus input deck: nodes, elements C3D4, C3D5, C3D6, C3D8 and shells or membranes of 3 and 4
+/// nodes; *NSET, *ELSET and *SURFACE. Other keywords and elements without volume are skipped.
 MeshData read_abaqus(const std::filesystem::path& file);
+
+/// Gmsh .msh of version 2.2 or 4.1, text or binary. Sets are the physical groups, by name or, of
+/// those without one, as "volume 1", "surface 2", "line 3", "point 4". Read here: Gmsh's own
+/// library brings OpenCASCADE and 300 MB.
+MeshData read_gmsh(const std::filesystem::path& file);
+
+/// The mesh of a FEBio model, version 2.5, 3.0 or 4.0: parts (Elements), NodeSet, ElementSet and
+/// Surface are sets; ElementData with three components are vectors of cells.
+MeshData read_febio(const std::filesystem::path& file);
+
+/// Nastran bulk data: GRID, CTETRA, CPYRAM, CPENTA, CHEXA, CTRIA3, CQUAD4, in small, large or free
+/// fields. Properties are sets "volume 1" and "surface 2", SPC and SPC1 "spc 3".
+MeshData read_nastran(const std::filesystem::path& file);
+
+/// Medit .mesh in text. References other than 0 are sets "volume 1", "surface 2", "line 3", "point
+/// 4".
+MeshData read_medit(const std::filesystem::path& file);
+
+/// TetGen: the .node, .ele and, if it is there, .face of one name. Attributes and markers other
+/// than 0 are sets "volume 1", "surface 2", "point 3".
+/// @param file  any of the three
+MeshData read_tetgen(const std::filesystem::path& file);
 
 /// Wavefront: `v` and `f`, polygons split as a fan from their first corner; the rest is skipped.
 /// Read here and not by VTK, which keeps single precision only and splits vertices that have
@@ -43,5 +66,6 @@ std::string lower_ending(const std::filesystem::path& file);
 /// One finite number, nothing before or after it; empty if it is none.
 std::optional<double> parse_number(std::string_view text);
 std::optional<int> parse_integer(std::string_view text);
+std::optional<std::int64_t> parse_long(std::string_view text);
 
 }  // namespace articular::sim

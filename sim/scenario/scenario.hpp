@@ -55,7 +55,8 @@ struct Region {
   std::optional<std::pair<Vec3, Vec3>> box;       // min, max corner [m]
   std::optional<std::pair<Vec3, double>> sphere;  // centre, radius [m]
   std::optional<std::pair<std::string, double>>
-      near_body;  // within a distance [m] of a body's surface
+      near_body;                   // within a distance [m] of a body's surface
+  std::optional<std::string> set;  // of the mesh of the body that the region is of
   bool surface_only = false;
   Location where;
 };
@@ -144,8 +145,9 @@ struct Continuation {
 /// A mesh file of a body. For contact of rigid bodies: only faces whose normal is within 80 degrees
 /// of `facing` (if given) take part.
 struct MeshFile {
-  std::filesystem::path path;  // as resolved against the scenario's folder, variables replaced
-  double unit = 1e-3;          // [m] per unit of the file
+  std::filesystem::path path;      // as resolved against the scenario's folder, variables replaced
+  double unit = 1e-3;              // [m] per unit of the file
+  std::vector<std::string> parts;  // only the elements of these sets; empty: all
   Placement placement;
   std::optional<int> faces;    // contact: simplify to about this many triangles (after `facing`)
   std::optional<Vec3> facing;  // unit vector, in the placed frame

@@ -40,12 +40,21 @@ Continuation read_continuation(const Node& node) {
           table.get<double>("easing")};
 }
 
+std::vector<std::string> read_parts(const Node& node) {
+  if (node.text() != nullptr) return {read_text(node)};
+  std::vector<std::string> parts;
+  for (const Node& part : read_list(node, "a name or a list of names"))
+    parts.push_back(read_text(part));
+  return parts;
+}
+
 /// What meshes and contact meshes have.
 MeshFile read_file(const TableReader& table, const std::filesystem::path& folder) {
   MeshFile mesh;
   mesh.where = table.at("file").where;
   mesh.path = read_path(table.at("file"), folder);
   table.read("unit", mesh.unit, read_unit_of_length);
+  table.read("part", mesh.parts, read_parts);
   table.read("place", mesh.placement, read_placement);
   table.read("made_by", mesh.made_by);
   return mesh;
@@ -189,6 +198,10 @@ const KeyTable& mesh_keys() {
         kRequired,
         "from the scenario's folder; `${NAME}` is an environment variable"},
        {"unit", {form::Text{"length unit"}}, standard("mm"), "length unit of the file"},
+       {"part",
+        {form::Either{{{form::Text{"name of a set"}}, {list_of({form::Text{"name of a set"}})}}}},
+        otherwise("all"),
+        "only the elements of this set of the file, or of a list of sets"},
        {"place", {form::Table{place_keys}}, kNone, "moves it"},
        {"made_by",
         {form::Text{"command"}},

@@ -160,6 +160,10 @@ const KeyTable& region_keys() {
         "nodes in this box, lower corner first"},
        {"sphere", {form::Table{ball_keys}}, kNone, "nodes in this ball"},
        {"near", {form::Table{near_keys}}, kNone, "nodes close to the surface of a body"},
+       {"set",
+        {form::Text{"name of a set"}},
+        kNone,
+        "nodes of this set of the body's own mesh; a load's faces if it has faces"},
        {"surface",
         {form::Boolean{}},
         standard(false),
@@ -174,6 +178,7 @@ Region read_region(const Node& node, const Context& context) {
   table.read("box", region.box, [&](const Node& n) { return read_corners(n, context); });
   table.read("sphere", region.sphere, [&](const Node& n) { return read_ball(n, context); });
   table.read("near", region.near_body, [&](const Node& n) { return read_near(n, context); });
+  table.read("set", region.set);
   table.read("surface", region.surface_only);
   return region;
 }

@@ -50,7 +50,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::set<std::strin
 
 /// A scenario whose one body has the mesh.
 std::string scenario_with(const fs::path& mesh) {
-  const std::set<std::string> with_tetrahedra = {".vtu", ".inp"};
+  const std::set<std::string> with_tetrahedra = {".vtu", ".inp", ".msh", ".feb", ".bdf", ".mesh"};
   const bool is_tissue = with_tetrahedra.contains(mesh.extension().string()) ||
                          mesh.stem().string().ends_with("-grid");
   return fmt::format(
@@ -149,7 +149,8 @@ bool try_scenarios(int count, std::mt19937& random, const fs::path& folder) {
 bool try_meshes(int count, std::mt19937& random, const fs::path& folder) {
   Trials trials("meshes");
   const std::vector<fs::path> meshes = files_in(
-      kRoot / "tests/fuzz/seeds/files", {".vtu", ".vtp", ".vtk", ".stl", ".obj", ".ply", ".inp"});
+      kRoot / "tests/fuzz/seeds/files",
+      {".vtu", ".vtp", ".vtk", ".stl", ".obj", ".ply", ".inp", ".msh", ".feb", ".bdf", ".mesh"});
   for (int i = 0; i < count; ++i) {
     const fs::path& mesh = meshes[random() % meshes.size()];
     const fs::path scenario = folder / "mesh.toml";

@@ -123,7 +123,7 @@ int collide_bodies(const CollideOptions& options, const SearchSettings& settings
 }
 
 const char* const kCollideHelp =
-    R"(A and B are meshes of tetrahedra (.vtu, .vtk, .inp), or series of frames of one mesh: a
+    R"(A and B are meshes of tetrahedra (.vtu, .vtk, .msh, .inp, ...), or series of frames of one mesh: a
 pattern in quotes, taken in order of names ('disc_*.vtu'; number frames with leading zeros), or
 a .pvd, of which FILE.pvd:BODY picks one of several bodies. Two series have the same number of
 frames, or one is a single mesh that stands still. One mesh alone is searched against itself.
@@ -141,7 +141,7 @@ Example: two frames of a run, then the whole of it
 void add_options(CLI::App& command, CollideOptions& options) {
   command
       .add_option("meshes", options.meshes,
-                  "One mesh of tetrahedra (.vtu, .vtk, .inp, .pvd), or two: A B")
+                  "One mesh of tetrahedra (.vtu, .vtk, .msh, .inp, ...; .pvd), or two: A B")
       ->required()
       ->type_name("A [B]")
       ->expected(1, -1);  // an unquoted pattern gives many, which gets a message of its own

@@ -16,6 +16,7 @@
 #include "tools/anatomy/anatomy.hpp"
 #include "tools/collide/collide_command.hpp"
 #include "tools/fit/fit_command.hpp"
+#include "tools/import/import_command.hpp"
 #include "tools/keys/keys_command.hpp"
 #include "tools/manual/manual_command.hpp"
 #include "tools/mesh/mesh_command.hpp"
@@ -75,6 +76,7 @@ int run_program(int argc, char** argv) {
   articular::tools::add_collide_command(app, exit_code);
   articular::tools::add_mesh_command(app, exit_code);
   articular::anatomy::add_anatomy_command(app, exit_code);
+  articular::tools::add_import_command(app, exit_code);
   articular::tools::add_manual_command(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -19,6 +19,9 @@ namespace articular::sim::mesh_io_test {
 
 constexpr double kMillimetre = 1e-3;  // [m]
 
+constexpr const char* kEndings[] = {".vtu", ".vtp", ".vtk", ".stl", ".obj",  ".ply",
+                                    ".inp", ".msh", ".feb", ".bdf", ".mesh", ".ele"};
+
 /// Two tetrahedra on a common face, at positions that no short decimal number meets.
 MeshData two_tetrahedra() {
   MeshData mesh;
@@ -304,7 +307,44 @@ TEST(MeshIo, WhatIsWrongInATextFileIsNamedWithItsLine) {
       {".inp", "*NODE\n4, 0, 0, 1\n", ":8: node 4 is there twice"},
       {".inp", "*INCLUDE, INPUT=other.inp\n", ":7: data in another file"},
       {".inp", "*ELEMENT, TYPE=C3D10\n1,1,2,3,4\n",
-       ": holds no elements of type C3D4 (linear tetrahedra); there are elements of type C3D10"},
+       ":7: elements of kind `C3D10` have nodes between their corners; expected elements of "
+       "first "},
+      {".inp", "*ELEMENT, TYPE=T3D2\n1,1,2\n",
+       ": holds no elements of type C3D4 (linear tetrahedra) or another that is read; there are "
+       "elements of type T3D2"},
+      {".inp", "1, 1, 2, 3, 4\n*NSET, NSET=top\n1, no\n", ":9: unknown set `no`"},
+      {".inp", "1, 1, 2, 3, 4\n*NSET, NSET=top\n1, 9\n", ":9: unknown node 9"},
+      {".inp", "1, 1, 2, 3, 4\n*ELSET, ELSET=disc\n1, 7\n", ":9: unknown element 7"},
+      {".inp", "1, 1, 2, 3, 4\n*NSET, NSET=top, GENERATE\n4, 1, 1\n",
+       ":9: expected a first number, a last one that is not smaller, a positive step"},
+      {".inp", "1, 1, 2, 3, 4\n*SURFACE, NAME=top\n1, S6\n", ":9: element 1 has no face S6"},
+      {".inp", "1, 1, 2, 3, 4\n*INSTANCE, NAME=a\n0, 0, 5\n", ":9: an *INSTANCE that is moved"},
+      {".msh", "$MeshFormat\n4 0 8\n", ":2: the mesh has Gmsh's version 4; expected 2.2 or 4.1"},
+      {".msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 x\n$EndNodes\n",
+       ":6: `x` is not a finite number: expected a coordinate"},
+      {".msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Elements\n1\n1 11 0 1\n$EndElements\n",
+       ":6: elements of kind `Gmsh's type 11` have nodes between their corners"},
+      {".msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n",
+       ":5: the section $Nodes has no $EndNodes"},
+      {".mesh", "MeshVersionFormatted 2\nDimension 2\n", ":2: the mesh is flat"},
+      {".mesh", "MeshVersionFormatted 2\nTetrahedraP2\n", ":2: elements of kind `TetrahedraP2`"},
+      {".mesh", "MeshVersionFormatted 2\nVertices 1\n0 0 0\n",
+       ":4: the file ends; expected a vertex's reference"},
+      {".bdf", "GRID,1,,0,0,a\n", ":1: field 6 of GRID is `a`, expected a coordinate"},
+      {".bdf", "GRID,1,5,0,0,0\n", ":1: the node has a coordinate system of its own"},
+      {".bdf", "CTETRA,1,1,2,3,4,5\n", ":1: unknown node 2"},
+      {".bdf", "CTETRA,1,1,2,3,4,5,6,7,\n,8,9,10,11\n",
+       ":1: elements of kind `CTETRA with more than 4 nodes`"},
+      {".feb", "<febio_spec version=\"1.2\"/>\n", ":1: found version `1.2` of FEBio's format"},
+      {".feb",
+       "<febio_spec version=\"4.0\"><Mesh>\n<Nodes><node id=\"1\">0,0</node></Nodes></Mesh>"
+       "</febio_spec>",
+       ":2: \"0,0\" is not three finite numbers"},
+      {".feb", "<febio_spec version=\"4.0\"><Mesh>\n<Elements type=\"tet10\"/></Mesh></febio_spec>",
+       ":2: elements of kind `tet10` have nodes between their corners"},
+      {".feb",
+       "<febio_spec version=\"4.0\"><Mesh>\n<NodeSet name=\"a\">1:9</NodeSet></Mesh></febio_spec>",
+       ":2: found more numbers than the 0 that can be"},
       {".obj", "v 0 0 0\nv 1 0 inf\n", ":2: `inf` is not a finite number"},
       {".obj", "v 0 0\n", ":1: a vertex needs 3 coordinates"},
       {".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", ":4: unknown vertex 4"},
@@ -325,7 +365,7 @@ TEST(MeshIo, MissingEmptyAndGarbageFilesAreInputErrorsInOneLine) {
   std::string noise(5000, '\0');
   std::mt19937 random(3);
   for (char& c : noise) c = static_cast<char>(random() & 0xff);
-  for (const std::string ending : {".vtu", ".vtp", ".vtk", ".stl", ".obj", ".ply", ".inp"}) {
+  for (const std::string ending : kEndings) {
     const std::string missing = (folder / ("none" + ending)).string();
     EXPECT_EQ(error_of(missing), missing + ": no such mesh file");
     const std::string empty = folder.file("empty" + ending, "").string();
@@ -342,7 +382,8 @@ TEST(MeshIo, MissingEmptyAndGarbageFilesAreInputErrorsInOneLine) {
 
 TEST(MeshIo, UnknownEndingsAreRefusedWithTheKnownOnes) {
   EXPECT_EQ(error_of("m.foo"),
-            "m.foo: unknown mesh format `.foo`; known: .vtu, .vtp, .vtk, .stl, .obj, .ply, .inp");
+            "m.foo: unknown mesh format `.foo`; known: .vtu, .vtp, .vtk, .stl, .obj, .ply, .inp, "
+            ".msh, .feb, .bdf, .nas, .mesh, .ele, .node");
 }
 
 /// A .vtu in text with 4 points, of which the last has this z, and one cell.
@@ -417,7 +458,7 @@ TEST(MeshIo, AFileThatIsNoMeshIsNotQuoted) {
   const TemporaryFolder folder;
   for (const std::string secret :
        {"secret:x:0:0", "v secret 1 2", "f secret 1 2", "# secret", "*secret"})
-    for (const std::string ending : {".vtu", ".vtp", ".vtk", ".stl", ".obj", ".ply", ".inp"}) {
+    for (const std::string ending : kEndings) {
       const std::string error = error_of(folder.file("m" + ending, secret + "\n"));
       EXPECT_NE(error, "no error");
       EXPECT_EQ(error.find("secret"), std::string::npos) << error;

@@ -33,12 +33,13 @@ output = { interval = "10 ms", length_unit = "mm", directory = "o", frames = tru
 name = "skull"
 kind = "fixed"
 when = { disc = ["tissue", "none"] }
-mesh = { file = "skull.vtp", unit = "cm", made_by = "cp a b", place = { rotation = "0 0 1 deg", about = "1 0 0 mm", translation = "0 1 0 mm", scale = 2 } }
+mesh = { file = "skull.vtp", unit = "cm", part = ["left", "right"], made_by = "cp a b", place = { rotation = "0 0 1 deg", about = "1 0 0 mm", translation = "0 1 0 mm", scale = 2 } }
 layer = { thickness = "1 mm", young_modulus = "1 MPa", poisson_ratio = 0.3 }
 collides = true
 [[body.contact_meshes]]
 file = "fossa.vtp"
 unit = "mm"
+part = "left"
 made_by = "cp a b"
 place = { scale = 1 }
 facing = [0, 0, 1]
@@ -73,7 +74,7 @@ material = { law = "neo-hookean", young_modulus = "1 kPa", poisson_ratio = 0.3, 
 body = "tissue"
 to = "skull"
 mirror = "x"
-region = { box = ["0 0 0 mm", "1 1 1 mm"], sphere = { center = "0 0 0 mm", radius = "1 mm" }, near = { body = "skull", distance = "1 mm" }, surface = true }
+region = { box = ["0 0 0 mm", "1 1 1 mm"], sphere = { center = "0 0 0 mm", radius = "1 mm" }, near = { body = "skull", distance = "1 mm" }, surface = true, set = "top" }
 [[support]]
 name = "roller"
 body = "tissue"

@@ -118,8 +118,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "`title`: expected text in quotes, found a date or time of day"},
         Mistake{"SingleTable", "duration = \"1 s\"\n@[body]\nname = \"a\"\n",
                 "`body`: expected entries that start with [[body]], found a table"},
-        Mistake{"TableExpected", body("kind = \"fixed\"\nmesh = @\"skull.vtp\"\n"),
-                "`mesh`: expected a table of file, unit, place, made_by, found \"skull.vtp\""},
+        Mistake{
+            "TableExpected", body("kind = \"fixed\"\nmesh = @\"skull.vtp\"\n"),
+            "`mesh`: expected a table of file, unit, part, place, made_by, found \"skull.vtp\""},
         Mistake{"NoBodies", "@duration = \"1 s\"\n", "the scenario has no [[body]]"},
         Mistake{"MultiLineText", "duration = @\"\"\"1\ns\"\"\"\n" + kBodies,
                 "`duration`: expected a time such as \"0.6 s\", found \"1\\ns\" (cannot read "

@@ -557,7 +557,7 @@ TEST_F(Documentation, ItsExampleIsAScenario) {
     else if (inside)
       example += line + "\n";
   }
-  EXPECT_EQ(read(example).bodies.size(), 4U);  // with the one that is driven
+  EXPECT_EQ(read(example).bodies.size(), 5U);  // with the one that is driven
 }
 
 // Nothing about contact is left to trial: no scenario that we ship sets what we choose.
