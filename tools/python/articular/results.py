@@ -41,8 +41,10 @@ class Results:
     """The folder of a run, which may go on while it is read.
 
     >>> results = Results("out/pendulum")
-    >>> len(results["time"]) == len(results["pendulum.angle"])
-    True
+    >>> results.units["swing.angle [deg]"]
+    'deg'
+    >>> results["swing.angle"][0]
+    0.0
     """
 
     folder: Path
@@ -135,7 +137,10 @@ class Mesh:
     texts: Dict[str, str]  # such as units
 
     def to_meshio(self) -> "meshio.Mesh":
-        """As an object of meshio. Raises ImportError without it."""
+        """Points, tetrahedra and triangles with their data as an object of meshio, without paths.
+
+        Raises ImportError without meshio.
+        """
         try:
             import meshio
         except ImportError:
@@ -145,7 +150,6 @@ class Mesh:
             cells.append(("tetra", self.tetrahedra))
         if len(self.triangles):
             cells.append(("triangle", self.triangles))
-        cells += [("polygon" + str(len(path)), [path]) for path in self.paths[:0]]
         sizes = np.cumsum([len(block) for _, block in cells])[:-1]
         of_blocks = {name: np.split(data, sizes) for name, data in self.cell_data.items()}
         return meshio.Mesh(self.points, cells, self.point_data, of_blocks if cells else {})
@@ -153,7 +157,7 @@ class Mesh:
 
 @dataclass(frozen=True)
 class Frame:
-    """All parts at one time: bodies, `lines`, and `BODY_contact` for contact surfaces."""
+    """All parts at one time: bodies, `lines`, and `BODY:contact` for contact surfaces."""
 
     time: float  # [s]
     files: Dict[str, Path]

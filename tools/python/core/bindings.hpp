@@ -2,8 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-/// The parts of the module articular._core. Their classes and functions are documented in
-/// articular/_core.pyi, beside what they give.
+/// The parts of the module articular._core. Types for editors stand in articular/_core/*.pyi.
 namespace articular::python {
 
 namespace py = pybind11;

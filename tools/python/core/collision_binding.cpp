@@ -75,30 +75,48 @@ py::array rows_of(const std::vector<Penetration>& pairs) {
 
 void bind_collision(py::module_& module) {
   py::module_ part = module.def_submodule("collision");
-  py::class_<Collider>(part, "Collider")
+  py::class_<Collider>(part, "Collider",
+                       R"(A mesh of tetrahedra that finds what meets it, while it moves.
+
+Lengths have the unit of the points. Inverted and flat tetrahedra are allowed.)")
       .def(py::init([](const py::object& points, const py::object& tetrahedra) {
              return std::make_unique<Collider>(positions_from(points, "points"),
                                                tetrahedra_from(tetrahedra, "tetrahedra"));
            }),
-           py::arg("points"), py::arg("tetrahedra"))
+           py::arg("points"), py::arg("tetrahedra"),
+           R"(points: (N, 3). tetrahedra: (M, 4) numbers of points from 0.
+
+Raises ValueError for other shapes, points that are not finite, points that there are not, and faces of more
+than two tetrahedra.)")
       .def_property_readonly(
           "tetrahedra",
-          [](const py::object& self) { return view_of(self.cast<Collider&>().tets(), self); })
-      .def_property_readonly("faces",
-                             [](const py::object& self) {
-                               return view_of(self.cast<Collider&>().surface().faces, self);
-                             })
-      .def_property_readonly("face_tetrahedra",
-                             [](const Collider& self) { return copy_of(self.surface().face_tet); })
+          [](const py::object& self) { return view_of(self.cast<Collider&>().tets(), self); },
+          "(M, 4), read-only, no copy.")
+      .def_property_readonly(
+          "faces",
+          [](const py::object& self) {
+            return view_of(self.cast<Collider&>().surface().faces, self);
+          },
+          "Surface triangles, counterclockwise from outside: (F, 3), read-only, no copy.")
+      .def_property_readonly(
+          "face_tetrahedra", [](const Collider& self) { return copy_of(self.surface().face_tet); },
+          "The tetrahedron of each face: (F,).")
       .def(
           "update",
           [](Collider& self, const py::object& points, double margin) {
             self.update(positions_from(points, "points", self.num_nodes()), margin);
           },
-          py::arg("points"), py::arg("margin") = 0.0)
+          py::arg("points"), py::arg("margin") = 0.0,
+          R"(Follows the mesh to new points, (N, 3).
+
+margin: from now on all pairs nearer than this are found too, and near edges some that are a little farther. Two
+meshes must have the same.)")
       .def(
           "pairs_in", [](Collider& self, Collider& other) { return rows_of(self.pairs_in(other)); },
-          py::arg("other"));
+          py::arg("other"),
+          R"(Faces of this mesh that meet tetrahedra of another: rows (face, tetrahedron), (P, 2), sorted.
+
+Of the mesh with itself, without pairs that have a common node.)");
 }
 
 }  // namespace articular::python

@@ -146,24 +146,45 @@ py::tuple pressure_compliance(const Elements& self) {
 void bind_fem(py::module_& module) {
   py::module_ part = module.def_submodule("fem");
   const auto activated = py::arg("activation") = 0.0;
-  py::class_<Elements>(part, "Elements")
-      .def(py::init(&make), py::arg("points"), py::arg("tetrahedra"), py::arg("material"),
-           py::arg("fibres") = py::none())
+  py::class_<Elements>(part, "Elements", R"(Tetrahedra of one material: N points, M elements.
+
+The activation, 0 to 1, is that of fibres, where the material has any.)")
+      .def(
+          py::init(&make), py::arg("points"), py::arg("tetrahedra"), py::arg("material"),
+          py::arg("fibres") = py::none(),
+          R"(points: at rest [m], (N, 3). tetrahedra: (M, 4) numbers of points from 0, of positive volume.
+material: a dict with the keys of `material` in scenario files; `element` is "smoothed" or "plain".
+fibres: directions, (M, 3), in place of those of the material.
+
+Raises InputError for the material, ValueError for the arrays.)")
       .def_property_readonly(
-          "is_smoothed", [](const Elements& self) { return self.elements.smoothed() != nullptr; })
+          "is_smoothed", [](const Elements& self) { return self.elements.smoothed() != nullptr; },
+          "Smoothed elements, or plain ones.")
       .def_property_readonly(
-          "points", [](const py::object& self) { return view_of(self.cast<Elements&>().X, self); })
-      .def_property_readonly("tetrahedra",
-                             [](const py::object& self) {
-                               return view_of(self.cast<Elements&>().elements.tets(), self);
-                             })
+          "points", [](const py::object& self) { return view_of(self.cast<Elements&>().X, self); },
+          "At rest [m]: (N, 3), read-only, no copy.")
       .def_property_readonly(
-          "rest_volume", [](const Elements& self) { return copy_of(self.elements.rest_volume()); })
-      .def("energy", energy, py::arg("points"), activated)
-      .def("forces", forces, py::arg("points"), activated)
-      .def("stiffness_parts", stiffness, py::arg("points"), activated)
-      .def("pressure_gradient_parts", pressure_gradient, py::arg("points"))
-      .def("pressure_compliance_parts", pressure_compliance)
+          "tetrahedra",
+          [](const py::object& self) {
+            return view_of(self.cast<Elements&>().elements.tets(), self);
+          },
+          "(M, 4), read-only, no copy.")
+      .def_property_readonly(
+          "rest_volume", [](const Elements& self) { return copy_of(self.elements.rest_volume()); },
+          "Volume of each element at rest [m^3]: (M,).")
+      .def("energy", energy, py::arg("points"), activated,
+           "Stored at these points, (N, 3) [m]: W [J].")
+      .def("forces", forces, py::arg("points"), activated,
+           "The derivative of the energy by the points: what holds the shape [N], (N, 3).")
+      .def("stiffness_parts", stiffness, py::arg("points"), activated,
+           "Blocks (B, 3, 3), their columns and beginnings of rows, as scipy.sparse.bsr_matrix "
+           "takes them: `tangent` and `saddle_point` are made of it.")
+      .def("pressure_gradient_parts", pressure_gradient, py::arg("points"),
+           "G of smoothed elements: blocks (B, 3, 1), their columns, beginnings of rows, and the "
+           "number of pressures.")
+      .def(
+          "pressure_compliance_parts", pressure_compliance,
+          "A of smoothed elements, the upper half by columns: values, rows, beginnings of columns.")
       .def(
           "cauchy_stress",
           [](Elements& self, const py::object& points, double activation) {
@@ -171,20 +192,20 @@ void bind_fem(py::module_& module) {
             return copy_of(
                 self.compute([&] { return self.elements.cauchy_stress(x, activation); }));
           },
-          py::arg("points"), activated)
+          py::arg("points"), activated, "xx yy zz xy yz xz of each element [Pa]: (M, 6).")
       .def(
           "volume_ratio",
           [](Elements& self, const py::object& points) {
             const Positions x = of_nodes(self, points);
             return copy_of(self.compute([&] { return self.elements.volume_ratio(x); }));
           },
-          py::arg("points"))
+          py::arg("points"), "Volume of each element by that at rest: (M,).")
       .def(
           "lumped_mass",
           [](const Elements& self, double density) {
             return copy_of(fem::lumped_mass(self.X, self.elements.tets(), density));
           },
-          py::arg("density"));
+          py::arg("density"), "Mass of each point [kg], (N,), for a density [kg/m^3].");
 }
 
 }  // namespace articular::python

@@ -90,28 +90,58 @@ std::vector<std::pair<std::string, std::string>> contacts_of(const Scene& scene)
 }  // namespace
 
 void bind_model(py::module_& module) {
-  py::class_<BodyOf>(module, "Body")
-      .def_property_readonly("name", [](const BodyOf& self) { return self.body().name; })
-      .def_property_readonly("kind", kind_of)
-      .def_property_readonly("positions", positions_of_body)
-      .def_property_readonly("tetrahedra", tetrahedra_of)
-      .def_property_readonly("triangles", triangles_of)
+  py::class_<BodyOf>(module, "Body",
+                     "A tissue or a bone of a model, at the start. It keeps the model alive.")
+      .def_property_readonly(
+          "name", [](const BodyOf& self) { return self.body().name; }, "Its name in the scenario.")
+      .def_property_readonly("kind", kind_of, "\"tissue\", \"rigid\" or \"fixed\".")
+      .def_property_readonly(
+          "positions", positions_of_body,
+          "Nodes of its mesh at the start [m]: (N, 3), read-only. No copy, of a tissue.")
+      .def_property_readonly(
+          "tetrahedra", tetrahedra_of,
+          "Numbers of nodes from 0: (M, 4), read-only. No copy. Bones have none.")
+      .def_property_readonly(
+          "triangles", triangles_of,
+          "Its surface, numbers of nodes, counterclockwise from outside: (K, 3), read-only.")
       .def("__repr__", [](const BodyOf& self) {
         return fmt::format("<articular.Body {}: {}>", self.body().name, kind_of(self));
       });
-  py::class_<Scene, std::shared_ptr<Scene>>(module, "Model")
+  py::class_<Scene, std::shared_ptr<Scene>>(module, "Model",
+                                            R"(A scenario made ready to compute. It never changes.
+
+>>> model = Model(Scenario("mandible/opening"))
+>>> model.bodies["disc_left"].positions.shape[1]
+3)")
       .def(py::init([](const ScenarioFile& scenario) { return make_scene(scenario.read); }),
-           py::arg("scenario"))
-      .def_property_readonly("bodies", bodies_of)
-      .def_property_readonly("muscles", names_of_muscles)
-      .def_property_readonly("ligaments", names_of_ligaments)
-      .def_property_readonly("contacts", contacts_of)
-      .def_property_readonly("is_static", [](const Scene& self) { return self.model.is_static; })
+           py::arg("scenario"),
+           R"(Reads the meshes and builds the model. Later changes of the scenario do not reach it.
+
+Raises InputError for what only the geometry can tell. Doubts about the scene are RunWarnings.)")
+      .def_property_readonly("bodies", bodies_of,
+                             "All bodies by their names, in the scenario's order.")
+      .def_property_readonly("muscles", names_of_muscles, "Names of muscles.")
+      .def_property_readonly("ligaments", names_of_ligaments, "Names of ligaments.")
+      .def_property_readonly("contacts", contacts_of, "Names of each two bodies that may touch.")
+      .def_property_readonly(
+          "is_static", [](const Scene& self) { return self.model.is_static; },
+          "As of the scenario.")
       .def_property_readonly(
           "num_unknowns",
-          [](const Scene& self) { return 3 * self.model.layout.num_unknown_blocks(); })
-      .def_property_readonly("warnings", [](const Scene& self) { return self.model.warnings; })
-      .def("steps", [](const std::shared_ptr<Scene>& self) { return Simulation::begin(self); })
+          [](const Scene& self) { return 3 * self.model.layout.num_unknown_blocks(); },
+          "Unknown velocities (or displacements): 3 a free node, 6 a free bone.")
+      .def_property_readonly(
+          "warnings", [](const Scene& self) { return self.model.warnings; },
+          "Doubts about the scene, a sentence each.")
+      .def(
+          "steps", [](const std::shared_ptr<Scene>& self) { return Simulation::begin(self); },
+          R"(A Simulation at the start, which goes from step to step. It writes nothing.
+
+>>> model = Model(Scenario("verification/pendulum", set={"duration": "5 ms"}))
+>>> for step in model.steps():
+...     pass
+>>> step.time
+0.005)")
       .def("__repr__", [](const Scene& self) {
         return fmt::format("<articular.Model of {}: {} bodies>", self.scenario.name,
                            self.model.bodies.size());

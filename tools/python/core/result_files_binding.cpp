@@ -59,8 +59,10 @@ py::list read_series(const std::filesystem::path& pvd) {
 }  // namespace
 
 void bind_result_files(py::module_& module) {
-  module.def("read_mesh_file", read_mesh_file, py::arg("file"));
-  module.def("read_series", read_series, py::arg("pvd"));
+  module.def("read_mesh_file", read_mesh_file, py::arg("file"),
+             "Arrays of a .vtu or .vtp, by name. See Frame.mesh.");
+  module.def("read_series", read_series, py::arg("pvd"),
+             "Time [s], part and file of each entry of a .pvd. See Results.frames.");
 }
 
 }  // namespace articular::python

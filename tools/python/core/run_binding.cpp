@@ -93,7 +93,8 @@ std::filesystem::path run(const ScenarioFile& scenario,
 void bind_run(py::module_& module) {
   module.def("run", run, py::arg("scenario"), py::arg("out") = py::none(), py::kw_only(),
              py::arg("on_step") = py::none(), py::arg("resume") = false,
-             py::arg("overwrite") = false);
+             py::arg("overwrite") = false,
+             "A whole run; returns the folder of its results. See articular.run.");
 }
 
 }  // namespace articular::python

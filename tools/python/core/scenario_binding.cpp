@@ -68,34 +68,61 @@ py::list shipped() {
 }  // namespace
 
 void bind_scenario(py::module_& module) {
-  py::class_<ScenarioFile>(module, "Scenario")
+  py::class_<ScenarioFile>(module, "Scenario", R"(A scenario file, read and checked.
+
+>>> scenario = Scenario("mandible/opening", set={"duration": "0.1 s"})
+>>> scenario.title, scenario.duration
+('Jaw opening', 0.1)
+>>> scenario.set("body.disc_left.material.young_modulus", "3 MPa")
+>>> scenario.set("duratoin", "1 s")
+Traceback (most recent call last):
+    ...
+articular.InputError: --set duratoin=1 s: scenario: unknown key `duratoin`; did you mean `duration`?)")
       .def(py::init([](const std::filesystem::path& source, const py::object& set, int threads) {
              return read(source, overrides_from(set), threads);
            }),
-           py::arg("source"), py::kw_only(), py::arg("set") = py::none(), py::arg("threads") = 1)
+           py::arg("source"), py::kw_only(), py::arg("set") = py::none(), py::arg("threads") = 1,
+           R"(source: path of a file, or name of a shipped scenario.
+set: what `--set` of the program takes: a dict of paths and values, or a list of "PATH=VALUE".
+    A value is a text with its unit ("15 kPa"), a number, a bool, a list, a dict or a numpy array.
+threads: of element loops, linear solvers and contact search. Results do not depend on it.
+
+Raises InputError with a line for each mistake, as the program prints it.)")
       .def(
           "set",
           [](ScenarioFile& self, const std::string& key, const py::object& value) {
             set(self, {override_text(key, value)});
           },
-          py::arg("key"), py::arg("value"), py::pos_only())
-      .def_readonly("file", &ScenarioFile::file)
-      .def_property_readonly("name", [](const ScenarioFile& self) { return self.read.name; })
-      .def_property_readonly("title", [](const ScenarioFile& self) { return self.read.title; })
-      .def_property_readonly("duration",
-                             [](const ScenarioFile& self) { return self.read.duration; })
-      .def_property_readonly("is_static",
-                             [](const ScenarioFile& self) {
-                               return self.read.analysis == sim::Scenario::Analysis::Static;
-                             })
+          py::arg("key"), py::arg("value"),
+          R"(Overrides a value by its path, as `--set` does. It is checked at once: where it is wrong,
+InputError says why, and the scenario stays as it was.)")
+      .def_readonly("file", &ScenarioFile::file, "The scenario's file.")
+      .def_property_readonly(
+          "name", [](const ScenarioFile& self) { return self.read.name; },
+          "Name of the file without ending: names the results.")
+      .def_property_readonly(
+          "title", [](const ScenarioFile& self) { return self.read.title; }, "Its title.")
+      .def_property_readonly(
+          "duration", [](const ScenarioFile& self) { return self.read.duration; },
+          "Simulated time [s].")
+      .def_property_readonly(
+          "is_static",
+          [](const ScenarioFile& self) {
+            return self.read.analysis == sim::Scenario::Analysis::Static;
+          },
+          "Equilibrium under loads over time, not motion in time.")
       .def_property_readonly(
           "settings",
           [](const ScenarioFile& self) {
             return py::module_::import("json").attr("loads")(self.read.settings_json);
-          })
-      .def_property_readonly("overrides", [](const ScenarioFile& self) { return self.overrides; })
+          },
+          "Settings after presets and overrides, as `summary.json` has them.")
+      .def_property_readonly(
+          "overrides", [](const ScenarioFile& self) { return self.overrides; },
+          "What was set, as \"PATH=VALUE\".")
       .def_property(
-          "threads", [](const ScenarioFile& self) { return self.read.threads; }, set_threads)
+          "threads", [](const ScenarioFile& self) { return self.read.threads; }, set_threads,
+          "Threads that a run or a model of it uses.")
       .def("__repr__",
            [](const ScenarioFile& self) {
              return fmt::format("<articular.Scenario {}>", self.file.string());
@@ -108,7 +135,11 @@ void bind_scenario(py::module_& module) {
             return read(kept[0].cast<std::filesystem::path>(),
                         kept[1].cast<std::vector<std::string>>(), kept[2].cast<int>());
           }));
-  module.def("scenarios", shipped);
+  module.def("scenarios", shipped,
+             R"(The shipped scenarios, studies and fits: a list of (name, kind, title).
+
+>>> [name for name, kind, title in scenarios() if kind == "static"][:1]
+['knee/axial-load'])");
 }
 
 }  // namespace articular::python
