@@ -105,7 +105,7 @@ class Examples(InFolder):
         self.assertGreater(self.number_behind("highest pressure: ", text), 1)
         header, *rows = (self.folder / "out/pressure.csv").read_text().splitlines()
         self.assertEqual(header, "x [mm],y [mm],pressure [Pa]")
-        self.assertEqual(len(rows), 25)
+        self.assertEqual(len(rows), 49)
 
     def test_results_are_read(self):
         text = self.run_example("reading_results")

@@ -18,7 +18,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ._core.collision import Collider
 
@@ -28,8 +28,8 @@ __all__ = ["Collider", "Pairs", "find_pairs"]
 class Pairs(NamedTuple):
     """Rows (face, tetrahedron), sorted. `face` is a row of `Collider.faces`."""
 
-    a_in_b: np.ndarray  # (P, 2) faces of a in tetrahedra of b
-    b_in_a: np.ndarray  # (Q, 2) faces of b in tetrahedra of a
+    a_in_b: NDArray[np.int32]  # (P, 2) faces of a in tetrahedra of b
+    b_in_a: NDArray[np.int32]  # (Q, 2) faces of b in tetrahedra of a
 
 
 def find_pairs(

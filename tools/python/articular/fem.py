@@ -12,7 +12,7 @@ Nothing here needs a scenario. The material is a dict with the keys that `materi
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Tuple
+from typing import TYPE_CHECKING, Any, Tuple
 
 from numpy.typing import ArrayLike
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["Elements"]
 
 
-def _sparse():
+def _sparse() -> Any:
     try:
         import scipy.sparse
         import scipy.sparse.linalg

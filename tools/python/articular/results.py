@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict, List, Tuple, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _core
 
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     import meshio
     import pandas
     import pyvista
+
+Array = NDArray[Any]
 
 # Kinds of cells as VTK numbers them, and as meshio calls them.
 _TETRAHEDRON, _TRIANGLE = 10, 5
@@ -65,7 +68,7 @@ class Results:
         return f"<articular.Results in {self.folder}>"
 
     @property
-    def columns(self) -> Dict[str, np.ndarray]:
+    def columns(self) -> Dict[str, Array]:
         """The history, one array a column by its name with unit: "time [s]". An empty cell is NaN."""
         with open(self.folder / "history.csv", newline="") as file:
             rows = list(csv.reader(file))
@@ -81,7 +84,7 @@ class Results:
         """The unit of each column of the history."""
         return {column: _unit(column) for column in self.columns}
 
-    def __getitem__(self, column: str) -> np.ndarray:
+    def __getitem__(self, column: str) -> Array:
         """A column of the history by its name, with or without its unit."""
         columns = self.columns
         if column in columns:
@@ -109,7 +112,8 @@ class Results:
     def summary(self) -> Dict[str, Any]:
         """`summary.json`: outcome, settings, counts, wall times, energy balance, warnings."""
         with open(self.folder / "summary.json") as file:
-            return json.load(file)
+            summary: Dict[str, Any] = json.load(file)
+        return summary
 
     @property
     def frames(self) -> "List[Frame]":
@@ -128,12 +132,12 @@ class Mesh:
     and ligaments are paths: lists of points.
     """
 
-    points: np.ndarray  # (N, 3)
-    tetrahedra: np.ndarray  # (M, 4)
-    triangles: np.ndarray  # (M, 3)
-    paths: List[np.ndarray]
-    point_data: Dict[str, np.ndarray]  # N rows each
-    cell_data: Dict[str, np.ndarray]  # M rows each
+    points: Array  # (N, 3)
+    tetrahedra: Array  # (M, 4)
+    triangles: Array  # (M, 3)
+    paths: List[Array]
+    point_data: Dict[str, Array]  # N rows each
+    cell_data: Dict[str, Array]  # M rows each
     texts: Dict[str, str]  # such as units
 
     def to_meshio(self) -> "meshio.Mesh":
@@ -179,11 +183,12 @@ class Frame:
         begin, nodes = content["cells"]
         types = content["types"]
 
-        def of_kind(kind: int, size: int) -> np.ndarray:
+        def of_kind(kind: int, size: int) -> Array:
             rows = begin[:-1][types == kind]
-            return nodes[rows[:, None] + np.arange(size)].reshape(-1, size)
+            cells: Array = nodes[rows[:, None] + np.arange(size)].reshape(-1, size)
+            return cells
 
-        def split(cells: "Tuple[np.ndarray, np.ndarray]") -> List[np.ndarray]:
+        def split(cells: "Tuple[Array, Array]") -> List[Array]:
             return np.split(cells[1], cells[0][1:-1]) if len(cells[0]) > 1 else []
 
         polygons = split(content["polygons"])

@@ -1,4 +1,4 @@
-"""A pressure map: where a tool presses on a layer of tissue, from the frames of a run.
+"""A pressure map: how a ball presses on a block of tissue, from the frames of a run.
 
 Writes pressure.csv, and pressure.png where matplotlib is installed.
 
@@ -37,14 +37,17 @@ def main():
     given = arguments.parse_args()
 
     scenario = articular.Scenario(Path(__file__).parent / "block.toml")
-    scenario.set("output.contact_surfaces", True)
-    scenario.set("body.block.geometry.box.cells", [4, 4, 4] if given.short else [12, 12, 8])
+    scenario.set("body.block.geometry.box.cells", [6, 6, 4] if given.short else [12, 12, 8])
+    ball = {"radius": "8 mm", "element_size": "1.5 mm", "center": "0 0 18.2 mm"}  # in place of the plate
+    scenario.set("body.plate.geometry", {"sphere": ball})
+    scenario.set("load.0.translation", ["0 0 0 mm", "0 0 -1.5 mm"])
     results = articular.run(scenario, given.out)
 
-    surface = results.frames[-1].mesh("block:contact")
-    pressure = np.nan_to_num(surface.point_data["contact_pressure"])  # Pa
-    top = surface.points[:, 2] > surface.points[:, 2].max() - 0.5  # mm
-    x, y = surface.points[:, 0], surface.points[:, 1]
+    block = results.frames[-1].mesh("block")
+    pressure = np.nan_to_num(block.point_data["contact_pressure"])  # Pa
+    rest = block.points - block.point_data["displacement"]
+    top = rest[:, 2] > 9.9  # mm
+    x, y = block.points[:, 0], block.points[:, 1]
     np.savetxt(
         given.out / "pressure.csv",
         np.column_stack([x[top], y[top], pressure[top]]),
@@ -53,7 +56,8 @@ def main():
         comments="",
         fmt="%.6g",
     )
-    faces = surface.triangles[top[surface.triangles].all(axis=1)]
+    triangles = articular.Model(scenario).bodies["block"].triangles
+    faces = triangles[top[triangles].all(axis=1)]
     draw(x, y, faces, pressure, given.out / "pressure.png")
     print(f"highest pressure: {1e-3 * pressure.max():.2f} kPa at "
           f"({x[pressure.argmax()]:.1f}, {y[pressure.argmax()]:.1f}) mm")
