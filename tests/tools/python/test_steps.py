@@ -1,4 +1,6 @@
 import gc
+import os
+import signal
 import threading
 import unittest
 
@@ -124,6 +126,24 @@ class Muscles(InFolder):
                 muscle.activation = value
         with self.assertRaises(TypeError):
             muscle.excitation = "much"
+
+
+class Interruption(InFolder):
+    def test_ctrl_c_within_a_step_leaves_the_simulation_where_the_step_began(self):
+        scenario = block(analysis="static", duration="0.4 s", **{
+            "integrator.step": "0.4 s", "body.block.geometry.box.cells": [10, 10, 10]})
+        steps = articular.Model(scenario).steps()
+        timer = threading.Timer(0.15, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            steps.advance()
+        self.assertEqual(steps.time, 0)
+        while steps.advance():
+            pass
+        alone = articular.Model(scenario).steps()
+        while alone.advance():
+            pass
+        self.assertEqual(steps.probes, alone.probes)
 
 
 class Misuse(InFolder):
