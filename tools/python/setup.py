@@ -64,8 +64,10 @@ def scenarios():
     return sorted(folders.items())
 
 
+BUILD.mkdir(parents=True, exist_ok=True)
 setup(
     version=version(),
+    options={"egg_info": {"egg_base": str(BUILD)}, "build": {"build_base": str(BUILD / "wheel")}},  # not beside us
     packages=["articular"],
     package_data={"articular": ["py.typed", "_core/*.pyi"]},
     data_files=scenarios(),
