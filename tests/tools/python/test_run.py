@@ -83,6 +83,13 @@ class Run(InFolder):
         self.assertEqual(results.summary["outcome"], "interrupted")
         self.assertGreater(results["time"][-1], 0.05)
 
+    def test_a_callback_ends_the_run_where_it_says_so(self):
+        for when, rows in [(0.0, 1), (0.0105, 12)]:
+            with self.subTest(when):
+                results = articular.run(block(), "out", on_step=lambda step: step.time >= when)
+                self.assertEqual(len(results["time"]), rows)
+                self.assertEqual(results.summary["outcome"], "interrupted")
+
     def test_a_callback_that_answers_anything_but_yes_or_no_is_a_mistake(self):
         with self.assertRaisesRegex(TypeError, "on_step: expected True"):
             articular.run(block(), "out", on_step=lambda step: step.time)

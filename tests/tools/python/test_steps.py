@@ -111,6 +111,22 @@ class Muscles(InFolder):
             self.assertEqual(driven.probes, mine.probes)
         self.assertTrue(driven.is_done and not mine.advance())
 
+    def test_in_statics_the_excitation_is_the_activation_of_the_next_load_step(self):
+        # The block of muscle pulls with its active stress, 0.3 MPa on 1 cm2, by the activation.
+        steps = articular.Model(articular.Scenario("verification/muscle_block", set={
+            "analysis": "static", "integrator.step": "0.1 s", "body.muscle.geometry.box.cells": [2, 2, 4],
+        })).steps()
+        muscle = steps.muscles["fibres"]
+        for excitation in [0.5, 0.2]:
+            muscle.excitation = excitation
+            steps.advance()
+            self.assertEqual(muscle.activation, excitation)
+            self.assertAlmostEqual(steps.probes["pull.force.z [N]"], -30 * excitation, places=6)
+        with self.assertRaisesRegex(ValueError, "static"):
+            muscle.activation = 0.1
+        with self.assertRaisesRegex(articular.InputError, "fibres"):
+            print(muscle.length)
+
     def test_two_simulations_of_a_model_have_excitations_of_their_own(self):
         model = articular.Model(lever())
         a, b = model.steps(), model.steps()

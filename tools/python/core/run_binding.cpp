@@ -70,13 +70,10 @@ std::filesystem::path run(const ScenarioFile& scenario,
   options.directory = folder_of(scene->scenario, out);
   options.resume = resume;
   options.overwrite = overwrite;
-  options.is_to_stop = [&] { return signals.is_raised(); };
-  options.after_iteration = [&](double, const sim::NewtonIteration&) {
-    return signals.is_raised();
-  };
-  options.after_step = [&](const sim::State&, double) {
-    return signals.is_raised() || (callback && callback->stops());
-  };
+  const auto is_to_stop = [&] { return signals.is_raised() || (callback && callback->stops()); };
+  options.is_to_stop = is_to_stop;
+  options.after_iteration = [&](double, const sim::NewtonIteration&) { return is_to_stop(); };
+  options.after_step = [&](const sim::State&, double) { return is_to_stop(); };
   options.warn = [&](const std::string& warning) { warnings.push_back(warning); };
   if (callback) options.steer = [&](sim::Course& course) { (*callback)(course); };
   {

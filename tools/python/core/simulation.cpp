@@ -141,7 +141,7 @@ void Simulation::fill(Quantity quantity, int body, Positions& values) const {
       return;
     case Quantity::ContactForce: {
       const Positions forces = stepper.contact_forces()[static_cast<std::size_t>(body)];
-      if (forces.cols() == values.cols()) values = forces;  // of what nothing can touch: none
+      if (forces.cols() == values.cols()) values = forces;  // of what nothing can touch: none, 0
       return;
     }
   }

@@ -205,8 +205,9 @@ void bind_simulation(py::module_& module) {
                     "Name of the body whose triangles look for faces.")
       .def_readonly("face_body", &ContactFaces::face_body, "Name of the other.")
       .def_readonly("pairs", &ContactFaces::pairs,
-                    "(P, 2): triangle and face, rows of the bodies' contact surfaces. A pair in "
-                    "parts has several rows.");
+                    "(P, 2): triangle and face, numbers of faces of the bodies' contact surfaces; "
+                    "of a tissue rows of "
+                    "Body.triangles. A pair in parts has several rows.");
   py::class_<Simulation, std::shared_ptr<Simulation>>(module, "Simulation",
                                                       R"(A model on its way, between two steps.
 
