@@ -1,6 +1,7 @@
 """What the tests of the Python package share."""
 
 import os
+import signal
 import tempfile
 import unittest
 from pathlib import Path
@@ -14,6 +15,8 @@ class InFolder(unittest.TestCase):
     """Each test runs in an empty folder of its own."""
 
     def setUp(self):
+        # Who starts tests in the background may have Ctrl-C ignored.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.addCleanup(os.chdir, os.getcwd())
