@@ -107,6 +107,7 @@ class Muscles(InFolder):
         driven = articular.Model(lever(**{"muscle.flexor.excitation": excitation})).steps()
         mine = articular.Model(lever()).steps()
         mine.muscles["flexor"].excitation = mine.muscles["flexor"].activation = 0.3
+        self.assertEqual(mine.muscles["flexor"].activation, 0.3)
         while driven.advance() and mine.advance():
             self.assertEqual(driven.probes, mine.probes)
         self.assertTrue(driven.is_done and not mine.advance())

@@ -167,7 +167,7 @@ double Simulation::excitation(int muscle) const {
 }
 
 double Simulation::activation(int muscle) const {
-  return course().stepper().now().configuration.activation[muscle];
+  return course().state().y[model().layout.activations() + muscle];
 }
 
 void Simulation::set_excitation(int muscle, double excitation) {
