@@ -126,6 +126,25 @@ class Run(InFolder):
         counter.join()
         self.assertGreater(sum(start + 0.1 * (end - start) < t < end for t in counts), 3)
 
+    def test_a_simulation_that_can_not_go_on_raises_and_its_results_stay(self):
+        hopeless = {"integrator.max_iterations": 1, "integrator.position_tolerance": "1e-9 um"}
+        with self.assertRaisesRegex(articular.SimulationError, "cannot go on at t ="):
+            articular.run(block(**hopeless), "out")
+        self.assertIn("cannot go on", articular.Results("out").summary["outcome"])
+        with self.assertRaisesRegex(articular.SimulationError, "cannot go on at t ="):
+            for _ in articular.Model(block(**hopeless)).steps():
+                pass
+
+    def test_runs_in_several_threads_have_the_bits_of_one(self):
+        articular.run(block(), "alone")
+        runs = [threading.Thread(target=articular.run, args=(block(), f"{i}")) for i in range(3)]
+        for run in runs:
+            run.start()
+        for run in runs:
+            run.join()
+        for i in range(3):
+            self.assert_same_results("alone", str(i))
+
     def test_results_of_another_scenario_are_replaced_only_if_asked_for(self):
         articular.run(block(), "out")
         with self.assertRaises(articular.InputError):
