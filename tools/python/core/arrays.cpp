@@ -21,7 +21,7 @@ std::string shape_words(const py::array& array) {
 /// @param kinds  numpy's letters of the types that may be
 py::array array_from(const py::object& given, const std::string& name, py::ssize_t columns,
                      std::string_view kinds, const char* numbers) {
-  const py::array array = py::module_::import("numpy").attr("asarray")(given);
+  py::array array = py::module_::import("numpy").attr("asarray")(given);
   if (array.size() > 0 && kinds.find(array.dtype().kind()) == std::string_view::npos)
     throw py::type_error(fmt::format("{}: expected {}, found the type {}", name, numbers,
                                      std::string(py::str(array.dtype()))));
