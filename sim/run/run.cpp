@@ -1,14 +1,11 @@
 #include "sim/run/run.hpp"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <optional>
 
 #include "sim/base/append_file.hpp"
 #include "sim/base/atomic_file.hpp"
 #include "sim/base/stopwatch.hpp"
-#include "sim/build/build_model.hpp"
 #include "sim/output/checkpoint.hpp"
 #include "sim/output/convergence.hpp"
 #include "sim/output/fingerprint.hpp"
@@ -18,32 +15,12 @@
 #include "sim/output/results_folder.hpp"
 #include "sim/output/run_warnings.hpp"
 #include "sim/output/summary.hpp"
-#include "sim/step/failure_diagnosis.hpp"
-#include "sim/step/overlap_resolution.hpp"
-#include "sim/step/run_extrema.hpp"
 
 namespace articular::sim {
 namespace {
 
-/// Frames between two checkpoints where the scenario gives no interval. What lies between two
-/// frames of a static analysis may take minutes.
-int frames_per_checkpoint(const Model& model) { return model.is_static ? 1 : 10; }
-
 /// Rows of the history that wait for the next frame take no more memory than this.
 constexpr std::size_t kMostPendingBytes = 1 << 16;
-
-/// Multiples of an interval are computed, not summed: a resumed run has the same ones.
-struct Schedule {
-  double interval = 0;
-  /// The first multiple after t.
-  double next(double t) const {
-    return interval * (std::floor(t / interval * (1 + 1e-12) + 1e-9) + 1);
-  }
-  bool due(double t) const {
-    const double count = t / interval;
-    return std::abs(count - std::round(count)) < 1e-9 * std::max(1.0, count);
-  }
-};
 
 class Run {
  public:
@@ -53,16 +30,11 @@ class Run {
         options_(options),
         folder_(options.directory),
         writer_(options.directory, scenario.name, scenario.output.length_unit),
-        stepper_(model, step_settings(scenario)),
-        history_(model, scenario.output.length_unit),
-        kinks_(kink_times(model, scenario.duration)),
-        frames_{scenario.output.interval},
-        checkpoints_{scenario.output.checkpoint_interval.value_or(frames_per_checkpoint(model) *
-                                                                  scenario.output.interval)} {}
+        course_(scenario, model),
+        history_(model, scenario.output.length_unit) {}
 
   RunOutcome go() {
     const auto start = std::chrono::steady_clock::now();
-    const double duration = scenario_.duration;
     RunOutcome outcome = RunOutcome::Finished;
     std::string how = "finished";
     const auto finish = [&] {
@@ -71,22 +43,23 @@ class Run {
       wall.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       write_and_sync();
       if (options_.warn)
-        for (const std::string& warning : run_warnings(model_, state_, stepper_))
+        for (const std::string& warning : run_warnings(model_, state(), stepper()))
           options_.warn(warning);
       if (options_.note)
-        for (const std::string& note : run_notes(model_, state_, stepper_)) options_.note(note);
-      write_text_file(
-          options_.directory / "summary.json",
-          summary_json(scenario_, model_, state_, stepper_, stepper_.times(), wall, inputs_, how));
+        for (const std::string& note : run_notes(model_, state(), stepper())) options_.note(note);
+      write_text_file(options_.directory / "summary.json",
+                      summary_json(scenario_, model_, state(), stepper(), stepper().times(), wall,
+                                   inputs_, how));
     };
-    stepper_.set_watch(options_.after_iteration);
-    stepper_.set_stop(options_.is_to_stop);
+    course_.set_watch(options_.after_iteration);
+    course_.set_stop(options_.is_to_stop);
     try {
       begin();
-      while (state_.t < duration) {
-        stepper_.step(state_, next_event());
+      while (!course_.is_done()) {
+        course_.step();
         observe();
-        if (options_.after_step && options_.after_step(state_, duration) && state_.t < duration) {
+        if (options_.after_step && options_.after_step(state(), scenario_.duration) &&
+            !course_.is_done()) {
           outcome = RunOutcome::Interrupted;
           how = "interrupted";
           break;
@@ -95,7 +68,7 @@ class Run {
     } catch (const Interruption&) {
       outcome = RunOutcome::Interrupted;
       how = "interrupted";
-      stepper_.restart(state_);  // energies are those of the last step that was done
+      course_.restart();  // energies are those of the last step that was done
     } catch (const SimulationError& error) {
       how = error.what();
       finish();
@@ -109,17 +82,7 @@ class Run {
   std::filesystem::path checkpoints() const { return options_.directory / "checkpoint"; }
   std::string scenario_name() const { return scenario_.file.filename().string(); }
 
-  /// A law that can't be turned inside out, a start that is: nothing to begin from.
-  void check_start() const {
-    const Moment& now = stepper_.now();
-    if (now.forces.allFinite() && std::isfinite(stepper_.stored_energy().total())) return;
-    throw InputError({scenario_.file.string()},
-                     "forces at the start are not finite" +
-                         failure_diagnosis(model_, now.configuration, now.configuration));
-  }
-
   void begin() {
-    state_ = stepper_.initial();
     inputs_ = input_files(scenario_);
     fingerprint_ = fingerprint(scenario_, model_);
     // A run that goes on with another arithmetic would have the bits of neither.
@@ -130,23 +93,24 @@ class Run {
       go_on(std::move(*from));
       return;
     }
-    check_start();
+    course_.begin();
     refuse_more_than_fits(estimated_output(scenario_, model_), options_.directory);
     clear_results(options_.directory, scenario_name(), options_.overwrite);
     open_tables({}, {});
-    resolve_initial_overlaps();
-    history_.record(state_, stepper_);
+    if (course_.set_apart() && options_.after_overlap_resolution)
+      options_.after_overlap_resolution(state().overlap_resolution);
+    history_.record(state(), stepper());
     output_frame();
+    steer();
   }
 
   void go_on(Checkpoint from) {
-    state_ = std::move(from.state);
-    stepper_.restart(state_);
-    check_start();
+    course_.go_on(std::move(from.state));
     open_tables(from.history, from.convergence);
     // Before anything is cut: results that were whole are not from here on.
     write_unfinished_summary(options_.directory, scenario_name());
     if (from.series.bytes > 0) writer_.resume_at(from.series);
+    steer();
   }
 
   /// With what an earlier run wrote, or new ones.
@@ -166,48 +130,32 @@ class Run {
            convergence_file_);
   }
 
-  void resolve_initial_overlaps() {
-    state_.overlap_resolution =
-        resolve_overlaps(scenario_, model_, state_.y, options_.after_iteration);
-    if (state_.overlap_resolution.overlaps.empty()) return;
-    stepper_.restart(state_);
-    state_.extrema = {};  // overlaps before the start are told as their resolution
-    state_.max_penetration = 0;
-    note_extrema(stepper_.now(), state_);
-    state_.energy.start = stepper_.stored_energy().total();
-    if (options_.after_overlap_resolution)
-      options_.after_overlap_resolution(state_.overlap_resolution);
-  }
-
-  double next_event() const {
-    double next =
-        std::min({scenario_.duration, frames_.next(state_.t), checkpoints_.next(state_.t)});
-    const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), state_.t * (1 + 1e-12));
-    if (kink != kinks_.end()) next = std::min(next, *kink);
-    return next;
-  }
-
+  State& state() { return course_.state(); }
+  Stepper& stepper() { return course_.stepper(); }
   bool is_static() const { return model_.is_static; }
 
+  void steer() {
+    if (options_.steer) options_.steer(course_);
+  }
+
   void observe() {
-    history_.record(state_, stepper_);
-    if (!is_static()) note_balance(numerical_loss(state_, stepper_.stored_energy()), state_);
-    const bool end = state_.t >= scenario_.duration;
-    if (frames_.due(state_.t) || end) output_frame();
+    history_.record(state(), stepper());
+    if (course_.frame_is_due()) output_frame();
     if (history_.num_pending_bytes() > kMostPendingBytes) write_tables();
-    if (checkpoints_.due(state_.t) && !end) {
+    if (course_.checkpoint_is_due()) {
       const Stopwatch watch(output_seconds_);
       write_checkpoint();
-      stepper_.restart(state_);
+      course_.restart();
     }
+    steer();
   }
 
   void output_frame() {
     const Stopwatch watch(output_seconds_);
     if (scenario_.output.frames) {
-      write_frame(model_, stepper_, scenario_.output.contact_surfaces, state_.frames, state_.t,
+      write_frame(model_, stepper(), scenario_.output.contact_surfaces, state().frames, state().t,
                   writer_);
-      ++state_.frames;
+      ++state().frames;
     }
     write_tables();
   }
@@ -217,7 +165,7 @@ class Run {
     history_file_->append(history_.take_rows());
     if (convergence_file_)
       convergence_file_->append(
-          convergence_rows(model_, stepper_.take_convergence(), scenario_.output.length_unit));
+          convergence_rows(model_, stepper().take_convergence(), scenario_.output.length_unit));
   }
 
   /// All results so far are on the disk.
@@ -230,7 +178,7 @@ class Run {
 
   void write_checkpoint() {
     write_and_sync();  // what it refers to, before it is there
-    Checkpoint checkpoint{state_, history_file_->extent(), writer_.series(), {}};
+    Checkpoint checkpoint{state(), history_file_->extent(), writer_.series(), {}};
     if (convergence_file_) checkpoint.convergence = convergence_file_->extent();
     sim::write_checkpoint(checkpoints(), checkpoint, fingerprint_);
   }
@@ -240,11 +188,8 @@ class Run {
   const RunOptions& options_;
   ResultsFolder folder_;  // this run's alone, from before the first file to after the last
   FrameWriter writer_;
-  Stepper stepper_;
+  Course course_;
   History history_;
-  std::vector<double> kinks_;
-  Schedule frames_, checkpoints_;
-  State state_;
   std::string fingerprint_;
   std::vector<InputFile> inputs_;
   std::optional<AppendFile> history_file_, convergence_file_;
@@ -252,23 +197,6 @@ class Run {
 };
 
 }  // namespace
-
-std::vector<double> kink_times(const Model& model, double duration) {
-  std::vector<double> times;
-  const auto add = [&](const std::vector<double>& more) {
-    times.insert(times.end(), more.begin(), more.end());
-  };
-  for (const MuscleModel& muscle : model.muscles) add(muscle.given.excitation.time);
-  for (const ForceModel& force : model.forces) add(force.profile.time);
-  for (const SurfaceLoadModel& load : model.surface_loads) add(load.profile.time);
-  for (const GravityModel& gravity : model.gravity) add(gravity.profile.time);
-  for (const RigidBody& rigid : model.rigid_bodies)
-    if (rigid.motion) add(kinks_of(*rigid.motion));
-  std::erase_if(times, [&](double t) { return t <= 0 || t >= duration; });
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
-}
 
 RunOutcome run(const Scenario& scenario, const Model& model, const RunOptions& options) {
   return Run(scenario, model, options).go();

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "sim/statics/equilibrium.hpp"
+#include "sim/run/course.hpp"
 
 namespace articular::sim {
 
@@ -24,6 +24,11 @@ struct RunOptions {
   std::function<void(const std::string&)> note;
   /// Called after every step; true stops the run (as after Ctrl-C).
   std::function<bool(const State&, double duration)> after_step;
+  /// Called before the first step and after every one, when what is due has been written. Unlike
+  /// the others it may change what the next step is made of: activations, and of the model, which
+  /// who calls run() owns, excitations. A resumed run has the same bits if what it does follows
+  /// from the state alone.
+  std::function<void(Course&)> steer;
 };
 
 enum class RunOutcome { Finished, Interrupted };
@@ -35,9 +40,4 @@ enum class RunOutcome { Finished, Interrupted };
 /// until when
 /// @throws SystemError when results can't be written
 RunOutcome run(const Scenario& scenario, const Model& model, const RunOptions& options);
-
-/// Times at which a step must end: kinks of curves and motions, within (0, duration).
-/// @param duration  [s]
-std::vector<double> kink_times(const Model& model, double duration);
-
 }  // namespace articular::sim

@@ -62,4 +62,13 @@ std::vector<OverlapReport> overlap_reports(const Scenario& scenario, const Model
   return reports;
 }
 
+void warn_of_overlaps(const Scenario& scenario, Model& model) {
+  try {
+    for (OverlapReport& overlap : overlap_reports(scenario, model, initial_state(model)))
+      if (!overlap.is_set_apart) model.warnings.push_back(std::move(overlap.words));
+  } catch (const SimulationError&) {
+    return;
+  }
+}
+
 }  // namespace articular::sim

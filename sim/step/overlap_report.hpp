@@ -21,4 +21,8 @@ struct OverlapReport {
 std::vector<OverlapReport> overlap_reports(const Scenario& scenario, const Model& model,
                                            const Eigen::VectorXd& y);
 
+/// Adds to the model's warnings what stays overlapping at the start, if contact can tell: what a
+/// run sets apart it says itself.
+void warn_of_overlaps(const Scenario& scenario, Model& model);
+
 }  // namespace articular::sim

@@ -16,12 +16,13 @@ foreach(ending toml csv vtp vtu)
 endforeach()
 # Whole, so that links from page to page lead somewhere.
 install(FILES README.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+articular_install_files(${CMAKE_INSTALL_DOCDIR} tools/python/examples/*.py tools/python/examples/*.toml)
 foreach(folder scenarios tools fem collision sim parallel tests/benchmarks)
   articular_install_files(${CMAKE_INSTALL_DOCDIR} ${folder}/*.md ${folder}/*.png ${folder}/*.svg)
 endforeach()
 
 # Debian packages, by `cpack -G DEB` (tools/package): the program; the mesher, since it alone is bound by CGAL's GPL 3 and
-# most runs do without; libraries and headers.
+# most runs do without; libraries and headers; the Python package, where the build has it.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME articular)
 set(CPACK_PACKAGE_CONTACT "The articular developers <developers@articular.invalid>")
@@ -69,6 +70,19 @@ For programs of your own: finite elements and materials (articular-fem),
 contact search (articular-collision), and whole simulations (articular-sim),
 as CMake packages with static libraries.")
 
+# The module is for one version of Python, which has its name.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-articular)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "articular (${this_version}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-scipy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-meshio")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "simulator of joint tissue from Python
+With this package Python runs scenarios of articular, goes through them step
+by step, steers muscles and reads results as numpy arrays, or as objects of
+pandas and meshio. Its contact search and finite elements work alone too, on
+meshes of your own.")
+
 file(STRINGS CHANGELOG.md released REGEX "^## ${PROJECT_VERSION} - ${articular_release_date}$")
 if(NOT released)
   message(FATAL_ERROR "CHANGELOG.md has no heading `## ${PROJECT_VERSION} - ${articular_release_date}`, the version of "
@@ -92,6 +106,12 @@ articular_package_documents(libarticular-dev parallel)
 if(TARGET articular_mesher)
   articular_package_documents(articular-mesher mesher)
   list(APPEND CPACK_COMPONENTS_ALL mesher)
+endif()
+
+get_target_property(kind_of_python articular_python TYPE)
+if(kind_of_python STREQUAL "MODULE_LIBRARY")
+  articular_package_documents(python3-articular python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
 
 include(CPack)

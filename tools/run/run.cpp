@@ -44,17 +44,6 @@ void print(const sim::Model& model, const sim::OverlapResolution& resolution) {
              1e3 * resolution.largest_motion, resolution.solutions);
 }
 
-/// Those that run() leaves as they are. What it can't set apart, and what it does, it says itself.
-void warn_of_overlaps(const sim::Scenario& scenario, sim::Model& model) {
-  try {
-    for (sim::OverlapReport& overlap :
-         sim::overlap_reports(scenario, model, sim::initial_state(model)))
-      if (!overlap.is_set_apart) model.warnings.push_back(std::move(overlap.words));
-  } catch (const sim::SimulationError&) {
-    return;
-  }
-}
-
 std::filesystem::path results_folder(const sim::Scenario& scenario, const RunArguments& arguments) {
   if (!arguments.out.empty()) return arguments.out;
   return scenario.output.directory.value_or(std::filesystem::path("out") / scenario.name);
@@ -62,7 +51,7 @@ std::filesystem::path results_folder(const sim::Scenario& scenario, const RunArg
 
 int run_once(const sim::Scenario& scenario, const RunArguments& arguments) {
   sim::Model model = sim::build_model(scenario);
-  warn_of_overlaps(scenario, model);
+  sim::warn_of_overlaps(scenario, model);
   for (const std::string& warning : model.warnings)
     fmt::print(stderr, "articular: warning: {}\n", warning);
 

@@ -56,8 +56,14 @@ std::string nearest_shipped(const fs::path& given, const std::vector<std::string
 std::vector<fs::path> candidates() {
   const char* variable = std::getenv(kVariable);
   if (variable != nullptr && *variable != '\0') return {variable};
-  return {(this_program().parent_path() / "../share/articular/scenarios").lexically_normal(),
-          ARTICULAR_SOURCE_SCENARIOS};
+  const auto beside = [](const fs::path& file, const char* prefix) {
+    return (file.parent_path() / prefix / "share/articular/scenarios").lexically_normal();
+  };
+  std::vector<fs::path> places{beside(this_program(), "..")};
+  if (this_library() != this_program())  // of Python: lib/python3/dist-packages/articular
+    places.push_back(beside(this_library(), "../../../.."));
+  places.emplace_back(ARTICULAR_SOURCE_SCENARIOS);
+  return places;
 }
 
 /// The first candidate that is a folder, or nothing.

@@ -10,7 +10,8 @@
 namespace articular::tools {
 
 /// Where they lie: the environment variable ARTICULAR_SCENARIOS, else share/articular/scenarios
-/// beside the program's bin, else the folder of the source tree that the program was built from.
+/// beside the program's bin, or of the Python package beside its lib, else the folder of the source
+/// tree that it was built from.
 /// @throws sim::InputError  if none of these is a folder
 std::filesystem::path shipped_folder();
 

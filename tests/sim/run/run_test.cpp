@@ -210,4 +210,49 @@ TEST_F(RunTest, StepsEndAtEveryKink) {
   EXPECT_NE(content(out("run") / "history.csv").find("\n0.0153,"), std::string::npos);
 }
 
+/// Whoever goes through a course by himself, restarts where checkpoints are due included.
+TEST_F(RunTest, ACourseHasTheStatesOfARun) {
+  const Scenario scene = scenario();
+  const Model model = build_model(scene);
+  std::vector<Eigen::VectorXd> states;
+  RunOptions options;
+  options.directory = out("run");
+  options.steer = [&](Course& course) { states.push_back(course.state().y); };
+  run(scene, model, options);
+
+  Course course(scene, model);
+  course.begin();
+  course.set_apart();
+  std::size_t i = 0;
+  EXPECT_EQ(course.state().y, states.at(i));
+  int restarts = 0;
+  while (!course.is_done()) {
+    course.step();
+    if (course.checkpoint_is_due()) {
+      course.restart();
+      ++restarts;
+    }
+    ASSERT_EQ(course.state().y, states.at(++i)) << "step " << i;
+  }
+  EXPECT_EQ(i + 1, states.size());
+  EXPECT_GT(restarts, 0);
+}
+
+TEST_F(RunTest, AnActivationThatIsSteeredIsThatOfTheNextStep) {
+  const Scenario scene = scenario();
+  const Model model = build_model(scene);
+  RunOptions options;
+  options.directory = out("run");
+  double last = 0;
+  options.steer = [&](Course& course) {
+    last = course.stepper().now().configuration.activation[0];
+    course.state().y[model.layout.activations()] = 0.9;
+    course.restart();
+  };
+  run(scene, model, options);
+  // After a step of 1 ms it has gone a small part of the way to its excitation.
+  EXPECT_GT(last, 0.8);
+  EXPECT_LT(last, 0.9);
+}
+
 }  // namespace articular::sim::run_test
