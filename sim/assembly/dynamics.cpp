@@ -293,23 +293,26 @@ void Dynamics::multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const
   keep_free_part(model_, r);
 }
 
+void Dynamics::take_pressures(const PredictedPressures& pressures) {
+  if (pressures.prediction == nullptr) return;
+  for (std::size_t t = 0; t < moment_.tissues.size(); ++t)
+    if (model_.tissues[t].elements.smoothed() != nullptr) find_pressure(t, pressures);
+}
+
 NewtonEquations Dynamics::assemble(const SystemScale& scale, fem::Tangent tangent,
                                    const PredictedPressures& pressures) {
   const Stopwatch watch(times_.assembly);
-  if (pressures.prediction != nullptr)
-    for (std::size_t t = 0; t < moment_.tissues.size(); ++t)
-      if (model_.tissues[t].elements.smoothed() != nullptr) find_pressure(t, pressures);
+  take_pressures(pressures);
   return matrix_.assemble(moment_, scale, tangent);
 }
 
 NewtonEquations Dynamics::assemble_again(const GroupChanges& changes, const SystemScale& scale,
                                          fem::Tangent tangent,
                                          const PredictedPressures& pressures) {
-  {
-    const Stopwatch watch(times_.assembly);
-    if (matrix_.add(changes, scale.stiffness)) return matrix_.equations();
-  }
-  return assemble(scale, tangent, pressures);
+  const Stopwatch watch(times_.assembly);
+  take_pressures(pressures);
+  if (matrix_.add(changes, scale.stiffness)) return matrix_.equations();
+  return matrix_.assemble(moment_, scale, tangent);
 }
 
 std::vector<ContactSummary> Dynamics::contacts() const {

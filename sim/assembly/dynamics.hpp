@@ -66,7 +66,7 @@ class Dynamics {
   NewtonEquations assemble(const SystemScale& scale, fem::Tangent tangent,
                            const PredictedPressures& pressures = {});
   /// The last of these with changes of contact, or a new one where its pattern lacks a coupling.
-  /// now() must be where that was, or these arguments those that it had.
+  /// now() and all arguments but the changes must be as they were then.
   NewtonEquations assemble_again(const GroupChanges& changes, const SystemScale& scale,
                                  fem::Tangent tangent, const PredictedPressures& pressures = {});
   const NewtonMatrix& matrix() const { return matrix_; }
@@ -77,6 +77,7 @@ class Dynamics {
 
  private:
   void find_pressure(std::size_t t, const PredictedPressures& pressures);
+  void take_pressures(const PredictedPressures& pressures);
   void find_elastic_forces(const double* y, const Conditions& conditions);
   void read_internal_variables(std::size_t t, const double* y);
   void add_loads();

@@ -420,8 +420,8 @@ bool Equilibrium::Solver::balance(bool soft) {
   conditions_.contact.soft = soft;
   known_ = false;
   taken_ = {};
-  dynamics_.contact().forget_foreseen();
   const bool balanced = iterate(soft ? kAboutBalanced : kBalanced);
+  dynamics_.contact().forget_foreseen();
   conditions_.contact.soft = false;
   return balanced;
 }

@@ -132,6 +132,9 @@ TEST(LoadStep, ContactSpreadsFarInFewIterations) {
   run.advance(1);
   EXPECT_EQ(run.state.counts.rejected_newton, 0);
   EXPECT_LT(run.state.counts.newton_iterations, 17);
+  // Matrices that others make afterwards are of what presses.
+  for (const ContactPairState* pair_state : run.stepper.dynamics().now().contact.pair_states())
+    EXPECT_TRUE(pair_state->foreseen.empty());
 }
 
 }  // namespace articular::sim::load_step_test
