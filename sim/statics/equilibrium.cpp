@@ -129,6 +129,7 @@ class Equilibrium::Solver {
   fem::Tangent tangent_ = fem::Tangent::Consistent;  // of the last matrix
   bool known_ = false;                               // r_ belongs to u_
   bool from_afar_ = false;                           // contact is stiff, and things may be far off
+  bool foresees_ = false;                            // what corrections do to contact
   int short_in_a_row_ = 0;                           // corrections of which little was taken
   std::optional<Supports> supports_;                 // where the last correction began
   ContactForecast forecast_;
@@ -331,12 +332,13 @@ void Equilibrium::Solver::correct_for(const GroupChanges& changes) {
 /// solved
 std::optional<double> Equilibrium::Solver::find_correction() {
   if (!solve_downhill()) return std::nullopt;
-  const GroupChanges& changes =
-      forecast_.foresee(dynamics_.contact(), dynamics_.now().configuration, correction_);
+  const GroupChanges* changes = nullptr;
+  if (foresees_)
+    changes = &forecast_.foresee(dynamics_.contact(), dynamics_.now().configuration, correction_);
   make_way();
   double slope = correction_.dot(r_before_), there = slope_at(most_);
-  if (changes.size() > 0 && is_far_uphill(slope, there)) {
-    correct_for(changes);
+  if (changes != nullptr && changes->size() > 0 && is_far_uphill(slope, there)) {
+    correct_for(*changes);
     slope = correction_.dot(r_before_);
     there = slope_at(most_);
   }
@@ -471,12 +473,12 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping,
   residual_at(view(solution_));
   // From afar, contact that is as stiff as it should be throws iterations back and forth.
   const bool touches = dynamics_.now().contact.has_patches();
-  from_afar_ = touches;
+  from_afar_ = foresees_ = touches;
   short_in_a_row_ = 0;
   set_most_iterations(touches ? std::min(max_iterations_, kMostFromAfar) : max_iterations_);
   bool balanced = balance_within_bounds();
   set_most_iterations(max_iterations_);
-  from_afar_ = false;
+  from_afar_ = foresees_ = false;
   if (!balanced && touches) {
     view(solution_).setZero();
     if (!balance(true)) view(solution_).setZero();
