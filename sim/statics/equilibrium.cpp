@@ -129,7 +129,6 @@ class Equilibrium::Solver {
   fem::Tangent tangent_ = fem::Tangent::Consistent;  // of the last matrix
   bool known_ = false;                               // r_ belongs to u_
   bool from_afar_ = false;                           // contact is stiff, and things may be far off
-  bool foresees_ = false;                            // what corrections do to contact
   int short_in_a_row_ = 0;                           // corrections of which little was taken
   std::optional<Supports> supports_;                 // where the last correction began
   ContactForecast forecast_;
@@ -333,7 +332,7 @@ void Equilibrium::Solver::correct_for(const GroupChanges& changes) {
 std::optional<double> Equilibrium::Solver::find_correction() {
   if (!solve_downhill()) return std::nullopt;
   const GroupChanges* changes = nullptr;
-  if (foresees_)
+  if (from_afar_)  // the second try does without
     changes = &forecast_.foresee(dynamics_.contact(), dynamics_.now().configuration, correction_);
   make_way();
   double slope = correction_.dot(r_before_), there = slope_at(most_);
@@ -473,12 +472,12 @@ bool Equilibrium::Solver::solve(Eigen::VectorXd& y, double t, double damping,
   residual_at(view(solution_));
   // From afar, contact that is as stiff as it should be throws iterations back and forth.
   const bool touches = dynamics_.now().contact.has_patches();
-  from_afar_ = foresees_ = touches;
+  from_afar_ = touches;
   short_in_a_row_ = 0;
   set_most_iterations(touches ? std::min(max_iterations_, kMostFromAfar) : max_iterations_);
   bool balanced = balance_within_bounds();
   set_most_iterations(max_iterations_);
-  from_afar_ = foresees_ = false;
+  from_afar_ = false;
   if (!balanced && touches) {
     view(solution_).setZero();
     if (!balance(true)) view(solution_).setZero();
