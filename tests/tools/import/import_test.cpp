@@ -112,7 +112,7 @@ Translated translated(const std::string& type, const std::string& constants,
   return result;
 }
 
-// Energies of both programs are compared in tools/README.md.
+// Energies of both programs are compared in tools/import/README.md.
 TEST(Import, EachLawOfFebioBecomesTheOneWithTheSameEnergy) {
   const MappedLaw laws[] = {
       {"neo-Hookean", "<E>1</E><v>0.3</v>",
