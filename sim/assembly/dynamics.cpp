@@ -7,6 +7,7 @@
 #include "sim/base/stopwatch.hpp"
 #include "sim/loads/gravity.hpp"
 #include "sim/loads/surface_load.hpp"
+#include "sim/model/driven_supports.hpp"
 #include "sim/model/held_blocks.hpp"
 #include "sim/model/tissue.hpp"
 #include "sim/scenario/curve.hpp"
@@ -67,12 +68,20 @@ void Dynamics::note_force(double force) {
   moment_.largest_force = std::max(moment_.largest_force, force);
 }
 
+void Dynamics::place(const DrivenPlaces& driven) {
+  Configuration& configuration = moment_.configuration;
+  for (std::size_t b = 0; b < driven.poses.size(); ++b)
+    if (model_.rigid_bodies[b].motion) configuration.poses[b] = driven.poses[b];
+  std::vector<Vec3> way = driven.shifts;
+  const std::vector<Vec3> from = support_shifts(model_, configuration.t);
+  for (std::size_t s = 0; s < way.size(); ++s) way[s] -= from[s];
+  add_to_nodes(model_, way, configuration.x);
+}
+
 const Moment& Dynamics::evaluate(const double* y, double t, const Conditions& conditions) {
   Configuration& configuration = moment_.configuration;
   read_state(model_, y, t, configuration);
-  if (conditions.driven != nullptr)
-    for (std::size_t b = 0; b < conditions.driven->size(); ++b)
-      if (model_.rigid_bodies[b].motion) configuration.poses[b] = (*conditions.driven)[b];
+  if (conditions.driven != nullptr) place(*conditions.driven);
   moment_.step_start = conditions.step_start;
   moment_.begins_step = t == conditions.step_start;
   moment_.forces.setZero();

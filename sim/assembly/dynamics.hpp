@@ -21,12 +21,18 @@ struct PredictedPressures {
   double part = 0;  // of the way
 };
 
+/// Where all that may be driven stands: poses by rigid body, shifts [m] by support.
+struct DrivenPlaces {
+  std::vector<Pose> poses;
+  std::vector<Vec3> shifts;
+};
+
 /// What forces are computed for, besides a state and a time.
 struct Conditions {
   double step_start = 0;  // [s] accelerations that jump there are those after it
   bool unloaded = false;  // without gravity, loads and lines
   ContactConditions contact = {};
-  const std::vector<Pose>* driven = nullptr;  // driven bodies stand there, by rigid body
+  const DrivenPlaces* driven = nullptr;  // what is driven stands there
   PredictedPressures pressures = {};
 };
 
@@ -76,6 +82,7 @@ class Dynamics {
   EvaluationCounts evaluations() const;
 
  private:
+  void place(const DrivenPlaces& driven);
   void find_pressure(std::size_t t, const PredictedPressures& pressures);
   void take_pressures(const PredictedPressures& pressures);
   void find_elastic_forces(const double* y, const Conditions& conditions);

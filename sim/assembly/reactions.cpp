@@ -4,6 +4,7 @@
 
 #include "sim/contact/contact_summary.hpp"
 #include "sim/model/carried_tissue.hpp"
+#include "sim/model/driven_supports.hpp"
 
 namespace articular::sim {
 namespace {
@@ -22,17 +23,40 @@ Vec6 reaction_of(const Moment& now, int rigid, bool step_begins) {
   return force_on_hold(held, now.configuration.poses[b], now.configuration.velocities[b], at, all);
 }
 
+/// Of each held block, with the inertia of nodes that are driven.
+Positions forces_on_holds(const Moment& now) {
+  Positions force = now.held_forces;
+  const Model& model = now.model;
+  if (model.is_static || !has_driven_supports(model)) return force;
+  const Positions acceleration = on_held_blocks(
+      model, support_accelerations(model, now.step_start, {now.configuration.t, now.begins_step}));
+  for (Eigen::Index k = 0; k < force.cols(); ++k) {
+    const int block = model.held_blocks[static_cast<std::size_t>(k)].block;
+    if (block < model.layout.num_free_nodes)
+      force.col(k) -= model.node_mass[block] * acceleration.col(k);
+  }
+  return force;
+}
+
 }  // namespace
 
 Vec6 reaction_of(const Moment& now, int rigid) { return reaction_of(now, rigid, now.begins_step); }
 
 Vec6 reaction_as_step_begins(const Moment& now, int rigid) { return reaction_of(now, rigid, true); }
 
+Vec3 held_force_on_support(const Moment& now, const SupportModel& support) {
+  Vec3 force = Vec3::Zero();
+  for (const SupportModel::Node& node : support.nodes)
+    force += node.share * now.held_forces.col(node.held);
+  return force;
+}
+
 std::pair<Vec3, Vec3> force_on_support(const Moment& now, const SupportModel& support) {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  const Positions held = forces_on_holds(now);
   const Tissue& tissue = now.model.tissues[static_cast<std::size_t>(support.tissue)];
   for (const SupportModel::Node& node : support.nodes) {
-    const Vec3 part = node.share * now.held_forces.col(node.held);
+    const Vec3 part = node.share * held.col(node.held);
     force += part;
     moment += (now.configuration.position(tissue.nodes[static_cast<std::size_t>(node.node)]) -
                support.center)

@@ -13,8 +13,12 @@ Vec6 reaction_of(const Moment& now, int rigid);
 /// The same with the accelerations that a step from there begins with.
 Vec6 reaction_as_step_begins(const Moment& now, int rigid);
 
-/// Force [N] that tissue puts on a support, and its moment [N m] about the support's centre.
+/// Force [N] that tissue puts on a support, and its moment [N m] about the support's centre. The
+/// inertia of nodes that are driven is in it: see driven_supports.hpp.
 std::pair<Vec3, Vec3> force_on_support(const Moment& now, const SupportModel& support);
+
+/// That force without the inertia.
+Vec3 held_force_on_support(const Moment& now, const SupportModel& support);
 
 /// Force [N] on a rigid body of the tissue that is tied to it, and its moment [N m] about the
 /// body's reference point: elasticity, with its dampers, and what contact puts on the tied nodes.

@@ -125,7 +125,9 @@ class Builder {
         model_.rigid_bodies.push_back(rigid);
       }
     for (const Load& load : scenario_.loads)
-      if (const auto* motion = std::get_if<MotionLoad>(&load)) drive(*motion);
+      if (const auto* motion = std::get_if<MotionLoad>(&load);
+          motion != nullptr && !motion->body.empty())
+        drive(*motion);
   }
 
   void drive(const MotionLoad& load) {

@@ -89,8 +89,40 @@ class Supporter {
                                                 "[[support]]",
                                                 given.body));
     support.center = box.center();
+    if (const MotionLoad* const motion = motion_of(given)) support.motion = motion->motion;
     axes_.push_back(given.held);
     model_.supports.push_back(std::move(support));
+  }
+
+  const MotionLoad* motion_of(const Support& support) const {
+    if (support.name.empty()) return nullptr;
+    for (const Load& load : scenario_.loads)
+      if (const auto* motion = std::get_if<MotionLoad>(&load);
+          motion != nullptr && motion->support == support.name)
+        return motion;
+    return nullptr;
+  }
+
+  /// Where axes of supports depend on each other, one of them can't go its own way.
+  void check_driven(const std::vector<Holder>& holders) const {
+    for (const Holder& holder : holders) {
+      const Support& given = scenario_.supports[holder.support];
+      const SupportModel& support = model_.supports[holder.support];
+      if (!support.motion) continue;
+      const Vec3 x = model_.tissues[static_cast<std::size_t>(support.tissue)].X.col(
+          support.nodes[holder.place].node);
+      const bool is_first = holders.front().support == holder.support;
+      const Location& other =
+          scenario_.supports[(is_first ? holders.back() : holders.front()).support].where;
+      throw InputError(
+          given.where,
+          fmt::format(
+              "support `{}` is driven, and its node of `{}` at ({:.3f} {:.3f} {:.3f}) mm is "
+              "held along the same direction by the [[support]] at {}:{} too: expected "
+              "regions without common nodes, or other axes",
+              given.name, given.body, 1e3 * x.x(), 1e3 * x.y(), 1e3 * x.z(), other.file,
+              other.line));
+    }
   }
 
   [[noreturn]] void refuse_attached(const Support& given, const Tissue& tissue, int node,
@@ -116,6 +148,7 @@ class Supporter {
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> split;
     split.setThreshold(kSameAxis);
     const Eigen::MatrixXd carried = split.compute(all).pseudoInverse();
+    if (split.rank() < all.cols()) check_driven(holders);
     const auto held = static_cast<int>(model_.held_blocks.size());
     model_.held_blocks.push_back({block, orthogonal_projection(all)});
     Eigen::Index row = 0;

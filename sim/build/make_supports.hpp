@@ -12,7 +12,8 @@ namespace articular::sim {
 /// supports at one node hold together all directions that they span. Nodes are attached and blocks
 /// numbered.
 /// @param surfaces  one a tissue
-/// @throws InputError where a support holds no node, or one that is attached
+/// @throws InputError where a support holds no node, or one that is attached; where one that is
+/// driven and another hold a node along the same direction
 void make_supports(const Scenario& scenario, const std::vector<BodyGeometry>& geometry,
                    const std::vector<collision::Surface>& surfaces, Model& model);
 

@@ -1,6 +1,6 @@
 #include "sim/model/configuration.hpp"
 
-#include "sim/scenario/driven_motion.hpp"
+#include "sim/model/driven_supports.hpp"
 
 namespace articular::sim {
 
@@ -47,6 +47,15 @@ Pose held_later(const Model& model, const RigidBody& rigid, const Pose& now,
   return with_drive(free, drive_of(rigid, t + h));
 }
 
+/// What driven supports do to nodes from t to t + h besides going on as at t.
+void add_way_of_supports(const Model& model, double t, double h, Positions& x) {
+  std::vector<Vec3> way = support_shifts(model, t + h);
+  const std::vector<Vec3> before = support_shifts(model, t),
+                          velocity = support_velocities(model, t);
+  for (std::size_t s = 0; s < way.size(); ++s) way[s] -= before[s] + h * velocity[s];
+  add_to_nodes(model, way, x);
+}
+
 }  // namespace
 
 Pose drive_of(const RigidBody& rigid, double t) { return driven_pose(*rigid.motion, Pose{}, t); }
@@ -57,6 +66,10 @@ void read_state(const Model& model, const double* y, double t, Configuration& co
   configuration.t = t;
   configuration.x = Eigen::Map<const Positions>(y, 3, layout.num_free_nodes);
   configuration.v = Eigen::Map<const Positions>(y + layout.velocities(), 3, layout.num_free_nodes);
+  if (has_driven_supports(model)) {
+    add_to_nodes(model, support_shifts(model, t), configuration.x);
+    add_to_nodes(model, support_velocities(model, t), configuration.v);
+  }
   configuration.poses.resize(model.rigid_bodies.size());
   configuration.velocities.resize(model.rigid_bodies.size());
   for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
@@ -87,6 +100,7 @@ Configuration predicted(const Model& model, const Configuration& now, double h) 
   Configuration later = now;
   later.t = now.t + h;
   later.x += h * now.v;
+  if (has_driven_supports(model)) add_way_of_supports(model, now.t, h, later.x);
   for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
     const RigidBody& rigid = model.rigid_bodies[b];
     if (rigid.motion) {

@@ -60,7 +60,8 @@ struct HeldBlock {
   Mat3 free = Mat3::Identity();  // orthogonal projection onto these directions
 };
 
-/// Nodes of a tissue that slide along a plane or a line that stands, or do not move at all.
+/// Nodes of a tissue that slide along a plane or a line, or are held wholly. These stand, or are
+/// driven: see driven_supports.hpp.
 struct SupportModel {
   struct Node {
     int node = 0;  // of the tissue
@@ -71,7 +72,8 @@ struct SupportModel {
   std::string name;  // may be empty
   int tissue = 0;    // index into Model::tissues
   std::vector<Node> nodes;
-  Vec3 center = Vec3::Zero();  // the middle of the nodes' box at the start, world [m]
+  Vec3 center = Vec3::Zero();         // the middle of the nodes' box at the start, world [m]
+  std::optional<Motion> motion = {};  // of translations alone, along what it holds, world
 };
 
 /// What of a body can touch: tetrahedra with their surface. Tissue: its own mesh. RigidBody: its

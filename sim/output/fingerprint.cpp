@@ -23,12 +23,14 @@ std::string fingerprint(const Scenario& scenario, const Model& model) {
   }
   for (const Tissue& tissue : model.tissues) put_numbers(tissue.elements.tets());
   for (const RigidBody& rigid : model.rigid_bodies) put_numbers(rigid.rest.p);
-  for (const RigidBody& rigid : model.rigid_bodies) {
-    if (!rigid.motion) continue;
-    for (const double t : rigid.motion->time) put(t);
-    for (const Vec3& shift : rigid.motion->translation) put_numbers(shift);
-    for (const Vec3& turn : rigid.motion->rotation) put_numbers(turn);
-  }
+  const auto put_motion = [&](const std::optional<Motion>& motion) {
+    if (!motion) return;
+    for (const double t : motion->time) put(t);
+    for (const Vec3& shift : motion->translation) put_numbers(shift);
+    for (const Vec3& turn : motion->rotation) put_numbers(turn);
+  };
+  for (const RigidBody& rigid : model.rigid_bodies) put_motion(rigid.motion);
+  for (const SupportModel& support : model.supports) put_motion(support.motion);
   for (const MuscleModel& muscle : model.muscles) {
     put(muscle.given.max_force);
     put(muscle.given.max_length_ratio);

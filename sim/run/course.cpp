@@ -30,6 +30,8 @@ std::vector<double> kink_times(const Model& model, double duration) {
   for (const GravityModel& gravity : model.gravity) add(gravity.profile.time);
   for (const RigidBody& rigid : model.rigid_bodies)
     if (rigid.motion) add(kinks_of(*rigid.motion));
+  for (const SupportModel& support : model.supports)
+    if (support.motion) add(kinks_of(*support.motion));
   std::erase_if(times, [&](double t) { return t <= 0 || t >= duration; });
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());

@@ -111,7 +111,7 @@ const KeyTable& scenario_keys() {
     add("attach", {conditional_entries_of({form::Table{attach_keys}})},
         "tissue nodes that a bone carries");
     add("support", {conditional_entries_of({form::Table{support_keys}})},
-        "tissue nodes on rollers");
+        "tissue nodes on rollers, or drawn along");
     add("muscle", {conditional_entries_of({form::Table{muscle_keys}})}, "muscles");
     add("muscle_table", {conditional_entries_of({form::Table{muscle_table_keys}})},
         "muscles of a table");
@@ -162,7 +162,7 @@ Scenario read_scenario(const std::filesystem::path& file,
   on_bodies.in([&] { scenario.supports = read_supports(document, context); });
   on_bodies.in([&] { scenario.muscles = read_muscles(document, context); });
   on_bodies.in([&] { scenario.ligaments = read_ligaments(document, context, scenario.muscles); });
-  on_bodies.in([&] { scenario.loads = read_loads(document, context); });
+  on_bodies.in([&] { scenario.loads = read_loads(document, context, scenario.supports); });
   on_bodies.in([&] { read_contacts(document, context, scenario); });
   on_bodies.tell();
   if (scenario.analysis == Scenario::Analysis::Dynamic) check_motions_of_masses(scenario);

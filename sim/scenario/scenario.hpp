@@ -197,14 +197,15 @@ struct Attachment {
   Location where;
 };
 
-/// Tissue nodes of a region have no velocity along axes that stand in space: a roller, a plane of
-/// symmetry.
+/// Tissue nodes of a region move along axes that stand in space as a MotionLoad says, or not at
+/// all: a roller, a plane of symmetry, a grip.
 struct Support {
   std::string name;  // may be empty
   std::string body;  // tissue
   Region region;
   Eigen::Matrix3Xd held;  // one to three of these axes: orthogonal unit vectors, world
   Location where;
+  std::vector<int> freedoms = {};  // of each of them: which of x, y, z it was written as
 };
 
 /// A point of a line, a load or a probe, or with a radius > 0 the tissue's surface nodes within it:
@@ -280,7 +281,8 @@ struct SurfaceLoad {
 };
 
 struct MotionLoad {
-  std::string body;  // a fixed one, or a rigid one with hold
+  std::string body;     // a fixed one, or a rigid one with hold; empty:
+  std::string support;  // what it holds moves, by translations in the world's axes
   Motion motion;
   Location where;
 };

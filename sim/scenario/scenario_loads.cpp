@@ -91,8 +91,16 @@ const KeyTable& motion_keys() {
   static const KeyTable kTable{
       "[[load]]",
       keys_of_load(
-          "motion", LoadKind::Motion, "moves a fixed body, or what `hold` of a rigid one holds",
-          {{"body", {form::Text{"name of a fixed or rigid body"}}, kRequired, "what it moves"},
+          "motion", LoadKind::Motion,
+          "moves a fixed body, what `hold` of a rigid one holds, or what a support holds",
+          {{"body",
+            {form::Text{"name of a fixed or rigid body"}},
+            otherwise("or `support`"),
+            "what it moves"},
+           {"support",
+            {form::Text{"name of a support"}},
+            otherwise("or `body`"),
+            "moves the nodes that it holds, along its axes"},
            {"time", {list_of_times()}, otherwise("or `file`"), "times, in increasing order"},
            {"translation",
             {list_of({form::Vector{kLength}})},
@@ -199,18 +207,48 @@ void check_driven(const Body& body, const std::vector<Vec3>& values, std::size_t
                         freedom_name(first + i), body.name));
 }
 
+void check_start(const TableReader& table, const Motion& motion) {
+  const Pose start = driven_pose(motion, Pose{}, 0);
+  if (!start.p.isZero(0) || !start.R.isIdentity(0))
+    throw InputError(table.node().where,
+                     table.what() +
+                         ": it starts where the mesh is, and the motion counts from "
+                         "there: expected 0 at t = 0");
+}
+
 void check_held_motion(const TableReader& table, const Body& body, const Motion& motion,
                        const RefuseSample& refuse) {
   table.refuse({"about"}, "a rigid body turns about the point `at` of its `hold`");
   check_driven(body, motion.translation, 0, refuse);
   check_driven(body, motion.rotation, 3, refuse);
-  const Pose start = driven_pose(motion, Pose{}, 0);
-  if (!start.p.isZero(0) || !start.R.isIdentity(0))
-    throw InputError(
-        table.node().where,
-        fmt::format("{}: body `{}` starts where its mesh is, and its motion counts from there: "
-                    "expected 0 at t = 0",
-                    table.what(), body.name));
+  check_start(table, motion);
+}
+
+/// Of nodes that a support holds: along its axes, which are those of the samples.
+void read_motion_of_support(const TableReader& table, const Support& support,
+                            const RefuseSample& refuse, Motion& motion) {
+  table.refuse({"about"}, "what a support holds does not turn");
+  for (std::size_t k = 0; k < motion.rotation.size(); ++k)
+    if (!motion.rotation[k].isZero(0))
+      refuse(k, 1, "nodes of tissue have no rotation: expected translations only");
+  motion.rotation.clear();
+  for (std::size_t k = 0; k < motion.translation.size(); ++k) {
+    Vec3 rest = motion.translation[k], way = Vec3::Zero();
+    for (std::size_t a = 0; a < support.freedoms.size(); ++a) {
+      double& along = rest[support.freedoms[a]];
+      way += along * support.held.col(static_cast<Eigen::Index>(a));
+      along = 0;
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+      if (rest[static_cast<Eigen::Index>(i)] != 0)
+        refuse(k, 0,
+               fmt::format("drives `{}`, which support `{}` leaves free; expected 0 there, or the "
+                           "freedom among those that are held",
+                           freedom_name(i), support.name));
+    motion.translation[k] = way;
+  }
+  fit_spline(motion);
+  check_start(table, motion);
 }
 
 void check_can_be_driven(const Node& node, const Body& body) {
@@ -287,22 +325,36 @@ void read_interpolation(const TableReader& table, Motion& motion) {
   fit_spline(motion);
 }
 
-Load read_motion(const TableReader& table, const Context& context) {
+RefuseSample read_samples(const TableReader& table, const Context& context, Motion& motion) {
+  RefuseSample refuse = table.find("file") != nullptr
+                            ? read_recorded_samples(table, context, motion)
+                            : read_written_samples(table, motion);
+  table.read("about", motion.about);
+  read_interpolation(table, motion);
+  return refuse;
+}
+
+Load read_motion(const TableReader& table, const Context& context,
+                 const std::vector<Support>& supports) {
   MotionLoad load;
   load.where = table.node().where;
+  table.exactly_one({"body", "support"});
+  if (const Node* const named = table.find("support")) {
+    const Support& support = read_support_reference(*named, context, supports);
+    load.support = support.name;
+    const RefuseSample refuse = read_samples(table, context, load.motion);
+    read_motion_of_support(table, support, refuse, load.motion);
+    return load;
+  }
   const Body& body = read_body_reference(table.at("body"), context);
   check_can_be_driven(table.at("body"), body);
   load.body = body.name;
-  const RefuseSample refuse = table.find("file") != nullptr
-                                  ? read_recorded_samples(table, context, load.motion)
-                                  : read_written_samples(table, load.motion);
-  table.read("about", load.motion.about);
-  read_interpolation(table, load.motion);
+  const RefuseSample refuse = read_samples(table, context, load.motion);
   if (body.kind == Body::Kind::Rigid) check_held_motion(table, body, load.motion, refuse);
   return load;
 }
 
-Load read_load(const Node& node, const Context& context) {
+Load read_load(const Node& node, const Context& context, const std::vector<Support>& supports) {
   const Node* kind = node.find("kind");
   const TableReader table(node, load_variants(),
                           kind != nullptr && kind->text() != nullptr
@@ -318,16 +370,20 @@ Load read_load(const Node& node, const Context& context) {
     case LoadKind::Traction:
       return read_traction(table, context);
     case LoadKind::Motion:
-      return read_motion(table, context);
+      return read_motion(table, context, supports);
   }
   return {};
 }
 
-/// Throws at `node` if one of the loads so far drives the body.
-void check_not_driven(const Node& node, const std::string& body, const std::vector<Load>& so_far) {
+/// Throws at `node` if one of the loads so far drives the same.
+void check_not_driven(const Node& node, const MotionLoad& motion, const std::vector<Load>& so_far) {
+  const bool is_of_body = motion.support.empty();
   for (const Load& load : so_far)
-    if (const auto* other = std::get_if<MotionLoad>(&load); other != nullptr && other->body == body)
-      fail(node, fmt::format("body `{}` already has a motion, at {}", body, place(other->where)));
+    if (const auto* other = std::get_if<MotionLoad>(&load);
+        other != nullptr && other->body == motion.body && other->support == motion.support)
+      fail(*node.find(is_of_body ? "body" : "support"),
+           fmt::format("{} `{}` already has a motion, at {}", is_of_body ? "body" : "support",
+                       is_of_body ? motion.body : motion.support, place(other->where)));
 }
 
 }  // namespace
@@ -344,12 +400,12 @@ const form::Variants& load_variants() {
   return kVariants;
 }
 
-std::vector<Load> read_loads(const TableReader& document, const Context& context) {
+std::vector<Load> read_loads(const TableReader& document, const Context& context,
+                             const std::vector<Support>& supports) {
   std::vector<Load> loads;
   read_each(entries(document, "load"), [&](const Node& node) {
-    Load load = read_load(node, context);
-    if (const auto* motion = std::get_if<MotionLoad>(&load))
-      check_not_driven(*node.find("body"), motion->body, loads);
+    Load load = read_load(node, context, supports);
+    if (const auto* motion = std::get_if<MotionLoad>(&load)) check_not_driven(node, *motion, loads);
     loads.push_back(std::move(load));
   });
   return loads;

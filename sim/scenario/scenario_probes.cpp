@@ -15,7 +15,7 @@ struct Named {
   Names lines;     // muscles and ligaments, but for
   Names fibres;    // muscles made of a tissue's fibres
   Names wrapping;  // those that wrap around bodies
-  Names supports;  // those with a name
+  const std::vector<Support>& supports;
 };
 
 std::string read_body_of_kind(const Node& node, const Context& context, Body::Kind kind,
@@ -40,15 +40,6 @@ std::string read_line_reference(const Node& node, const Context& context, const 
     fail(node, fmt::format("no muscle or ligament is called `{}`{}", one_line(line),
                            suggestion(line, named.lines)));
   return line;
-}
-
-std::string read_support_reference(const Node& node, const Context& context,
-                                   const Names& supports) {
-  std::string support = context.name(read_text(node));
-  if (!is_in(support, supports))
-    fail(node, fmt::format("no [[support]] has the name `{}`{}", one_line(support),
-                           suggestion(support, supports)));
-  return support;
 }
 
 /// A body that something outside the scene holds, wholly or in part.
@@ -150,7 +141,7 @@ Target read_energy(const TableReader&, const Context&, const Named&) { return En
 Target read_reaction(const TableReader& table, const Context& context, const Named& named) {
   table.exactly_one({"body", "support"});
   if (const Node* support = table.find("support"))
-    return SupportProbe{read_support_reference(*support, context, named.supports)};
+    return SupportProbe{read_support_reference(*support, context, named.supports).name};
   return ReactionProbe{read_held_body(table.at("body"), context)};
 }
 
@@ -322,7 +313,7 @@ const form::Variants& probe_variants() {
 
 std::vector<Probe> read_probes(const TableReader& document, const Context& context,
                                const Scenario& read_so_far) {
-  Named named;
+  Named named{{}, {}, {}, read_so_far.supports};
   for (const Muscle& muscle : read_so_far.muscles)
     (muscle.tissue.empty() ? named.lines : named.fibres).push_back(muscle.name);
   for (const Ligament& ligament : read_so_far.ligaments) named.lines.push_back(ligament.name);
@@ -330,8 +321,6 @@ std::vector<Probe> read_probes(const TableReader& document, const Context& conte
     if (!muscle.wrap.empty()) named.wrapping.push_back(muscle.name);
   for (const Ligament& ligament : read_so_far.ligaments)
     if (!ligament.wrap.empty()) named.wrapping.push_back(ligament.name);
-  for (const Support& support : read_so_far.supports)
-    if (!support.name.empty()) named.supports.push_back(support.name);
   std::vector<Probe> probes;
   read_each(entries(document, "probe"),
             [&](const Node& node) { append_probes(node, context, named, probes); });

@@ -96,7 +96,11 @@ std::vector<Support> read_supports(const TableReader& document, const Context& c
 std::vector<Muscle> read_muscles(const TableReader& document, const Context& context);
 std::vector<Ligament> read_ligaments(const TableReader& document, const Context& context,
                                      const std::vector<Muscle>& muscles);
-std::vector<Load> read_loads(const TableReader& document, const Context& context);
+/// The support that a node names. @throws InputError  if there is none, with the nearest name
+const Support& read_support_reference(const Node& node, const Context& context,
+                                      const std::vector<Support>& supports);
+std::vector<Load> read_loads(const TableReader& document, const Context& context,
+                             const std::vector<Support>& supports);
 void read_contacts(const TableReader& document, const Context& context, Scenario& scenario);
 std::vector<Probe> read_probes(const TableReader& document, const Context& context,
                                const Scenario& read_so_far);

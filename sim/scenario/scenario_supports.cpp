@@ -1,4 +1,4 @@
-// Rollers and planes of symmetry.
+// Rollers, planes of symmetry, grips.
 #include "sim/base/pose.hpp"
 #include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
@@ -7,11 +7,12 @@ namespace articular::sim {
 namespace {
 
 /// Translations along axes of space that are turned; nodes have no rotation of their own.
-Eigen::Matrix3Xd read_held_axes(const TableReader& table) {
+void read_held_axes(const TableReader& table, Support& support) {
   const Node& freedoms = table.at("freedoms");
   const std::array<bool, 6> named = read_freedoms(freedoms);
   const Mat3 axes = rotation_matrix(table.get<Vec3>("turned"));
-  Eigen::Matrix3Xd held(3, 0);
+  Eigen::Matrix3Xd& held = support.held;
+  held.resize(3, 0);
   for (std::size_t i = 0; i < named.size(); ++i) {
     if (!named[i]) continue;
     if (i >= 3)
@@ -20,8 +21,8 @@ Eigen::Matrix3Xd read_held_axes(const TableReader& table) {
                                  freedom_name(i)));
     held.conservativeResize(Eigen::NoChange, held.cols() + 1);
     held.rightCols<1>() = axes.col(static_cast<Eigen::Index>(i));
+    support.freedoms.push_back(static_cast<int>(i));
   }
-  return held;
 }
 
 void append_supports(const Node& node, const Context& context, std::vector<Support>& supports) {
@@ -42,7 +43,7 @@ void append_supports(const Node& node, const Context& context, std::vector<Suppo
                        body.kind == Body::Kind::Rigid ? "; a rigid one has `hold`" : ""));
     support.body = body.name;
     support.region = read_region(table.at("region"), here);
-    support.held = read_held_axes(table);
+    read_held_axes(table, support);
     for (auto axis : support.held.colwise()) axis = here.point(axis);
     supports.push_back(std::move(support));
   }
@@ -53,7 +54,7 @@ void append_supports(const Node& node, const Context& context, std::vector<Suppo
 const KeyTable& support_keys() {
   static const KeyTable kTable{
       "[[support]]",
-      {{"name", {form::Text{"name"}}, kNone, "for a probe of its reaction"},
+      {{"name", {form::Text{"name"}}, kNone, "for a probe of its reaction, or a motion"},
        {"body", {form::Text{"name of a tissue"}}, kRequired, "the tissue"},
        {"region", {form::Table{region_keys}}, kRequired, "its nodes that are held; `{}`: all"},
        {"freedoms", {list_of_freedoms()}, kRequired, "translations that are held"},
@@ -70,6 +71,19 @@ std::vector<Support> read_supports(const TableReader& document, const Context& c
   read_each(entries(document, "support"),
             [&](const Node& node) { append_supports(node, context, supports); });
   return supports;
+}
+
+const Support& read_support_reference(const Node& node, const Context& context,
+                                      const std::vector<Support>& supports) {
+  const std::string name = context.name(read_text(node));
+  std::vector<std::string> names;
+  for (const Support& support : supports) {
+    if (support.name.empty()) continue;
+    if (support.name == name) return support;
+    names.push_back(support.name);
+  }
+  fail(node,
+       fmt::format("no [[support]] has the name `{}`{}", one_line(name), suggestion(name, names)));
 }
 
 }  // namespace articular::sim

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/assembly/rigid_body_modes.hpp"
+#include "sim/model/driven_supports.hpp"
 
 namespace articular::sim {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kSmallMotion = 1e-4;
 /// it in its place; what is held does not feel it.
 constexpr double kLeastSpeed = 1e-8;
 
-/// Rigid bodies on their way: driven ones, wholly or in part, from one pose to another.
+/// What is driven on its way: rigid bodies, wholly or in part, and supports.
 class DrivenWay {
  public:
   /// @param y  at t_before: what the free freedoms of held rigid bodies keep on the way
@@ -27,20 +28,25 @@ class DrivenWay {
     read_state(model, y.data(), t, to);
     from_ = from.poses;
     to_ = to.poses;
+    shift_from_ = support_shifts(model, t_before);
+    shift_ = support_shifts(model, t);
+    for (std::size_t s = 0; s < shift_.size(); ++s) shift_[s] -= shift_from_[s];
   }
 
   /// @param part  of the way, in [0, 1]
-  std::vector<Pose> poses(double part) const {
-    std::vector<Pose> result = from_;
-    for (std::size_t b = 0; b < result.size(); ++b) {
+  DrivenPlaces places(double part) const {
+    DrivenPlaces result{from_, shift_from_};
+    for (std::size_t b = 0; b < from_.size(); ++b) {
+      Pose& pose = result.poses[b];
       const Eigen::AngleAxisd turn(to_[b].R * from_[b].R.transpose());
-      result[b].p += part * (to_[b].p - from_[b].p);
-      result[b].R = Eigen::AngleAxisd(part * turn.angle(), turn.axis()) * from_[b].R;
+      pose.p += part * (to_[b].p - from_[b].p);
+      pose.R = Eigen::AngleAxisd(part * turn.angle(), turn.axis()) * from_[b].R;
     }
+    for (std::size_t s = 0; s < shift_.size(); ++s) result.shifts[s] += part * shift_[s];
     return result;
   }
 
-  /// The farthest that a node of a driven rigid body goes [m].
+  /// The farthest that a node goes which is driven [m].
   double motion() const {
     double motion = 0;
     const auto look_at = [&](const std::vector<NodeRef>& nodes) {
@@ -54,12 +60,14 @@ class DrivenWay {
     for (const Tissue& tissue : model_.tissues) look_at(tissue.nodes);
     for (const BodyModel& body : model_.bodies)
       if (body.collider) look_at(body.collider->nodes);
+    const Positions ways = on_held_blocks(model_, shift_);
+    for (Eigen::Index k = 0; k < ways.cols(); ++k) motion = std::max(motion, ways.col(k).norm());
     return motion;
   }
 
   /// Moves tissue that is tied to one driven rigid body alone, and not supported, with it.
   void carry(double part, Eigen::VectorXd& y) const {
-    const std::vector<Pose> poses = this->poses(part);
+    const std::vector<Pose> poses = places(part).poses;
     for (const Tissue& tissue : model_.tissues) {
       const int rigid = is_supported(tissue) ? -1 : only_rigid_body(tissue);
       if (rigid < 0 || !model_.rigid_bodies[static_cast<std::size_t>(rigid)].motion) continue;
@@ -94,20 +102,21 @@ class DrivenWay {
 
   const Model& model_;
   std::vector<Pose> from_, to_;
+  std::vector<Vec3> shift_from_, shift_;  // the way [m]
 };
 
 /// ∂f/∂s at y, s from 0 to 1 on the way, by a difference. Leaves `dynamics` at its far end: what
 /// touches without pressure at s = 0 resists there.
 Eigen::VectorXd force_rate(const DrivenWay& way, double part, double t, const Eigen::VectorXd& y,
                            Dynamics& dynamics) {
-  std::vector<Pose> poses = way.poses(0);
+  DrivenPlaces places = way.places(0);
   // Stiff contact holds to a plane what follows a round surface, which then stands off it.
-  const Conditions conditions{.contact = {.soft = true}, .driven = &poses};
+  const Conditions conditions{.contact = {.soft = true}, .driven = &places};
   dynamics.evaluate(y.data(), t, conditions);
   const Eigen::VectorXd before = dynamics.now().forces;
   Eigen::VectorXd carried = y;
   way.carry(part, carried);
-  poses = way.poses(part);
+  places = way.places(part);
   dynamics.evaluate(carried.data(), t, conditions);
   return (dynamics.now().forces - before) / part;
 }

@@ -6,12 +6,12 @@
 
 namespace articular::sim {
 
-/// Where the tangent of the equilibrium y at t_before has everything when the driven rigid bodies
-/// are where they are at t:
+/// Where the tangent of the equilibrium y at t_before has everything when driven rigid bodies and
+/// supports are where they are at t:
 ///
 ///   (K + d M) u = ∂f/∂s,
 ///
-/// ∂f/∂s what the rigid bodies add to the forces on their way. Newton's iteration from where things
+/// ∂f/∂s what these add to the forces on their way. Newton's iteration from where things
 /// are begins with the elements beside a wall crushed by the whole way of that wall. K has the soft
 /// contact stiffness. d > 0 keeps in its place what is loose.
 ///

@@ -11,6 +11,7 @@
 #include "sim/loads/gravity.hpp"
 #include "sim/loads/surface_load.hpp"
 #include "sim/model/carried_tissue.hpp"
+#include "sim/model/driven_supports.hpp"
 #include "sim/scenario/curve.hpp"
 #include "sim/statics/contact_hooks.hpp"
 #include "sim/step/failure_diagnosis.hpp"
@@ -168,6 +169,9 @@ void Stepper::remember_start(const State& state) {
   for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b)
     if (model_.rigid_bodies[b].motion && model_.rigid_bodies[b].unknown)
       reactions_before_[b] = reaction_as_step_begins(dynamics_->now(), static_cast<int>(b));
+  support_forces_before_.clear();
+  for (const SupportModel& support : model_.supports)
+    support_forces_before_.push_back(held_force_on_support(dynamics_->now(), support));
   loads_before_.clear();
   for (const ForceModel& force : model_.forces)
     loads_before_.push_back(start_.position(force.point));
@@ -349,7 +353,21 @@ void Stepper::account(State& after) {
       ledger.motion_work += carried_kinetic_energy(rigid, now.poses[b], now.velocities[b]) -
                             carried_kinetic_energy(rigid, start_.poses[b], start_.velocities[b]);
   }
+  if (has_driven_supports(model_)) ledger.motion_work += work_on_supports(after.t);
   note_extrema(dynamics_->now(), after);
+}
+
+/// Of what drives supports, since the step's start [J].
+double Stepper::work_on_supports(double t) const {
+  const std::vector<Vec3> from = support_shifts(model_, t_before_), to = support_shifts(model_, t);
+  double work = 0;
+  for (std::size_t s = 0; s < model_.supports.size(); ++s) {
+    const Vec3 force = held_force_on_support(dynamics_->now(), model_.supports[s]);
+    work -= 0.5 * (support_forces_before_[s] + force).dot(to[s] - from[s]);
+  }
+  if (!model_.is_static)
+    work += driven_kinetic_energy(model_, t) - driven_kinetic_energy(model_, t_before_);
+  return work;
 }
 
 /// What moves has had its energy at the start, from gravity or from what drives it. Where it is

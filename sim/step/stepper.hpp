@@ -91,6 +91,7 @@ class Stepper {
   bool try_load_step(State& state, double h);
   SolverCounts solver_counts() const;
   void account(State& after);
+  double work_on_supports(double t) const;
   void stop_where_energy_is_made(const State& state) const;
   [[noreturn]] void fail(const State& state, double h);
   EquilibriumDiagnosis why_no_equilibrium(const State& state, double h);
@@ -119,7 +120,8 @@ class Stepper {
   Configuration start_;
   std::vector<LineState> lines_before_;
   std::vector<Vec3> loads_before_;
-  std::vector<Vec6> reactions_before_;  // of held rigid bodies that are driven, by rigid body
+  std::vector<Vec6> reactions_before_;       // of held rigid bodies that are driven, by rigid body
+  std::vector<Vec3> support_forces_before_;  // without inertia, by support
   Eigen::VectorXd forces_before_;
   ContactDepths depths_before_;  // of any point
   double t_before_ = 0;

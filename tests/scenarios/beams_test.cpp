@@ -56,6 +56,17 @@ TEST(HangingBeam, DetectsNoContact) {
   EXPECT_EQ(results.count("reported_pairs"), 0);
 }
 
+// The state is uniform, so that only the iteration's tolerance is left: forces balance to 1e-6.
+TEST(UniaxialTension, ForceWidthAndWorkAreThoseOfTheClosedForm) {
+  const ScenarioResults results = run_scenario("verification/uniaxial_tension.toml");
+  EXPECT_NEAR(results.last("grip.force.z [N]"), -10, 1e-5);
+  EXPECT_NEAR(results.last("grip.force.x [N]"), 0, 1e-5);
+  EXPECT_NEAR(results.last("corner.position.x [mm]"), 9.7, 1e-6);
+  EXPECT_NEAR(results.last("corner.position.z [mm]"), 22, 1e-12);
+  EXPECT_NEAR(results.last("energy.motion_work [J]"), 0.01, 1e-8);
+  EXPECT_NEAR(results.last("energy.elastic [J]"), 0.01, 1e-8);
+}
+
 // Timoshenko's beam with ν = 0, L = 60 mm, depth d = 10 mm, E = 1 MPa, ρ = 1000 kg/m³, see the
 // file.
 constexpr double kBendingDrop =

@@ -55,7 +55,7 @@ class TutorialPage : public testing::TestWithParam<const char*> {};
 TEST_P(TutorialPage, RunsAsItStands) {
   const Tutorial tutorial = read_tutorial(kTutorials / GetParam());
   EXPECT_FALSE(tutorial.files.empty());
-  EXPECT_GE(tutorial.commands.size(), 4U);
+  EXPECT_GE(tutorial.commands.size(), 2U);
   const TemporaryFolder folder;
   for (const auto& [name, text] : tutorial.files) {
     ASSERT_NE(name, "") << "a block without \"save this as\":\n" << text;
@@ -70,9 +70,9 @@ TEST_P(TutorialPage, RunsAsItStands) {
 
 constexpr const char* kPages[] = {
 #ifdef ARTICULAR_MESHER
-    "two-surfaces.md",
+    "two-surfaces.md", "own-knee.md",
 #endif
-    "accuracy.md", "from-febio.md"};
+    "paraview.md", "accuracy.md", "from-febio.md"};
 INSTANTIATE_TEST_SUITE_P(Tutorials, TutorialPage, testing::ValuesIn(kPages));
 
 double last_value(const std::filesystem::path& history, const std::string& column) {
@@ -85,6 +85,28 @@ double last_value(const std::filesystem::path& history, const std::string& colum
     if (name == column) return std::stod(cell);
   ADD_FAILURE() << "no column " << column;
   return 0;
+}
+
+// ParaView itself draws by the state where it is installed.
+TEST(Tutorials, TheStateOfParaViewDrawsARun) {
+  const TemporaryFolder folder;
+  const Tutorial tutorial = read_tutorial(kTutorials / "paraview.md");
+  const auto& [name, state] = tutorial.files.at(0);
+  folder.file(name, state);
+  const ProgramResult compiled = run_shell(folder, "python3 -m py_compile " + name);
+  EXPECT_EQ(compiled.exit_code, 0) << compiled.err;
+  const ProgramResult run =
+      run_program(folder, "run mandible/opening --quiet --set duration=\"1 ms\" --out out/opening");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string tissue = content(folder / "out/opening/frames/disc_left_000000.vtu");
+  EXPECT_NE(tissue.find("Name=\"von_mises\""), std::string::npos);
+  const std::string lines = content(folder / "out/opening/frames/lines_000000.vtp");
+  EXPECT_NE(lines.find("Name=\"force\""), std::string::npos);
+  if (run_shell(folder, "command -v pvpython").exit_code != 0) GTEST_SKIP() << "no ParaView";
+  const ProgramResult drawn = run_shell(folder, "QT_QPA_PLATFORM=offscreen xvfb-run -a pvpython " +
+                                                    name + " out/opening/opening.pvd picture.png");
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_EQ(content(folder / "picture.png").substr(1, 3), "PNG");
 }
 
 // Forces that accuracy.md quotes.

@@ -15,8 +15,9 @@ foreach(ending toml csv vtp vtu)
   articular_install_files(share/articular scenarios/*.${ending})
 endforeach()
 # Whole, so that links from page to page lead somewhere.
-install(FILES README.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-articular_install_files(${CMAKE_INSTALL_DOCDIR} tools/python/examples/*.py tools/python/examples/*.toml)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+articular_install_files(${CMAKE_INSTALL_DOCDIR} tools/python/examples/*.py tools/python/examples/*.toml scenarios/*.json
+  tests/README.md)
 foreach(folder scenarios tools fem collision sim parallel tests/benchmarks)
   articular_install_files(${CMAKE_INSTALL_DOCDIR} ${folder}/*.md ${folder}/*.png ${folder}/*.svg)
 endforeach()

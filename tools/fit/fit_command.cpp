@@ -63,7 +63,7 @@ them, and the measurements with their spreads; some can be held out. Runs the sc
 again (about one run for each parameter and iteration), and writes DIR/fit.md (measurements before
 and after, parameters with their widths and what determines them), DIR/measurements.csv,
 DIR/parameters.csv, and DIR/fitted.txt for `articular run SCENARIO --set @DIR/fitted.txt`. Started
-again, it goes on with what has run. The format of FIT.toml and an example: tools/README.md.)";
+again, it goes on with what has run. The format of FIT.toml and an example: tools/fit/README.md.)";
 
 }  // namespace
 

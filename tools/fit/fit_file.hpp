@@ -8,7 +8,7 @@
 
 #include "tools/study/study_settings.hpp"
 
-/// FIT.toml: a scenario, what in it is not known, and what was measured. tools/README.md has the
+/// FIT.toml: a scenario, what in it is not known, and what was measured. tools/fit/README.md has the
 /// format.
 namespace articular::tools {
 

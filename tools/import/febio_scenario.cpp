@@ -201,8 +201,9 @@ class ScenarioWriter {
                                       toml_vector(center, units_.length)));
     }
     text_ += entry.text();
-    add_motion(body.name, drive, is_fixed ? std::optional(center) : std::nullopt,
-               body.material->element->line);
+    add_motion({"body", body.name, is_fixed ? std::optional(center) : std::nullopt, !is_fixed,
+                body.material->element->line},
+               drive);
     for (const FebioRigidForce& force : model_.rigid_forces)
       if (material_of(force.material) == body.material)
         add_rigid_force(body, center, is_fixed, force);
@@ -250,9 +251,16 @@ class ScenarioWriter {
     return value->value * sim::value_at(model_.curves.at(value->curve), t);
   }
 
-  /// @param about  about which a fixed body turns
-  void add_motion(const std::string& body, const Drive& drive,
-                  const std::optional<Eigen::Vector3d>& about, int line) {
+  /// What a motion moves: a body or a support.
+  struct Moved {
+    std::string_view kind;
+    std::string name;
+    std::optional<Eigen::Vector3d> about;  // a fixed body turns about it
+    bool has_mass = false;                 // in time that can't follow a velocity that jumps
+    int line = 0;                          // in the model
+  };
+
+  void add_motion(const Moved& moved, const Drive& drive) {
     const auto moves = [&](std::size_t first) {
       return std::any_of(drive.begin() + first, drive.begin() + first + 3,
                          [](const auto& value) { return value && value->value != 0; });
@@ -270,17 +278,17 @@ class ScenarioWriter {
       turns += comma + toml_vector(at(3), "rad");
     }
     TomlEntry entry("[[load]]");
-    entry.add("kind", "\"motion\"").add("body", toml_text(body)).add("time", "[" + times + "]");
+    entry.add("kind", "\"motion\"").add(moved.kind, toml_text(moved.name));
+    entry.add("time", "[" + times + "]");
     if (moves(0)) entry.add("translation", "[" + ways + "]");
     if (moves(3)) entry.add("rotation", "[" + turns + "]");
-    if (moves(3) && about) entry.add("about", toml_vector(*about, units_.length));
-    // A mass in time can't follow a velocity that jumps.
-    if (about || !model_.is_dynamic)
+    if (moves(3) && moved.about) entry.add("about", toml_vector(*moved.about, units_.length));
+    if (!moved.has_mass || !model_.is_dynamic)
       entry.add("interpolation", "\"linear\"");
     else
-      lose(line, fmt::format("the constant velocities of the motion of {}: it goes smoothly from "
-                             "point to point",
-                             sim::in_ticks(body)));
+      lose(moved.line, fmt::format("the constant velocities of the motion of {}: it goes smoothly "
+                                   "from point to point",
+                                   sim::in_ticks(moved.name)));
     text_ += entry.text();
   }
 
@@ -330,9 +338,9 @@ class ScenarioWriter {
                      [static_cast<std::size_t>(conditions[c].axis)] = static_cast<int>(c);
     std::set<std::string> done;
     for (const FebioNodeCondition& condition : conditions)
-      if (condition.prescribed && condition.prescribed->value != 0 &&
-          done.insert(condition.set).second)
-        add_grip(condition);
+      if (moves(condition) && done.insert(condition.set).second) add_grip(condition);
+    for (std::size_t c = 0; c < conditions.size(); ++c)
+      if (moves(conditions[c])) add_driven_support(static_cast<int>(c));
     done.clear();
     for (const FebioNodeCondition& condition : conditions)
       if (!moves(condition) && done.insert(condition.set).second) add_support(condition);
@@ -370,25 +378,64 @@ class ScenarioWriter {
                        [&](int node) { return attached_[static_cast<std::size_t>(node)] != 0; });
   }
 
-  /// Nodes that are moved hang on a fixed body without a shape, which is driven.
+  /// Nodes that are moved along all three axes hang on a fixed body without a shape, which is
+  /// driven.
   void add_grip(const FebioNodeCondition& condition) {
     const sim::MeshSet& set = *set_called(condition.set, condition.line);
-    if (are_attached(set)) return;  // another set with these nodes came first
     const std::optional<Drive> drive = drive_of(set);
-    if (!drive || is_one_attached(set)) {
-      lose(
-          condition.line,
-          fmt::format("the prescribed displacement of {} along {}: nodes are moved along all three "
-                      "axes, each held or prescribed and the same for all of them, or not at all",
-                      sim::in_ticks(set.name), "xyz"[condition.axis]));
-      return;
-    }
+    if (!drive || is_one_attached(set)) return;
     const std::string grip = scenario_name("grip of " + set.name);
     text_ += TomlEntry("[[body]]").add("name", toml_text(grip)).add("kind", "\"fixed\"").text();
     for (const ImportedBody& tissue : bodies_)
       if (!tissue.is_rigid() && has_any(tissue, set)) attach(tissue, grip, set);
-    add_motion(grip, *drive, Eigen::Vector3d::Zero(), condition.line);
+    add_motion({"body", grip, Eigen::Vector3d::Zero(), false, condition.line}, *drive);
     add_reaction("body", grip);
+  }
+
+  /// Nodes that are moved along one axis alone.
+  void add_driven_support(int index) {
+    const FebioNodeCondition& condition = model_.node_conditions[static_cast<std::size_t>(index)];
+    const sim::MeshSet& set = *set_called(condition.set, condition.line);
+    if (are_attached(set)) return;  // they hang on a grip
+    const auto is_all = [&](const auto& test) {
+      return std::all_of(set.nodes.begin(), set.nodes.end(), test);
+    };
+    const auto axis = static_cast<std::size_t>(condition.axis);
+    std::string_view why;
+    if (is_one_attached(set))
+      why = "some of the nodes go with a rigid body";
+    else if (!is_all([&](int node) {
+               return condition_of_[static_cast<std::size_t>(node)][axis] == index;
+             }))
+      why = "some of the nodes are held or moved along it by another condition";
+    else if (value_of(condition.prescribed, 0) != 0)
+      why = "it is not 0 at the start";
+    if (!why.empty())
+      return lose(condition.line, fmt::format("the prescribed displacement of {} along {}: {}",
+                                              sim::in_ticks(set.name), "xyz"[axis], why));
+    Drive drive;
+    drive[axis] = condition.prescribed;
+    const std::string wanted = fmt::format("{} {}", scenario_name(set.name), "xyz"[axis]);
+    for (const ImportedBody& tissue : bodies_) {
+      if (tissue.is_rigid() || !has_any(tissue, set)) continue;
+      const std::string name =
+          add_support_entry(wanted, tissue, set, fmt::format("\"{}\"", kFreedomWords[axis]));
+      add_motion({"support", name, std::nullopt, false, condition.line}, drive);
+    }
+  }
+
+  /// With a probe of its reaction. @return its name
+  std::string add_support_entry(const std::string& wanted, const ImportedBody& tissue,
+                                const sim::MeshSet& set, const std::string& freedoms) {
+    const std::string name = new_name(wanted);
+    text_ += TomlEntry("[[support]]")
+                 .add("name", toml_text(name))
+                 .add("body", toml_text(tissue.name))
+                 .add("region", fmt::format("{{ set = {} }}", toml_text(set.name)))
+                 .add("freedoms", "[" + freedoms + "]")
+                 .text();
+    add_reaction("support", name);
+    return name;
   }
 
   void add_reaction(std::string_view kind, const std::string& name) {
@@ -397,6 +444,13 @@ class ScenarioWriter {
                    .add("kind", "\"reaction\"")
                    .add(kind, toml_text(name))
                    .text();
+  }
+
+  bool is_one_moved(const sim::MeshSet& set, int axis) const {
+    return std::any_of(set.nodes.begin(), set.nodes.end(), [&](int node) {
+      const int c = condition_of_[static_cast<std::size_t>(node)][static_cast<std::size_t>(axis)];
+      return c >= 0 && moves(model_.node_conditions[static_cast<std::size_t>(c)]);
+    });
   }
 
   void add_support(const FebioNodeCondition& first) {
@@ -409,20 +463,21 @@ class ScenarioWriter {
                               sim::in_ticks(set.name)));
     std::string freedoms;
     for (int axis = 0; axis < 3; ++axis)
-      for (const FebioNodeCondition& condition : model_.node_conditions)
-        if (condition.set == first.set && condition.axis == axis && !moves(condition) &&
-            freedoms.find(kFreedomWords[axis]) == std::string::npos)
+      for (const FebioNodeCondition& condition : model_.node_conditions) {
+        if (condition.set != first.set || condition.axis != axis || moves(condition) ||
+            freedoms.find(kFreedomWords[axis]) != std::string::npos)
+          continue;
+        if (is_one_moved(set, axis))
+          lose(condition.line, fmt::format("the held nodes of {} along {}: some of them are moved "
+                                           "along it by another condition",
+                                           sim::in_ticks(set.name), "xyz"[axis]));
+        else
           freedoms += fmt::format("{}\"{}\"", freedoms.empty() ? "" : ", ", kFreedomWords[axis]);
+      }
+    if (freedoms.empty()) return;
     for (const ImportedBody& tissue : bodies_) {
       if (tissue.is_rigid() || !has_any(tissue, set)) continue;
-      const std::string name = new_name(scenario_name(set.name));
-      text_ += TomlEntry("[[support]]")
-                   .add("name", toml_text(name))
-                   .add("body", toml_text(tissue.name))
-                   .add("region", fmt::format("{{ set = {} }}", toml_text(set.name)))
-                   .add("freedoms", "[" + freedoms + "]")
-                   .text();
-      add_reaction("support", name);
+      add_support_entry(scenario_name(set.name), tissue, set, freedoms);
     }
   }
 

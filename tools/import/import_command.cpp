@@ -75,7 +75,7 @@ const char* const kImportHelp =
 meshes and sets. Versions 2.5, 3.0 and 4.0 of FEBio's format, solid mechanics. What could not be
 taken over is listed on stderr with its line, and in the scenario; the exit code is 3 then. Solver
 settings, penalties of contact and requests for output have no counterpart and are not listed.
-tools/README.md says what becomes of what.
+tools/import/README.md says what becomes of what.
 
 Example
   articular import knee.feb -o out/knee --units mm-N-s

@@ -26,9 +26,9 @@ struct KeysArguments {
 std::vector<KeyDocument> documents() {
   return {{"Scenario files", "What they mean together, with examples: [README.md](README.md).",
            key_sections(sim::scenario_keys())},
-          {"Study files", "How to use them: [articular study](../tools/README.md#articular-study).",
+          {"Study files", "How to use them: [articular study](../tools/study/README.md).",
            key_sections(study_keys())},
-          {"Fit files", "How to use them: [articular fit](../tools/README.md#articular-fit).",
+          {"Fit files", "How to use them: [articular fit](../tools/fit/README.md).",
            key_sections(fit_keys())}};
 }
 

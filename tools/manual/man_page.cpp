@@ -118,6 +118,12 @@ constexpr const char* kEnd = R"(.SH ENVIRONMENT
 .B ARTICULAR_DATA
 A folder of recorded anatomy, which mesh files of a scenario may name as ${ARTICULAR_DATA}.
 .TP
+.B ARTICULAR_SCENARIOS
+A folder of scenarios that names such as mandible/opening are looked for in, in place of the shipped one.
+.TP
+.B OPENBLAS_CORETYPE
+The kernels of OpenBLAS. Without it articular takes those of the newest instructions that processor and library both know.
+.TP
 .B TMPDIR
 The folder for temporary files, /tmp without it.
 .SH FILES

@@ -4,11 +4,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "sim/base/error.hpp"
 #include "sim/base/message_text.hpp"
@@ -44,6 +46,17 @@ int report(const char* message, int exit_code) {
     if (is_terminal) std::fputs(articular::tools::source_excerpt(line).c_str(), stderr);
   }
   return exit_code;
+}
+
+/// A first word that is no subcommand: CLI11 only says that one is missing.
+std::string unknown_subcommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return "";
+  std::vector<std::string> names;
+  for (const CLI::App* subcommand : app.get_subcommands({}))
+    names.push_back(subcommand->get_name());
+  const std::string word = articular::sim::one_line(argv[1]);
+  if (std::find(names.begin(), names.end(), word) != names.end()) return "";
+  return "no subcommand `" + word + "`" + articular::sim::suggestion(word, names);
 }
 
 int run_program(int argc, char** argv) {
@@ -82,7 +95,9 @@ int run_program(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    std::fprintf(stderr, "articular: %s (see --help)\n", error.what());
+    const std::string unknown = unknown_subcommand(app, argc, argv);
+    std::fprintf(stderr, "articular: %s (see --help)\n",
+                 unknown.empty() ? error.what() : unknown.c_str());
     return kBadInput;
   }
   return exit_code;

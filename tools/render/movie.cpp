@@ -95,7 +95,9 @@ void Movie::start_theora() {
 void Movie::start_ffmpeg(int width, int height) {
   Pipe frames;
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
-  // VTK's rows run upwards; players want even sizes and the 4:2:0 layout.
+  // VTK's rows run upwards; players want even sizes and the 4:2:0 layout. They take the colours of
+  // a film that does not say its matrix for those of its size: a field would have others than the
+  // legend of a picture.
   const auto started = ChildProcess::start({"ffmpeg",
                                             "-y",
                                             "-f",
@@ -109,7 +111,18 @@ void Movie::start_ffmpeg(int width, int height) {
                                             "-i",
                                             "-",
                                             "-vf",
-                                            "vflip,pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white",
+                                            "vflip,pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,"
+                                            "scale=out_color_matrix=bt709:out_range=tv",
+                                            "-colorspace",
+                                            "bt709",
+                                            "-color_primaries",
+                                            "bt709",
+                                            "-color_trc",
+                                            "bt709",
+                                            "-color_range",
+                                            "tv",
+                                            "-movflags",
+                                            "+faststart",
                                             "-pix_fmt",
                                             "yuv420p",
                                             "-crf",

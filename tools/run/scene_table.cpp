@@ -117,6 +117,7 @@ std::string supports(const sim::Scenario& scenario, const sim::Model& model) {
     std::string axes;
     for (const auto& axis : scenario.supports[s].held.colwise())
       axes += (axes.empty() ? "" : ", ") + in_words(axis);
+    if (support.motion) axes += ", driven";
     text += fmt::format(
         "  {:<20} {:<23} {} of {} nodes, between {} and {} mm, held along {}\n",
         scenario.supports[s].body, support.name.empty() ? "supported" : "by " + support.name,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 
 #include "sim/base/message_text.hpp"
 #include "sim/scenario/toml_document.hpp"
@@ -66,6 +67,24 @@ std::vector<fs::path> candidates() {
   return places;
 }
 
+/// The usual first try: a mesh in place of the scenario that names it.
+void refuse_mesh(const fs::path& given) {
+  static const std::set<std::string> kMeshes = {".stl",  ".obj", ".ply", ".vtp", ".vtu",
+                                                ".vtk",  ".msh", ".inp", ".bdf", ".nas",
+                                                ".mesh", ".ele", ".node"};
+  const std::string ending = given.extension().string();
+  if (ending == ".feb")
+    throw sim::InputError(
+        {sim::one_line(given.string())},
+        "expected a scenario (.toml); `articular import` makes one of a FEBio model");
+  if (kMeshes.contains(ending))
+    throw sim::InputError(
+        {sim::one_line(given.string())},
+        fmt::format("expected a scenario (.toml), found a mesh; a [[body]] of a scenario names it: "
+                    "mesh = {{ file = \"{}\" }}",
+                    sim::one_line(given.filename().string())));
+}
+
 /// The first candidate that is a folder, or nothing.
 std::optional<fs::path> existing_folder() {
   for (const fs::path& folder : candidates())
@@ -113,7 +132,10 @@ std::optional<fs::path> shipped_file(const fs::path& name) {
 
 fs::path find_scenario(const fs::path& given) {
   std::error_code error;
-  if (fs::exists(given, error) && !is_folder(given)) return given;
+  if (fs::exists(given, error) && !is_folder(given)) {
+    refuse_mesh(given);
+    return given;
+  }
   if (const auto shipped = shipped_file(given)) return *shipped;
   const sim::Location where{sim::one_line(given.string())};
   if (is_folder(given)) throw sim::InputError(where, "expected a scenario file, found a folder");

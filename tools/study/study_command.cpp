@@ -87,7 +87,7 @@ next halving of the error costs), DIR/study.csv (all figures) and DIR/pareto.svg
 time). Where the study does not say what is right, it lists the outputs of all cases side by side.
 A case that fails is a result like others. Started again, it runs only what is missing or was made
 with another program, scenario or arguments; meshes that changed it does not notice (--fresh). The
-format of STUDY.toml and an example: tools/README.md; its keys: articular keys study)";
+format of STUDY.toml and an example: tools/study/README.md; its keys: articular keys study)";
 
 }  // namespace
 

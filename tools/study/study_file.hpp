@@ -7,7 +7,7 @@
 
 #include "tools/study/study_settings.hpp"
 
-/// STUDY.toml: a scenario, what to vary in it, what to look at, and what is right. tools/README.md
+/// STUDY.toml: a scenario, what to vary in it, what to look at, and what is right. tools/study/README.md
 /// has the format.
 namespace articular::tools {
 

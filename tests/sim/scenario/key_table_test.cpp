@@ -172,6 +172,11 @@ ends = "rest"
 kind = "motion"
 body = "hexahedron"
 file = "motion.csv"
+[[load]]
+kind = "motion"
+support = "roller_left"
+time = ["0 s", "1 s"]
+translation = ["0 0 0 mm", "1 0 0 mm"]
 [[contact]]
 bodies = ["tissue", "free"]
 friction = 0.3

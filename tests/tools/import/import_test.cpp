@@ -28,10 +28,11 @@ class Twin : public testing::TestWithParam<TwinModel> {};
 TEST_P(Twin, GivesTheSameResultsAsTheSceneWrittenByHand) {
   const TemporaryFolder folder;
   const std::string name = GetParam().name;
-  const ProgramResult imported = run_program(folder, "import " + kModels + name + ".feb -o scene" +
-                                                         (name == "stretch" ? ""
-                                                          : name == "beam"  ? " --units SI"
-                                                                            : " --units mm-N-s"));
+  const ProgramResult imported =
+      run_program(folder, "import " + kModels + name + ".feb -o scene" +
+                              (name == "stretch" || name == "uniaxial" ? ""
+                               : name == "beam"                        ? " --units SI"
+                                                                       : " --units mm-N-s"));
   EXPECT_EQ(imported.exit_code, GetParam().exit_code) << imported.err;
   EXPECT_NE(imported.err.find(GetParam().loss), std::string::npos) << imported.err;
   EXPECT_EQ(imported.out, "scene/" + name + ".toml\nscene/" + name + ".feb\n");
@@ -48,7 +49,8 @@ TEST_P(Twin, GivesTheSameResultsAsTheSceneWrittenByHand) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Import, Twin,
-                         testing::Values(TwinModel{"stretch", 0, ""}, TwinModel{"beam", 0, ""},
+                         testing::Values(TwinModel{"stretch", 0, ""}, TwinModel{"uniaxial", 0, ""},
+                                         TwinModel{"beam", 0, ""},
                                          TwinModel{"press", 3,
                                                    "not taken over: friction: in a static analysis "
                                                    "nothing has a velocity"}),
@@ -110,7 +112,7 @@ Translated translated(const std::string& type, const std::string& constants,
   return result;
 }
 
-// Energies of both programs are compared in tools/README.md.
+// Energies of both programs are compared in tools/import/README.md.
 TEST(Import, EachLawOfFebioBecomesTheOneWithTheSameEnergy) {
   const MappedLaw laws[] = {
       {"neo-Hookean", "<E>1</E><v>0.3</v>",
@@ -181,28 +183,13 @@ TEST(Import, WhatOfAMaterialHasNoCounterpartIsTold) {
 }
 
 struct ChangedModel {
-  const char *from, *to;  // in stretch.feb
+  const char *from, *to;
   int exit_code;
   const char* message;
 };
 
-TEST(Import, WhatIsWrongOrMissingIsNamedWithItsLine) {
-  const ChangedModel changes[] = {
-      {"<units>mm-N-s</units>", "", 2, "model.feb: the model does not say its units"},
-      {"<units>mm-N-s</units>", "<units>imperial</units>", 2, "unknown system of units `imperial`"},
-      {"type=\"solid\"", "type=\"biphasic\"", 2,
-       "model.feb:3: the model is of the module \"biphasic\""},
-      {"version=\"4.0\"", "version=\"1.2\"", 2, "model.feb:2: found version `1.2`"},
-      {"node_set=\"bottom\"", "node_set=\"nothing\"", 2, "there is no set `nothing`; it has"},
-      {"lc=\"1\"", "lc=\"7\"", 2, "there is no load curve `7`"},
-      {"type=\"neo-Hookean\"", "type=\"perfect\"", 2, "nothing can be taken over: line 5"},
-      {"<v>0.4</v>", "<v>0.5</v>", 2, "Poisson's ratio must lie between"},
-      {"<interpolate>LINEAR", "<interpolate>SMOOTH", 3, "interpolation \"smooth\" of load curve 1"},
-      {"<x_dof>1</x_dof><y_dof>1</y_dof><z_dof>0</z_dof>", "<x_dof>1</x_dof>", 3,
-       "not taken over: the prescribed displacement of `top` along z"},
-      {"</Boundary>", "</Boundary><Discrete><spring/></Discrete>", 3, "not taken over: <spring>"},
-      {"</febio_spec>", "", 2, "not readable as .feb"}};
-  const std::string model = content(kModels + "stretch.feb");
+void expect_messages(const std::string& name, const std::vector<ChangedModel>& changes) {
+  const std::string model = content(kModels + name);
   const TemporaryFolder folder;
   for (const ChangedModel& change : changes) {
     std::string text = model;
@@ -213,6 +200,41 @@ TEST(Import, WhatIsWrongOrMissingIsNamedWithItsLine) {
     EXPECT_EQ(result.exit_code, change.exit_code) << result.err;
     EXPECT_NE(result.err.find(change.message), std::string::npos) << result.err;
   }
+}
+
+TEST(Import, WhatIsWrongOrMissingIsNamedWithItsLine) {
+  expect_messages(
+      "stretch.feb",
+      {{"<units>mm-N-s</units>", "", 2, "model.feb: the model does not say its units"},
+       {"<units>mm-N-s</units>", "<units>imperial</units>", 2,
+        "unknown system of units `imperial`"},
+       {"type=\"solid\"", "type=\"biphasic\"", 2,
+        "model.feb:3: the model is of the module \"biphasic\""},
+       {"version=\"4.0\"", "version=\"1.2\"", 2, "model.feb:2: found version `1.2`"},
+       {"node_set=\"bottom\"", "node_set=\"nothing\"", 2, "there is no set `nothing`; it has"},
+       {"lc=\"1\"", "lc=\"7\"", 2, "there is no load curve `7`"},
+       {"type=\"neo-Hookean\"", "type=\"perfect\"", 2, "nothing can be taken over: line 5"},
+       {"<v>0.4</v>", "<v>0.5</v>", 2, "Poisson's ratio must lie between"},
+       {"<interpolate>LINEAR", "<interpolate>SMOOTH", 3,
+        "interpolation \"smooth\" of load curve 1"},
+       {"<x_dof>1</x_dof><y_dof>1</y_dof><z_dof>0</z_dof></bc>", "<x_dof>1</x_dof></bc>", 0, ""},
+       {"</Boundary>", "</Boundary><Discrete><spring/></Discrete>", 3, "not taken over: <spring>"},
+       {"</febio_spec>", "", 2, "not readable as .feb"}});
+}
+
+TEST(Import, ADisplacementAlongOneAxisThatCanNotBeTakenOverIsNamedWithItsReason) {
+  const std::string lost = "not taken over: the prescribed displacement of `top` along z: ";
+  const std::string at_start = lost + "it is not 0 at the start",
+                    twice = lost + "some of the nodes are held or moved along it by another";
+  expect_messages(
+      "uniaxial.feb",
+      {{"<pt>0,0</pt>", "<pt>0,0.5</pt>", 3, at_start.c_str()},
+       {"</Boundary>",
+        "<bc type=\"zero displacement\" node_set=\"left\"><z_dof>1</z_dof></bc></Boundary>", 3,
+        twice.c_str()},
+       {"node_set=\"left\"><x_dof>1</x_dof><y_dof>0</y_dof><z_dof>0</z_dof>",
+        "node_set=\"left\"><x_dof>1</x_dof><y_dof>0</y_dof><z_dof>1</z_dof>", 3,
+        "not taken over: the held nodes of `left` along z: some of them are moved along it"}});
 }
 
 // Two blocks of one material that share a face are one body; a rigid part that shares one holds it.

@@ -74,6 +74,24 @@ TEST_F(Installed, HasTheFilesThatItsScenariosName) {
   EXPECT_GT(count, 20);
 }
 
+// Links to what is no page, as to a scenario, would lead out of the documentation.
+TEST_F(Installed, HasAllPagesThatItsPagesNameInLinks) {
+  const std::filesystem::path documents = *folder / "prefix/share/doc/articular";
+  const std::regex link("\\]\\(([^)#\\s]+)(#[^)\\s]*)?\\)");
+  int count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(documents)) {
+    if (entry.path().extension() != ".md") continue;
+    const std::string text = content(entry.path());
+    for (std::sregex_iterator match(text.begin(), text.end(), link), end; match != end; ++match) {
+      if (match->str(1).find("://") != std::string::npos) continue;
+      ++count;
+      EXPECT_TRUE(std::filesystem::exists(entry.path().parent_path() / match->str(1)))
+          << entry.path() << ": " << match->str(1);
+    }
+  }
+  EXPECT_GT(count, 100);
+}
+
 TEST_F(Installed, FindsItsMesher) {
   if (!std::filesystem::exists(*folder / "prefix/libexec/articular/articular-mesher"))
     GTEST_SKIP() << "this build has no mesher";

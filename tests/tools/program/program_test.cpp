@@ -332,6 +332,14 @@ TEST(Program, MissingScenarioIsBadInput) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
+TEST(Program, AFirstWordThatIsNoSubcommandIsNamed) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_program(folder, "walk scene.toml").err,
+            "articular: no subcommand `walk` (see --help)\n");
+  EXPECT_EQ(run_program(folder, "rendr out").err,
+            "articular: no subcommand `rendr`; did you mean `render`? (see --help)\n");
+}
+
 TEST(Program, WrongArgumentsAreBadInput) {
   const TemporaryFolder folder;
   folder.file("scene.toml", kScene);

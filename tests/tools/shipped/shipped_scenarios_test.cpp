@@ -122,4 +122,18 @@ TEST_F(Shipped, AnInstalledProgramHasThemInShareOrElseInTheSourceTree) {
   EXPECT_EQ(result.out.find("mandible/opening"), std::string::npos);
 }
 
+TEST_F(Shipped, AMeshInPlaceOfAScenarioIsNamedWithWhatNamesIt) {
+  folder_.file("work/bone.stl", kBlock);
+  folder_.file("work/knee.feb", "<febio_spec/>");
+  const ProgramResult mesh = run_program(folder_, "run work/bone.stl");
+  EXPECT_EQ(mesh.exit_code, 2);
+  EXPECT_EQ(mesh.err,
+            "articular: work/bone.stl: expected a scenario (.toml), found a mesh; a [[body]] of a "
+            "scenario names it: mesh = { file = \"bone.stl\" }\n");
+  const ProgramResult model = run_program(folder_, "check work/knee.feb");
+  EXPECT_EQ(model.exit_code, 2);
+  EXPECT_NE(model.err.find("`articular import` makes one of a FEBio model"), std::string::npos)
+      << model.err;
+}
+
 }  // namespace articular::shipped_test
