@@ -18,6 +18,18 @@ using End = ProgramUse::End;
 
 }  // namespace
 
+std::vector<std::string> prepare_command(const fs::path& folder,
+                                         const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{this_program().string()};
+  for (std::string argument : arguments) {
+    const std::string pattern = std::string("${") + kPrepared + "}";
+    if (const auto at = argument.find(pattern); at != std::string::npos)
+      argument.replace(at, pattern.size(), folder.string());
+    command.push_back(argument);
+  }
+  return command;
+}
+
 std::string prepare_meshes(const fs::path& folder, const std::vector<std::string>& arguments,
                            bool fresh) {
   const std::string program = this_program().string();
@@ -26,13 +38,7 @@ std::string prepare_meshes(const fs::path& folder, const std::vector<std::string
   if (!fresh && text_of(done) == key) return "";
   fs::create_directories(folder);
   fs::remove(done);
-  std::vector<std::string> command{program};
-  for (std::string argument : arguments) {
-    const std::string pattern = std::string("${") + kPrepared + "}";
-    if (const auto at = argument.find(pattern); at != std::string::npos)
-      argument.replace(at, pattern.size(), folder.string());
-    command.push_back(argument);
-  }
+  const std::vector<std::string> command = prepare_command(folder, arguments);
   const fs::path log = folder / "log";
   const ProgramUse use = run_measured(command, {}, log, {}, interruption_asked);
   if (use.end == End::Interrupted) throw StudyInterrupted{};

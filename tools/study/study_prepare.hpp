@@ -21,6 +21,10 @@ inline constexpr const char* kPrepared = "ARTICULAR_PREPARED";
 std::string prepare_meshes(const std::filesystem::path& folder,
                            const std::vector<std::string>& arguments, bool fresh);
 
+/// The command that prepare_meshes() runs.
+std::vector<std::string> prepare_command(const std::filesystem::path& folder,
+                                         const std::vector<std::string>& arguments);
+
 /// What a file holds; "" if it can't be read.
 std::string text_of(const std::filesystem::path& file);
 
