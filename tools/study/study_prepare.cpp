@@ -75,4 +75,12 @@ std::string first_error(const fs::path& log) {
   return "";
 }
 
+std::string last_line(const fs::path& log) {
+  std::ifstream stream(log);
+  std::string line, last;
+  while (std::getline(stream, line))
+    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  return last;
+}
+
 }  // namespace articular::tools

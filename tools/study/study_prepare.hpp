@@ -37,4 +37,7 @@ std::string joined(const std::vector<std::string>& words);
 /// The first error in the log of an `articular` command; "" if there is none.
 std::string first_error(const std::filesystem::path& log);
 
+/// The last line that is not empty, of a log of any program; "" if there is none.
+std::string last_line(const std::filesystem::path& log);
+
 }  // namespace articular::tools

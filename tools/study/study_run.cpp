@@ -25,6 +25,13 @@ using End = ProgramUse::End;
 
 constexpr const char* kData = "ARTICULAR_DATA";  // an ssh would not pass it on
 
+/// Runs a program in the folder of its results. Shells say with 127 that there is no such program,
+/// which would be said of the shell itself.
+constexpr const char* kRunThere =
+    R"(mkdir -p "$0" && cd "$0" || exit 126
+command -v "$1" > /dev/null || { echo "can't start $1"; exit 126; }
+exec "$@")";
+
 fs::path folder_of(const fs::path& directory, const StudyCase& c) {
   return directory / "cases" / c.folder;
 }
@@ -99,7 +106,9 @@ class CaseRunner {
   void finish(const StudyCase& c, const TaskEnd& end, CaseRecord& record) const {
     const fs::path folder = folder_of(directory_, c);
     record.runs.push_back(end.use);
-    record.message = end.why.empty() && !record.succeeded() ? first_error(folder / "log") : end.why;
+    record.message = end.why;
+    if (end.why.empty() && !record.succeeded())
+      record.message = c.command.empty() ? first_error(folder / "log") : last_line(folder / "log");
     if (record.succeeded()) check_outputs(c);
     if (end.use.end != End::Lost) write_record(folder / "case.json", key_of(c), record);
   }
@@ -115,8 +124,7 @@ class CaseRunner {
   std::vector<std::string> command_of(const StudyCase& c, const fs::path& scenario) const {
     const std::string results = results_of(directory_, c).string();
     if (!c.command.empty()) {
-      std::vector<std::string> command{"sh", "-c", R"(mkdir -p "$0" && cd "$0" && exec "$@")",
-                                       results};
+      std::vector<std::string> command{"sh", "-c", kRunThere, results};
       command.insert(command.end(), c.command.begin(), c.command.end());
       return command;
     }
