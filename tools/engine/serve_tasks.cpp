@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <list>
 #include <thread>
@@ -14,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using End = ProgramUse::End;
 
-constexpr std::chrono::milliseconds kLookEvery{50};
+constexpr std::chrono::milliseconds kLookEvery{200};
 
 /// One that is offered and has no end yet.
 struct Open {
@@ -29,26 +30,28 @@ TaskEnd lost(const Task& task) {
 }
 
 /// The end of a task, if it has one by now.
-std::optional<TaskEnd> end_now(TaskQueue& queue, const Task& task, double silence_limit,
-                               Open& open) {
-  if (std::optional<TaskEnd> end = queue.end_of(task)) return end;
-  const std::optional<double> silence = queue.silence(task);
+std::optional<TaskEnd> end_now(const TaskQueue& queue, const TaskQueue::Listing& seen,
+                               const Task& task, double silence_limit, Open& open) {
+  if (seen.ended.contains(task.name))
+    if (std::optional<TaskEnd> end = queue.end_of(task)) return end;
   const auto now = Clock::now();
-  if (queue.is_waiting(task) || (silence && *silence <= silence_limit)) {
+  const bool is_taken = seen.taken.contains(task.name);
+  const double silence = is_taken ? queue.silence(task).value_or(0) : 0;
+  if (seen.waiting.contains(task.name) || (is_taken && silence <= silence_limit)) {
     open.last_seen = now;
     return {};
   }
   // Neither waiting nor taken: it is between the two, or somebody removed it.
   const double unseen = std::chrono::duration<double>(now - open.last_seen).count();
-  if (silence || unseen > silence_limit) return queue.end_of(task).value_or(lost(task));
+  if (is_taken || unseen > silence_limit) return queue.end_of(task).value_or(lost(task));
   return {};
 }
 
-bool any_waits(const TaskQueue& queue, const std::vector<Task>& tasks,
+bool any_waits(const TaskQueue::Listing& seen, const std::vector<Task>& tasks,
                const std::list<Open>& left) {
-  for (const Open& open : left)
-    if (queue.is_waiting(tasks[open.number])) return true;
-  return false;
+  return std::any_of(left.begin(), left.end(), [&](const Open& open) {
+    return seen.waiting.contains(tasks[open.number].name);
+  });
 }
 
 }  // namespace
@@ -65,15 +68,17 @@ bool serve_tasks(TaskQueue& queue, const std::vector<Task>& tasks, double silenc
     if (!queue.end_of(tasks[i]) && !queue.silence(tasks[i])) queue.offer(tasks[i]);
   }
   Workers workers;
-  if (any_waits(queue, tasks, left)) workers = start();
+  if (any_waits(queue.list(), tasks, left)) workers = start();
   while (!left.empty()) {
     if (interrupted()) {
       queue.close();
       return false;
     }
     const bool are_there = !workers.are_there || workers.are_there();
+    const TaskQueue::Listing seen = queue.list();
     for (auto open = left.begin(); open != left.end();) {
-      const std::optional<TaskEnd> end = end_now(queue, tasks[open->number], silence_limit, *open);
+      const std::optional<TaskEnd> end =
+          end_now(queue, seen, tasks[open->number], silence_limit, *open);
       if (!end) {
         ++open;
         continue;
@@ -82,7 +87,7 @@ bool serve_tasks(TaskQueue& queue, const std::vector<Task>& tasks, double silenc
       ended(open->number, *end);
       open = left.erase(open);
     }
-    if (!are_there && any_waits(queue, tasks, left)) {
+    if (!are_there && any_waits(seen, tasks, left)) {
       queue.close();
       throw sim::SystemError(
           fmt::format("no worker is left ({}), and {} cases are; what workers said is in {}/*.log",

@@ -51,16 +51,6 @@ std::optional<double> date_of(const fs::path& path) {
 
 bool set_date(const fs::path& path) { return ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0) == 0; }
 
-std::vector<std::string> names_with(const fs::path& folder, const char* ending) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error))
-    if (entry->path().extension() == ending) names.push_back(entry->path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 }  // namespace
 
 void TaskQueue::open(const std::vector<Task>& tasks) {
@@ -68,15 +58,16 @@ void TaskQueue::open(const std::vector<Task>& tasks) {
   fs::create_directories(folder_, error);
   if (error) throw sim::SystemError(folder_.string() + ": can't be made: " + error.message());
   remove_file(folder_ / kStop);
-  for (const std::string& name : names_with(folder_, kTask)) remove_file(file(name, kTask));
-  for (const std::string& name : names_with(folder_, kEnded)) {
+  const Listing found = list();
+  for (const std::string& name : found.waiting) remove_file(file(name, kTask));
+  for (const std::string& name : found.ended) {
     const std::optional<TaskEnd> end = read_end(text_of_file(file(name, kEnded)));
     const bool fits = end && std::any_of(tasks.begin(), tasks.end(), [&](const Task& task) {
                         return task.name == name && task.key == end->key;
                       });
     if (!fits) remove_file(file(name, kEnded));
   }
-  for (const std::string& name : names_with(folder_, kTaken)) {
+  for (const std::string& name : found.taken) {
     const std::optional<Task> taken = read_task(text_of_file(file(name, kTaken)));
     const bool fits = taken && std::any_of(tasks.begin(), tasks.end(), [&](const Task& task) {
                         return task.name == name && task.key == taken->key;
@@ -90,8 +81,21 @@ void TaskQueue::offer(const Task& task) {
 }
 
 void TaskQueue::close() {
-  for (const std::string& name : names_with(folder_, kTask)) remove_file(file(name, kTask));
+  for (const std::string& name : list().waiting) remove_file(file(name, kTask));
   sim::write_text_file(folder_ / kStop, "");
+}
+
+TaskQueue::Listing TaskQueue::list() const {
+  Listing listing;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder_, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string ending = entry->path().extension().string();
+    if (ending == kTask) listing.waiting.insert(entry->path().stem().string());
+    if (ending == kTaken) listing.taken.insert(entry->path().stem().string());
+    if (ending == kEnded) listing.ended.insert(entry->path().stem().string());
+  }
+  return listing;
 }
 
 std::optional<TaskEnd> TaskQueue::end_of(const Task& task) const {
@@ -101,8 +105,6 @@ std::optional<TaskEnd> TaskQueue::end_of(const Task& task) const {
   if (end && end->key != task.key) return {};
   return end;
 }
-
-bool TaskQueue::is_waiting(const Task& task) const { return is_file(file(task.name, kTask)); }
 
 std::optional<double> TaskQueue::silence(const Task& task) const {
   const std::optional<double> heard = date_of(file(task.name, kTaken));
@@ -118,7 +120,7 @@ void TaskQueue::forget(const Task& task) {
 }
 
 std::optional<Task> TaskQueue::take() {
-  for (const std::string& name : names_with(folder_, kTask)) {
+  for (const std::string& name : list().waiting) {
     if (is_stopped()) return {};
     if (std::optional<Task> task = take(name)) return task;
   }

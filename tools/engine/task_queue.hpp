@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,12 @@ class TaskQueue {
   void offer(const Task& task);
   /// Takes back what nobody has taken, and asks workers to end.
   void close();
+  /// Names of tasks by how far they are, from one look at the folder.
+  struct Listing {
+    std::set<std::string> waiting, taken, ended;
+  };
+  Listing list() const;
   std::optional<TaskEnd> end_of(const Task& task) const;
-  bool is_waiting(const Task& task) const;
   /// Since whoever has taken it was last heard of, by the clock of the folder [s]; none: it is not
   /// taken.
   std::optional<double> silence(const Task& task) const;

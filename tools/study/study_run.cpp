@@ -273,6 +273,9 @@ std::vector<CaseRecord> run_cases(const Study& study, const std::vector<StudyCas
     else
       run_by_engine(runner, std::move(round), options, progress);
   }
+  // Workers that wait for more may go.
+  if (options.engine.kind != EngineKind::Local && all > 0)
+    TaskQueue(fs::absolute(options.directory) / "queue").close();
   return records;
 }
 

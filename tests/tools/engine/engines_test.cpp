@@ -8,7 +8,8 @@
 namespace articular::engines_test {
 
 const std::string kStudy =
-    "command = ['sh', '-c', \"printf 'time [s],y [mm]\\\\n0,%s\\\\n' {x * 2} > history.csv\"]\n"
+    "command = ['sh', '-c', \"sleep 0.1; printf 'time [s],y [mm]\\\\n0,%s\\\\n' {x * 2} > "
+    "history.csv\"]\n"
     "[[output]]\ncolumn = 'y [mm]'\n[population]\nsamples = 12\n"
     "[[parameter]]\nname = 'x'\ndistribution = 'uniform'\nlowest = 0\nhighest = 1\n";
 

