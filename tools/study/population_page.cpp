@@ -18,9 +18,10 @@ constexpr double kRoomForPictures = 1e6;  // of one case [bytes]
 /// null where there is none: JSON knows no NaN.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+/// "" of a plain number, which columns mark with "-".
 std::string unit_of_output(const StudyOutput& output) {
   const std::string unit = unit_of(output.column);
-  return unit.empty() ? "" : unit.substr(1);
+  return unit.empty() || unit == " -" ? "" : unit.substr(1);
 }
 
 Json parameters_of(const PopulationStudy& all) {

@@ -40,7 +40,9 @@ function barRows(rows, lowest, highest, mark) {
 
 /** The parameter that does most comes first. */
 function tornado(output, parameters) {
-  const known = output.bars.map(([low, high], i) => ({ low, high, ...{ p: parameters[i] } })).filter(({ low, high }) => low !== null && high !== null);
+  const all = output.bars.map(([low, high], i) => ({ low, high, p: parameters[i] }));
+  const known = all.filter(({ low, high }) => low !== null && high !== null);
+  const missing = all.filter((bar) => !known.includes(bar)).map(({ p }) => p.name);
   if (output.at_medians === null || known.length === 0) return [];
   known.sort((a, b) => Math.abs(b.high - b.low) - Math.abs(a.high - a.low));
   const ends = [output.at_medians, ...known.flatMap(({ low, high }) => [low, high])];
@@ -49,7 +51,8 @@ function tornado(output, parameters) {
     `${shortNumber(low)} at ${withUnit(p.low, p.unit)}, ${shortNumber(high)} at ${withUnit(p.high, p.unit)}`]);
   return [element('h3', {}, 'One parameter at a time'),
     element('p', {}, `All at their medians: ${withUnit(output.at_medians, output.unit)}. Blue: one alone at its 5 % quantile, orange: at 95 %.`),
-    barRows(rows, Math.min(...ends), Math.max(...ends), output.at_medians)];
+    barRows(rows, Math.min(...ends), Math.max(...ends), output.at_medians),
+    ...(missing.length > 0 ? [element('p', {}, `No bar, as a case failed: ${missing.join(', ')}.`)] : [])];
 }
 
 function indices(output, parameters, wanted) {
