@@ -19,10 +19,10 @@ TEST(Design, TheSeedDecidesOnThePoints) {
 TEST(Design, ThePointsAreTheSameEverywhere) {
   const Eigen::MatrixXd latin = unit_points(Design::LatinHypercube, 2, 4, 1);
   const Eigen::MatrixXd sobol = unit_points(Design::Sobol, 2, 4, 1);
-  EXPECT_NEAR(latin(0, 0), 0.1, 1e-15);
-  EXPECT_NEAR(latin(1, 3), 0.1, 1e-15);
-  EXPECT_NEAR(sobol(0, 0), 0.1, 1e-15);
-  EXPECT_NEAR(sobol(1, 3), 0.1, 1e-15);
+  EXPECT_NEAR(latin(0, 0), 0.25525605710418175, 1e-15);
+  EXPECT_NEAR(latin(1, 3), 0.055408418498349085, 1e-15);
+  EXPECT_NEAR(sobol(0, 0), 0.63387664401253274, 1e-15);
+  EXPECT_NEAR(sobol(1, 3), 0.51140703636619733, 1e-15);
 }
 
 TEST(Design, OneOfTheLatinPointsLiesInEachPartOfEachAxis) {

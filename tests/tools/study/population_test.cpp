@@ -244,8 +244,8 @@ TEST(Population, IndicesOfIshigamisFunctionAreThoseOfItsClosedForm) {
   const auto& indices = data.at("outputs")[0].at("indices");
   const double first[] = {0.3139, 0.4424, 0}, total[] = {0.5576, 0.4424, 0.2437};
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(indices[i].at("first")[0], first[i], 0.12) << i;  // of 128 rows
-    EXPECT_NEAR(indices[i].at("total")[0], total[i], 0.12) << i;
+    EXPECT_NEAR(indices[i].at("first")[0], first[i], 0.15) << i;  // of 128 rows
+    EXPECT_NEAR(indices[i].at("total")[0], total[i], 0.15) << i;
   }
 }
 
