@@ -43,6 +43,7 @@ void add_mandible(CLI::App& anatomy, int& exit_code) {
     double size_mm = 1.2;
     bool muscles = false;
     double muscle_size_mm = 4;
+    double scale = 1, slope_deg = kSlopeDeg;
     std::filesystem::path folder;
   };
   const auto options = std::make_shared<Options>();
@@ -56,13 +57,21 @@ void add_mandible(CLI::App& anatomy, int& exit_code) {
                    "Element size of the muscles in mm (3 to 6)")
       ->needs(muscles)
       ->capture_default_str();
+  mandible->add_option("--scale", options->scale, "Factor of all lengths (0.75 to 1.3)")
+      ->capture_default_str();
+  mandible
+      ->add_option("--slope", options->slope_deg,
+                   "Slope of the articular eminence in degrees (30 to 55)")
+      ->excludes(muscles)
+      ->capture_default_str();
   mandible->add_option("--out", options->folder, "Folder for the files, made if it is not there")
       ->required()
       ->type_name("DIR");
   mandible->callback([options, &exit_code] {
     const auto build = [&] {
-      Anatomy result = mandible_anatomy(options->size_mm);
+      Anatomy result = mandible_anatomy(options->size_mm, options->slope_deg);
       if (options->muscles) add_muscle_bodies(options->muscle_size_mm, result);
+      scale(result, options->scale);
       return result;
     };
     run(build, options->folder);
@@ -75,6 +84,7 @@ void add_knee(CLI::App& anatomy, int& exit_code) {
       "knee", "Right knee in extension: femur, tibia, their cartilage, menisci");
   struct Options {
     KneeResolution resolution;
+    KneeShape shape;
     std::filesystem::path folder;
   };
   const auto options = std::make_shared<Options>();
@@ -84,11 +94,17 @@ void add_knee(CLI::App& anatomy, int& exit_code) {
   knee->add_option("--layers", options->resolution.layers,
                    "Elements through their thickness (2 to 6)")
       ->capture_default_str();
+  knee->add_option("--scale", options->shape.scale,
+                   "Factor of all lengths but the thickness of cartilage (0.75 to 1.3)")
+      ->capture_default_str();
+  knee->add_option("--cartilage", options->shape.cartilage,
+                   "Factor of the thickness of cartilage (0.6 to 1.5)")
+      ->capture_default_str();
   knee->add_option("--out", options->folder, "Folder for the files, made if it is not there")
       ->required()
       ->type_name("DIR");
   knee->callback([options, &exit_code] {
-    run([&] { return knee_anatomy(options->resolution); }, options->folder);
+    run([&] { return knee_anatomy(options->resolution, options->shape); }, options->folder);
     exit_code = 0;
   });
 }

@@ -190,10 +190,10 @@ Sheet skull_sheet() {
 }
 
 /// Temporal bone around the joint: everything within 7 mm above the fossa surface, cut to a block.
-double temporal_block_distance(const Vec3& p) {
+double temporal_block_distance(const Vec3& p, const FossaProfile& fossa) {
   const Vec3 d = p - kCondyle;
   if (d.norm() > 45) return d.norm() - 40;
-  const double below = distance_below_fossa(d);
+  const double below = distance_below_fossa(d, fossa);
   const Vec3 half(12.5, 17, 10), center(0, -7, 7);
   const Vec3 box = (d - center).cwiseAbs() - half;
   const double box_distance = box.maxCoeff();
@@ -267,14 +267,14 @@ Distance mandible_distance() {
   };
 }
 
-Distance skull_distance() {
-  return [sheet = skull_sheet(), teeth = crowns(true)](const Vec3& p) {
-    const double bone = smooth_min(distance(sheet, p), temporal_block_distance(p), 2.0);
+Distance skull_distance(const FossaProfile& fossa) {
+  return [sheet = skull_sheet(), teeth = crowns(true), fossa](const Vec3& p) {
+    const double bone = smooth_min(distance(sheet, p), temporal_block_distance(p, fossa), 2.0);
     const double solid = smooth_min(bone, distance(teeth, p), 0.5);
     const Vec3 d = p - kCondyle;  // nothing may stand in the joint
     const bool joint =
         std::abs(d.x()) < 12 && d.y() < 9 && d.y() > -26 && d.z() > -12 && d.z() < 14;
-    return joint ? std::max(solid, distance_below_fossa(d)) : solid;
+    return joint ? std::max(solid, distance_below_fossa(d, fossa)) : solid;
   };
 }
 
@@ -282,8 +282,8 @@ Mesh mandible_surface(double h) {
   return contour_even(mandible_distance(), {-62, -56, 0}, {62, 44, 92}, h);
 }
 
-Mesh skull_surface(double h) {
-  return contour_even(skull_distance(), {-82, -56, 36}, {82, 66, 160}, h);
+Mesh skull_surface(double h, const FossaProfile& fossa) {
+  return contour_even(skull_distance(fossa), {-82, -56, 36}, {82, 66, 160}, h);
 }
 
 Mesh lower_teeth_sheet(double h) { return arch_strip(h, 0, true); }

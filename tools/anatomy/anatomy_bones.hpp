@@ -14,11 +14,11 @@ Mesh mandible_surface(double h);
 
 /// Closed surface: upper teeth and maxilla, zygomatic arches, temporal bones with fossa and
 /// eminence.
-Mesh skull_surface(double h);
+Mesh skull_surface(double h, const FossaProfile& fossa = usual_fossa());
 
 /// Signed distances from both bones before they are contoured, < 0 inside; to use for x >= 0.
 Distance mandible_distance();
-Distance skull_distance();
+Distance skull_distance(const FossaProfile& fossa = usual_fossa());
 
 /// Occlusal strips that meet at closed mouth with a gap of kOcclusalGap; normals up (lower), down
 /// (upper).

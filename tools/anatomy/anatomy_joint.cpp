@@ -19,56 +19,27 @@ constexpr double kSlopeDistance = 6.3;  // condyle centre to slope: head + 1.3 m
 constexpr double kRoofShift = 2.35;     // end of the roof arc above the point nearest to the head
 constexpr double kWallDeg = 75;         // postglenoid wall to the horizontal
 constexpr double kWallLength = 4;
+// Beyond 57 degrees roof and crest alone are higher than the eminence; below 30 the disc is too
+// thin.
+constexpr double kLeastSlopeDeg = 30, kMostSlopeDeg = 55;
 constexpr double kAnteriorDeg = 3;  // rise of the preglenoid plane before the crest
 constexpr double kAnteriorLength = 15;
 constexpr double kHeadExponent = 2.5;       // superellipse of the head in the frontal plane
 constexpr double kTroughCurvature = 0.018;  // [1/mm] fossa_drop = this * x²
 constexpr double kFossaHalfWidth = 13;
 
-/// One arc or line of the profile, from posterior to anterior.
-struct Piece {
-  Vec2 start;
-  double heading;    // at the start [rad], 0 = forward, > 0 = up
-  double curvature;  // [1/mm], > 0 turns up (convex eminence), < 0 concave roof, 0 line
-  double length;
-};
-
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 /// Downwards for a forward heading: into the joint.
 Vec2 inward(double heading) { return {std::sin(heading), -std::cos(heading)}; }
 
-Vec2 point_on(const Piece& p, double s) {
+Vec2 point_on(const ProfilePiece& p, double s) {
   if (p.curvature == 0) return p.start + s * direction(p.heading);
   const double r = 1 / p.curvature;
   return p.start - r * inward(p.heading) + r * inward(p.heading + s * p.curvature);
 }
 
-/// wall, roof, slope, crest, preglenoid plane
-const std::array<Piece, 5>& profile() {
-  static const std::array<Piece, 5> pieces = [] {
-    const double slope = kSlopeDeg * kDeg;
-    const double straight =
-        (kEminenceHeight - (kRoofRadius + kCrestRadius) * (1 - std::cos(slope))) / std::sin(slope);
-    // The slope is known: it passes the head at kSlopeDistance. Everything else is chained to it.
-    const Vec2 slope_start = -kSlopeDistance * inward(-slope) - kRoofShift * direction(-slope);
-    const Vec2 roof_center = slope_start + kRoofRadius * inward(-slope);
-    const Vec2 roof_start = roof_center - kRoofRadius * inward(kWallDeg * kDeg);
-    std::array<Piece, 5> chain = {{
-        {roof_start - kWallLength * direction(kWallDeg * kDeg), kWallDeg * kDeg, 0, kWallLength},
-        {roof_start, kWallDeg * kDeg, -1 / kRoofRadius, kRoofRadius * (kWallDeg * kDeg + slope)},
-        {slope_start, -slope, 0, straight},
-        {Vec2::Zero(), -slope, 1 / kCrestRadius, kCrestRadius * (slope + kAnteriorDeg * kDeg)},
-        {Vec2::Zero(), kAnteriorDeg * kDeg, 0, kAnteriorLength},
-    }};
-    chain[3].start = point_on(chain[2], chain[2].length);
-    chain[4].start = point_on(chain[3], chain[3].length);
-    return chain;
-  }();
-  return pieces;
-}
-
 /// Signed distance of q from one piece, > 0 on the joint's side.
-double signed_distance(const Piece& p, const Vec2& q) {
+double signed_distance(const ProfilePiece& p, const Vec2& q) {
   double s = 0;
   if (p.curvature == 0) {
     s = std::clamp((q - p.start).dot(direction(p.heading)), 0.0, p.length);
@@ -104,7 +75,8 @@ double smooth_min(double a, double b, double width) {
 /// Inner and outer radius of the disc on the ray at `angle` from the vertical (> 0 forward) in the
 /// sagittal plane at x.
 /// @param rim  0 in the middle of the disc, 1 at its outline
-std::pair<double, double> disc_radii(double angle, double x, double rim) {
+std::pair<double, double> disc_radii(const FossaProfile& fossa, double angle, double x,
+                                     double rim) {
   constexpr double kSteep = 1e-4;
   const double dr =
       (disc_lower_radius(std::abs(x) + kSteep) - disc_lower_radius(std::abs(x))) / kSteep;
@@ -114,7 +86,7 @@ std::pair<double, double> disc_radii(double angle, double x, double rim) {
   for (int i = 0; i < 60; ++i) {  // bisection to round-off: the distance falls along the ray
     const double middle = 0.5 * (low + high);
     const Vec2 q = middle * ray;
-    (distance_below_fossa({x, -q.x(), q.y()}) > kUpperClearance ? low : high) = middle;
+    (distance_below_fossa({x, -q.x(), q.y()}, fossa) > kUpperClearance ? low : high) = middle;
   }
   // Bands: 3 mm behind, 2 mm in front, less at the rim. Where the gap is narrower, the gap decides.
   const double forward = 0.5 * (1 + std::tanh((angle - 20 * kDeg) / (12 * kDeg)));
@@ -141,10 +113,38 @@ double condyle_radius(double x) {
   return kCondyleRadius * std::pow(1 - std::pow(t, kHeadExponent), 1 / kHeadExponent);
 }
 
-double distance_below_fossa(const Vec3& p) {
+FossaProfile fossa_profile(double slope_deg) {
+  if (!(slope_deg >= kLeastSlopeDeg && slope_deg <= kMostSlopeDeg))
+    throw std::invalid_argument("--slope: " + std::to_string(slope_deg) +
+                                " degrees: expected 30 to 55");
+  const double slope = slope_deg * kDeg;
+  const double straight =
+      (kEminenceHeight - (kRoofRadius + kCrestRadius) * (1 - std::cos(slope))) / std::sin(slope);
+  // The slope is known: it passes the head at kSlopeDistance. Everything else is chained to it.
+  const Vec2 slope_start = -kSlopeDistance * inward(-slope) - kRoofShift * direction(-slope);
+  const Vec2 roof_center = slope_start + kRoofRadius * inward(-slope);
+  const Vec2 roof_start = roof_center - kRoofRadius * inward(kWallDeg * kDeg);
+  FossaProfile chain = {{
+      {roof_start - kWallLength * direction(kWallDeg * kDeg), kWallDeg * kDeg, 0, kWallLength},
+      {roof_start, kWallDeg * kDeg, -1 / kRoofRadius, kRoofRadius * (kWallDeg * kDeg + slope)},
+      {slope_start, -slope, 0, straight},
+      {Vec2::Zero(), -slope, 1 / kCrestRadius, kCrestRadius * (slope + kAnteriorDeg * kDeg)},
+      {Vec2::Zero(), kAnteriorDeg * kDeg, 0, kAnteriorLength},
+  }};
+  chain[3].start = point_on(chain[2], chain[2].length);
+  chain[4].start = point_on(chain[3], chain[3].length);
+  return chain;
+}
+
+const FossaProfile& usual_fossa() {
+  static const FossaProfile usual = fossa_profile(kSlopeDeg);
+  return usual;
+}
+
+double distance_below_fossa(const Vec3& p, const FossaProfile& fossa) {
   const Vec2 q(-p.y(), p.z());
-  double nearest = signed_distance(profile()[0], q);
-  for (const Piece& piece : profile()) {
+  double nearest = signed_distance(fossa[0], q);
+  for (const ProfilePiece& piece : fossa) {
     const double d = signed_distance(piece, q);
     if (std::abs(d) < std::abs(nearest)) nearest = d;
   }
@@ -206,7 +206,7 @@ Mesh condyle_sheet(double h) {
   return to_mesh(nodes, triangles);
 }
 
-Mesh fossa_sheet(double h) {
+Mesh fossa_sheet(double h, const FossaProfile& fossa) {
   const int num_rows = 2 * static_cast<int>(std::lround(kFossaHalfWidth / h));
   std::vector<Vec3> nodes;
   std::vector<Eigen::Vector3i> triangles;
@@ -214,9 +214,9 @@ Mesh fossa_sheet(double h) {
   for (int row = 0; row <= num_rows; ++row) {
     const double x = kFossaHalfWidth * (2.0 * row / num_rows - 1);
     std::vector<int> current;
-    for (const Piece& piece : profile()) {
+    for (const ProfilePiece& piece : fossa) {
       const int segments = std::max(1, static_cast<int>(std::lround(piece.length / h)));
-      for (int i = piece.start == profile()[0].start ? 0 : 1; i <= segments; ++i) {
+      for (int i = piece.start == fossa[0].start ? 0 : 1; i <= segments; ++i) {
         const double s = piece.length * i / segments;
         const Vec2 q =
             point_on(piece, s) + fossa_drop(x) * inward(piece.heading + s * piece.curvature);
@@ -230,7 +230,7 @@ Mesh fossa_sheet(double h) {
   return to_mesh(nodes, triangles);
 }
 
-Mesh disc(double h) {
+Mesh disc(double h, const FossaProfile& fossa) {
   if (!(h >= 0.3 && h <= 2.5))
     throw std::invalid_argument("--size: element size " + std::to_string(h) +
                                 " mm: expected 0.3 to 2.5 mm");
@@ -241,10 +241,10 @@ Mesh disc(double h) {
   constexpr double kRound = 0.7;      // outline: 0 rectangle, 1 ellipse
   const CellGrid grid{even_cells(2 * kDiscHalfWidth, h, 4), even_cells(kArc, h, 4),
                       std::max(1, static_cast<int>(std::lround(kThickness / h)))};
-  return grid.fill([](double u, double v, double w) -> Vec3 {
+  return grid.fill([&fossa](double u, double v, double w) -> Vec3 {
     const double x = kDiscHalfWidth * u * std::sqrt(1 - kRound * v * v / 2);
     const double angle = kMiddle + kHalfAngle * v * std::sqrt(1 - kRound * u * u / 2);
-    const auto [inner, outer] = disc_radii(angle, x, std::max(std::abs(u), std::abs(v)));
+    const auto [inner, outer] = disc_radii(fossa, angle, x, std::max(std::abs(u), std::abs(v)));
     const double r = inner + (outer - inner) * w;
     return kCondyle + Vec3(x, -r * std::sin(angle), r * std::cos(angle));
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "tools/anatomy/anatomy_mesh.hpp"
@@ -36,24 +37,40 @@ constexpr double kDiscHalfWidth = 11;    // 22 mm mediolateral
 constexpr double kLowerClearance = 0.045;
 constexpr double kUpperClearance = 0.03;
 
+/// One arc or line of the fossa's profile, from posterior to anterior.
+struct ProfilePiece {
+  Vec2 start;
+  double heading;    // at the start [rad], 0 = forward, > 0 = up
+  double curvature;  // [1/mm], > 0 turns up (convex eminence), < 0 concave roof, 0 line
+  double length;
+};
+
+/// Wall, roof, slope, crest, preglenoid plane.
+using FossaProfile = std::array<ProfilePiece, 5>;
+
+/// @throws std::invalid_argument  for a slope outside [30, 55] degrees
+FossaProfile fossa_profile(double slope_deg);
+/// That with kSlopeDeg.
+const FossaProfile& usual_fossa();
+
 /// Radius of the condyle head at the mediolateral distance x from its centre, |x| <=
 /// kCondyleHalfWidth.
 double condyle_radius(double x);
 
 /// Signed distance from the fossa surface, > 0 below it (in the joint), near the joint.
 /// @param p  relative to the condyle centre
-double distance_below_fossa(const Vec3& p);
+double distance_below_fossa(const Vec3& p, const FossaProfile& fossa = usual_fossa());
 
 /// Upper part of the head as an open sheet, outward normals.
 /// @param h  edge length
 Mesh condyle_sheet(double h);
 
 /// Postglenoid wall, roof, slope, crest and 15 mm beyond it, normals into the joint.
-Mesh fossa_sheet(double h);
+Mesh fossa_sheet(double h, const FossaProfile& fossa = usual_fossa());
 
 /// The disc: tetrahedra of edge h along the surface, two layers at h = 1.2 mm.
 /// @throws std::invalid_argument for h outside [0.3, 2.5] mm
-Mesh disc(double h);
+Mesh disc(double h, const FossaProfile& fossa = usual_fossa());
 
 /// The same on the other side: x -> -x, orientation kept outward.
 Mesh mirrored(const Mesh& mesh);

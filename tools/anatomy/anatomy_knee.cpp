@@ -1,5 +1,9 @@
 #include "tools/anatomy/anatomy_knee.hpp"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
+
 #include "tools/anatomy/anatomy_knee_bones.hpp"
 
 namespace articular::anatomy {
@@ -7,14 +11,27 @@ namespace {
 
 constexpr double kBoneGrid = 1.2;  // contouring grid
 
+/// Thickness is that of the knee before it is scaled.
+Compartment with_cartilage(Compartment c, double factor) {
+  c.femoral_thickness *= factor;
+  c.tibial_thickness *= factor;
+  return c;
+}
+
 }  // namespace
 
-Anatomy knee_anatomy(const KneeResolution& resolution) {
+Anatomy knee_anatomy(const KneeResolution& resolution, const KneeShape& shape) {
   check_resolution(resolution);
+  if (!(shape.cartilage >= 0.6 && shape.cartilage <= 1.5))
+    throw std::invalid_argument(
+        fmt::format("--cartilage: {}: expected 0.6 to 1.5", shape.cartilage));
+  const double factor = shape.cartilage / shape.scale;
+  const Compartment medial = with_cartilage(medial_compartment(), factor),
+                    lateral = with_cartilage(lateral_compartment(), factor);
   Anatomy anatomy;
-  anatomy.meshes["femur.vtp"] = femur_surface(kBoneGrid);
-  anatomy.meshes["tibia.vtp"] = tibia_surface(kBoneGrid);
-  for (const Compartment* c : {&medial_compartment(), &lateral_compartment()}) {
+  anatomy.meshes["femur.vtp"] = femur_surface(kBoneGrid, medial, lateral);
+  anatomy.meshes["tibia.vtp"] = tibia_surface(kBoneGrid, medial, lateral);
+  for (const Compartment* c : {&medial, &lateral}) {
     const std::string side = c->side > 0 ? "medial" : "lateral";
     anatomy.meshes["femoral_cartilage_" + side + ".vtu"] = femoral_cartilage(*c, resolution);
     anatomy.meshes["tibial_cartilage_" + side + ".vtu"] = tibial_cartilage(*c, resolution);
@@ -26,6 +43,7 @@ Anatomy knee_anatomy(const KneeResolution& resolution) {
          "tibial_cartilage_" + side,
          {c->side * kCompartmentX, 0, plateau_height(*c, c->side * kCompartmentX, 0)}});
   }
+  scale(anatomy, shape.scale);
   return anatomy;
 }
 

@@ -5,9 +5,15 @@
 
 namespace articular::anatomy {
 
+/// How a knee differs from the usual one.
+struct KneeShape {
+  double scale = 1;      // of everything but the thickness of cartilage
+  double cartilage = 1;  // factor of the mean thickness of each cartilage
+};
+
 /// A right knee in extension: bones, cartilage of both condyles and plateaus, menisci, and the
-/// points that scenarios refer to. Nothing overlaps.
-/// @throws std::invalid_argument see check_resolution
-Anatomy knee_anatomy(const KneeResolution& resolution);
+/// points that scenarios refer to. Nothing overlaps. A larger knee has larger elements, not more.
+/// @throws std::invalid_argument see check_resolution, scale; for `cartilage` outside [0.6, 1.5]
+Anatomy knee_anatomy(const KneeResolution& resolution, const KneeShape& shape = {});
 
 }  // namespace articular::anatomy

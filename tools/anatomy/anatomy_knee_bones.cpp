@@ -38,31 +38,38 @@ double loft_distance(const std::vector<Section>& sections, const Vec3& p) {
   return std::max((level - 1) * std::min(width, depth), std::max(low - p.z(), p.z() - high));
 }
 
-const std::array<const Compartment*, 2>& compartments() {
-  static const std::array<const Compartment*, 2> both = {&medial_compartment(),
-                                                         &lateral_compartment()};
-  return both;
-}
+/// A compartment with what takes long to find.
+struct Side {
+  explicit Side(const Compartment& compartment)
+      : c(compartment),
+        femoral_thickness(femoral_full_thickness(compartment)),
+        tibial_thickness(tibial_full_thickness(compartment)) {}
+  Compartment c;
+  double femoral_thickness, tibial_thickness;  // full, see rim_taper()
+};
+using Sides = std::array<Side, 2>;  // medial, lateral
 
 /// Distance to the surface that a condyle's cartilage grows on, and whether it is covered there.
 struct Covered {
   double distance;
   bool covered;
 };
-Covered below_femoral_cartilage(const Compartment& c, const Vec3& p) {
+Covered below_femoral_cartilage(const Side& side, const Vec3& p) {
+  const Compartment& c = side.c;
   const CondylePlace place = condyle_place(c, p);
   const auto [u, v] = femoral_place(c, place.phi, place.alpha);
-  return {place.distance + femoral_full_thickness(c) * rim_taper(u, v),
+  return {place.distance + side.femoral_thickness * rim_taper(u, v),
           std::max(std::abs(u), std::abs(v)) < kBeyond};
 }
 
-double condyle_distance(const Compartment& c, const Vec3& p) {
+double condyle_distance(const Side& side, const Vec3& p) {
+  const Compartment& c = side.c;
   const double half_width = (c.coronal_radius - 1) * std::sin(c.coronal_angle) + 2.5;
   const double wall = std::abs(p.x() - c.side * kCompartmentX) - half_width;
-  return std::max({below_femoral_cartilage(c, p).distance, wall, p.z() - kCondyleTop});
+  return std::max({below_femoral_cartilage(side, p).distance, wall, p.z() - kCondyleTop});
 }
 
-double femur_distance(const Vec3& p) {
+double femur_distance(const Sides& sides, const Vec3& p) {
   static const std::vector<Section> shaft = {
       {23, 34, 17, -6},    {32, 36, 22, -8},    {42, 32, 21, -10}, {56, 23, 18, -12},
       {75, 16.5, 14, -11}, {100, 13.5, 13, -8}, {119, 13, 13, -5}};
@@ -75,33 +82,35 @@ double femur_distance(const Vec3& p) {
     return sheet;
   }();
   double bone = smooth_min(loft_distance(shaft, p), distance(front, p), 6);
-  for (const Compartment* c : compartments()) bone = smooth_min(bone, condyle_distance(*c, p), 4);
-  for (const Compartment* c : compartments()) {
-    const Covered below = below_femoral_cartilage(*c, p);
-    const bool beside = p.x() * c->side > kNotch && p.z() < kCondyleTop;
+  for (const Side& side : sides) bone = smooth_min(bone, condyle_distance(side, p), 4);
+  for (const Side& side : sides) {
+    const Covered below = below_femoral_cartilage(side, p);
+    const bool beside = p.x() * side.c.side > kNotch && p.z() < kCondyleTop;
     if (below.covered && beside) bone = std::max(bone, below.distance);
   }
   return bone;
 }
 
 /// Height of the surface that a plateau's cartilage grows on; it goes on beyond, then levels off.
-double plateau_floor(const Compartment& c, const Vec3& p) {
+double plateau_floor(const Side& side, const Vec3& p) {
+  const Compartment& c = side.c;
   const Eigen::Vector2d place = plateau_place(c, p.x(), p.y());
   const Eigen::Vector2d inside = plateau_point(c, std::clamp(place.x(), -kBeyond, kBeyond),
                                                std::clamp(place.y(), -kBeyond, kBeyond));
   const double slope = plateau_normal(c, inside.x(), inside.y()).z();
   return plateau_height(c, inside.x(), inside.y()) -
-         tibial_full_thickness(c) * rim_taper(place.x(), place.y()) / slope;
+         side.tibial_thickness * rim_taper(place.x(), place.y()) / slope;
 }
 
 /// The bone under a plateau, to some depth.
-double plateau_distance(const Compartment& c, const Vec3& p) {
+double plateau_distance(const Side& side, const Vec3& p) {
+  const Compartment& c = side.c;
   constexpr double kDepth = 12;
   const double beyond = plateau_place(c, p.x(), p.y()).cwiseAbs().maxCoeff() - 1.15;
-  return std::max({p.z() - plateau_floor(c, p), beyond * c.half_width, -kDepth - p.z()});
+  return std::max({p.z() - plateau_floor(side, p), beyond * c.half_width, -kDepth - p.z()});
 }
 
-double tibia_distance(const Vec3& p) {
+double tibia_distance(const Sides& sides, const Vec3& p) {
   static const std::vector<Section> body = {
       {-119, 12.5, 14, -4}, {-95, 14, 16, -4},  {-70, 17, 18, -3}, {-48, 22, 20, -1},
       {-30, 31, 23, 1},     {-16, 36.5, 25, 1}, {8, 37.5, 25, 1}};
@@ -118,24 +127,32 @@ double tibia_distance(const Vec3& p) {
     add_rods(sheet, {{-4.5, 1, -4, 4}, {-4.5, 1, 3, 2}});
     return sheet;
   }();
-  const Compartment &medial = medial_compartment(), &lateral = lateral_compartment();
   const double share = std::clamp(p.x() / kCompartmentX * 2 + 0.5, 0.0, 1.0);
   const double top =
-      p.z() - (share * plateau_floor(medial, p) + (1 - share) * plateau_floor(lateral, p));
+      p.z() - (share * plateau_floor(sides[0], p) + (1 - share) * plateau_floor(sides[1], p));
   double trunk = std::max(loft_distance(body, p), top);
-  for (const Compartment* c : compartments()) trunk = smooth_min(trunk, plateau_distance(*c, p), 3);
+  for (const Side& side : sides) trunk = smooth_min(trunk, plateau_distance(side, p), 3);
   double bone = smooth_min(smooth_min(trunk, distance(eminence, p), 4), distance(added, p), 5);
-  for (const Compartment* c : compartments()) {
-    const Eigen::Vector2d place = plateau_place(*c, p.x(), p.y());
+  for (const Side& side : sides) {
+    const Eigen::Vector2d place = plateau_place(side.c, p.x(), p.y());
     if (place.cwiseAbs().maxCoeff() < kBeyond && p.z() > -10)
-      bone = std::max(bone, p.z() - plateau_floor(*c, p));
+      bone = std::max(bone, p.z() - plateau_floor(side, p));
   }
   return bone;
 }
 
 }  // namespace
 
-Mesh femur_surface(double h) { return contour(femur_distance, {-46, -50, -8}, {46, 44, 123}, h); }
-Mesh tibia_surface(double h) { return contour(tibia_distance, {-50, -36, -123}, {44, 32, 12}, h); }
+Mesh femur_surface(double h, const Compartment& medial, const Compartment& lateral) {
+  const Sides sides{Side(medial), Side(lateral)};
+  return contour([&](const Vec3& p) { return femur_distance(sides, p); }, {-46, -50, -8},
+                 {46, 44, 123}, h);
+}
+
+Mesh tibia_surface(double h, const Compartment& medial, const Compartment& lateral) {
+  const Sides sides{Side(medial), Side(lateral)};
+  return contour([&](const Vec3& p) { return tibia_distance(sides, p); }, {-50, -36, -123},
+                 {44, 32, 12}, h);
+}
 
 }  // namespace articular::anatomy

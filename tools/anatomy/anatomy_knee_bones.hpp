@@ -1,13 +1,13 @@
 #pragma once
 
-#include "tools/anatomy/anatomy_mesh.hpp"
+#include "tools/anatomy/anatomy_knee_joint.hpp"
 
 /// Distal femur and proximal tibia with fibula, of the right knee in extension: closed surfaces to
 /// look at. Below the cartilage they are the surface that it grows on. mm.
 namespace articular::anatomy {
 
 /// @param h  spacing of the contoured grid
-Mesh femur_surface(double h);
-Mesh tibia_surface(double h);
+Mesh femur_surface(double h, const Compartment& medial, const Compartment& lateral);
+Mesh tibia_surface(double h, const Compartment& medial, const Compartment& lateral);
 
 }  // namespace articular::anatomy

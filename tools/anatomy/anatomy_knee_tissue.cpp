@@ -173,23 +173,15 @@ CartilagePlace femoral_place(const Compartment& c, double phi, double alpha) {
 }
 
 double femoral_full_thickness(const Compartment& c) {
-  const auto find = [](const Compartment& one) {
-    return full_thickness(kFine, one.femoral_thickness, [&](const CellGrid& grid, double full) {
-      return femoral_layer(one, grid, full);
-    });
-  };
-  static const double medial = find(medial_compartment()), lateral = find(lateral_compartment());
-  return c.side > 0 ? medial : lateral;
+  return full_thickness(kFine, c.femoral_thickness, [&](const CellGrid& grid, double full) {
+    return femoral_layer(c, grid, full);
+  });
 }
 
 double tibial_full_thickness(const Compartment& c) {
-  const auto find = [](const Compartment& one) {
-    return full_thickness(kFine, one.tibial_thickness, [&](const CellGrid& grid, double full) {
-      return tibial_layer(one, grid, full);
-    });
-  };
-  static const double medial = find(medial_compartment()), lateral = find(lateral_compartment());
-  return c.side > 0 ? medial : lateral;
+  return full_thickness(kFine, c.tibial_thickness, [&](const CellGrid& grid, double full) {
+    return tibial_layer(c, grid, full);
+  });
 }
 
 Mesh femoral_cartilage(const Compartment& c, const KneeResolution& resolution) {

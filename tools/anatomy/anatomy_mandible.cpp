@@ -166,13 +166,14 @@ std::vector<MuscleRow> mandible_muscles() {
   return rows;
 }
 
-Anatomy mandible_anatomy(double disc_edge) {
+Anatomy mandible_anatomy(double disc_edge, double slope_deg) {
+  const FossaProfile fossa = fossa_profile(slope_deg);
   Anatomy anatomy;
-  add_both_sides("disc", ".vtu", disc(disc_edge), anatomy);
+  add_both_sides("disc", ".vtu", disc(disc_edge, fossa), anatomy);
   add_both_sides("condyle", ".vtp", condyle_sheet(kSheetEdge), anatomy);
-  add_both_sides("fossa", ".vtp", fossa_sheet(kSheetEdge), anatomy);
+  add_both_sides("fossa", ".vtp", fossa_sheet(kSheetEdge, fossa), anatomy);
   anatomy.meshes["mandible.vtp"] = mandible_surface(kMandibleGrid);
-  anatomy.meshes["skull.vtp"] = skull_surface(kSkullGrid);
+  anatomy.meshes["skull.vtp"] = skull_surface(kSkullGrid, fossa);
   anatomy.meshes["lower_teeth.vtp"] = lower_teeth_sheet(kTeethEdge);
   anatomy.meshes["upper_teeth.vtp"] = upper_teeth_sheet(kTeethEdge);
   anatomy.muscles = mandible_muscles();

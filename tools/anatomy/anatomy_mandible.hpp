@@ -7,8 +7,9 @@
 namespace articular::anatomy {
 
 /// @param disc_edge  element size of the discs
-/// @throws std::invalid_argument for disc_edge outside [0.3, 2.5] mm
-Anatomy mandible_anatomy(double disc_edge);
+/// @param slope_deg  of the eminence's posterior face
+/// @throws std::invalid_argument for disc_edge outside [0.3, 2.5] mm; see fossa_profile()
+Anatomy mandible_anatomy(double disc_edge, double slope_deg = kSlopeDeg);
 
 /// Adds the closing muscles of both sides as tissue, and the parts of the bones that they touch.
 /// @param element_size  of the muscles

@@ -2,7 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 namespace articular::anatomy {
+
+void scale(Anatomy& anatomy, double factor) {
+  if (!(factor >= 0.75 && factor <= 1.3))
+    throw std::invalid_argument(fmt::format("--scale: {}: expected 0.75 to 1.3", factor));
+  for (auto& [name, mesh] : anatomy.meshes) mesh.X_mm *= factor;
+  for (MuscleRow& muscle : anatomy.muscles) {
+    muscle.upper *= factor;
+    muscle.lower *= factor;
+  }
+  for (Landmark& landmark : anatomy.landmarks) landmark.point *= factor;
+}
 
 std::string muscles_csv(const std::vector<MuscleRow>& muscles) {
   std::string text =

@@ -33,6 +33,10 @@ struct Anatomy {
   std::vector<Landmark> landmarks;
 };
 
+/// Everything larger or smaller; angles, forces and ratios stay.
+/// @throws std::invalid_argument  for a factor outside [0.75, 1.3]
+void scale(Anatomy& anatomy, double factor);
+
 /// The text of muscles.csv and landmarks.csv.
 std::string muscles_csv(const std::vector<MuscleRow>& muscles);
 std::string landmarks_csv(const std::vector<Landmark>& landmarks);

@@ -1,10 +1,9 @@
 #include "tools/fit/fit_file.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <stdexcept>
 
 #include "tools/fit/parameter_text.hpp"
+#include "tools/study/number_with_unit.hpp"
 
 namespace articular::tools {
 namespace {
@@ -16,55 +15,6 @@ namespace form = sim::form;
 
 constexpr const char* kOnlyRun = "run";
 constexpr double kStepPerSpread = 0.05;
-
-/// "2 mm" as 2 and "mm"; a bare number has no unit.
-struct NumberWithUnit {
-  double number;
-  std::string unit;
-};
-
-NumberWithUnit read_with_unit(const Node& node) {
-  if (node.text() == nullptr) return {sim::read_number(node, sim::kAny), ""};
-  const std::string& text = *node.text();
-  NumberWithUnit result{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result.number);
-  const std::size_t unit = text.find_first_not_of(' ', static_cast<std::size_t>(end - text.data()));
-  if (error != std::errc() || unit == std::string::npos || end == text.data() + unit)
-    sim::fail(node, "expected a number, or a number with a unit such as \"2 mm\", found " +
-                        sim::found(node));
-  result.unit = text.substr(unit);
-  return result;
-}
-
-sim::MeasuredUnit unit_of(const Node& node, const std::string& unit) {
-  if (unit.empty()) return {};
-  try {
-    return sim::parse_any_unit(unit);
-  } catch (const std::invalid_argument& error) {
-    sim::fail(node, error.what());
-  }
-}
-
-/// The number of a value in the unit of the parameter.
-double in_unit(const Node& node, const std::string& unit) {
-  const NumberWithUnit value = read_with_unit(node);
-  const sim::MeasuredUnit own = unit_of(node, value.unit), wanted = unit_of(node, unit);
-  if (own.dimension != wanted.dimension || value.unit.empty() != unit.empty())
-    sim::fail(node, unit.empty() ? "expected a bare number, as `start` is one"
-                                 : fmt::format("expected a value in `{}`, as `start`", unit));
-  return value.unit == unit ? value.number : value.number * own.size / wanted.size;
-}
-
-bool is_name(const std::string& text) {
-  const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
-  return std::isalpha(static_cast<unsigned char>(text[0])) != 0 &&
-         std::all_of(text.begin(), text.end(), is_word);
-}
-
-/// A bare number, or a text with a unit: see read_with_unit().
-sim::KeyType number_with_unit() {
-  return {form::Either{{{form::Number{sim::kAny}}, {form::Text{"number with a unit"}}}}};
-}
 
 const KeyTable& parameter_keys() {
   static const KeyTable kTable{
@@ -88,16 +38,15 @@ FitParameter read_parameter(const Node& node) {
   const TableReader table(node, parameter_keys(), "[[parameter]]");
   FitParameter parameter;
   parameter.name = sim::read_text(table.at("name"));
-  if (!is_name(parameter.name))
+  if (!is_parameter_name(parameter.name))
     sim::fail(table.at("name"), "expected a name of letters, digits and _, such as `acl_strain`");
   table.read("path", parameter.path);
   const NumberWithUnit start = read_with_unit(table.at("start"));
   parameter.start = start.number;
   parameter.unit = start.unit;
-  unit_of(table.at("start"), start.unit);
-  const auto read = [&](const Node& n) { return in_unit(n, parameter.unit); };
+  const auto read = [&](const Node& n) { return in_unit(n, parameter.unit, "start"); };
   const auto read_positive = [&](const Node& n) {
-    const double value = in_unit(n, parameter.unit);
+    const double value = in_unit(n, parameter.unit, "start");
     if (!(value > 0)) sim::fail(n, "must be positive, found " + sim::found(n));
     return value;
   };

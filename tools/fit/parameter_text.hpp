@@ -2,19 +2,15 @@
 
 #include <Eigen/Core>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tools/fit/fit_file.hpp"
+#include "tools/study/braces.hpp"
 
 /// Parameters of a fit as overrides of a scenario.
 namespace articular::tools {
 
 std::vector<std::string> parameter_names(const std::vector<FitParameter>& parameters);
-
-/// The names in {NAME}, {NAME + 2} and {NAME - 2}. Other braces, as of a TOML table, are left
-/// alone.
-std::vector<std::string> names_in_braces(std::string_view text);
 
 /// What `run --set` is told in this run for these values of the parameters, in their units: the
 /// run's own overrides with numbers for names in braces, then the paths of parameters.

@@ -10,7 +10,8 @@ namespace articular::tools {
 
 /// What a program used, and how it ended.
 struct ProgramUse {
-  enum class End { Exited, Signalled, TimeLimit, Interrupted };
+  /// Lost: it ran on another machine, and nobody knows.
+  enum class End { Exited, Signalled, TimeLimit, Interrupted, Lost };
   End end = End::Exited;
   int code = 0;  // exit code, or number of the signal
   double wall_seconds = 0, cpu_seconds = 0, peak_megabytes = 0;

@@ -17,6 +17,7 @@
 #include "sim/base/version.hpp"
 #include "tools/anatomy/anatomy.hpp"
 #include "tools/collide/collide_command.hpp"
+#include "tools/engine/work_command.hpp"
 #include "tools/fit/fit_command.hpp"
 #include "tools/import/import_command.hpp"
 #include "tools/keys/keys_command.hpp"
@@ -84,6 +85,7 @@ int run_program(int argc, char** argv) {
   articular::tools::add_plot_command(app, exit_code);
   articular::tools::add_report_command(app, exit_code);
   articular::tools::add_study_command(app, exit_code);
+  articular::tools::add_work_command(app, exit_code);
   articular::tools::add_fit_command(app, exit_code);
   articular::tools::add_verify_command(app, exit_code);
   articular::tools::add_collide_command(app, exit_code);

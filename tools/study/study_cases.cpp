@@ -65,9 +65,10 @@ std::string folder_name(const std::string& name) {
   return folder;
 }
 
-/// Gives each case a folder of its own. Letter case does not tell folders apart everywhere.
+}  // namespace
+
 void name_folders(std::vector<StudyCase>& cases) {
-  std::set<std::string> taken;
+  std::set<std::string> taken;  // letter case does not tell folders apart everywhere
   std::map<std::string, int> last_number;
   const auto lower = [](std::string text) {
     for (char& letter : text)
@@ -81,8 +82,6 @@ void name_folders(std::vector<StudyCase>& cases) {
       c.folder = fmt::format("{}-{}", wanted, ++last);
   }
 }
-
-}  // namespace
 
 std::vector<StudyCase> study_cases(const Study& study) {
   std::vector<StudyCase> cases =

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "sim/scenario/toml_reader.hpp"
+#include "tools/study/braces.hpp"
+#include "tools/study/population_file.hpp"
 
 namespace articular::tools {
 namespace {
@@ -172,26 +174,68 @@ void check_references(const Node& root, const Study& study) {
                           "or `exact` in every [[output]], or in none");
 }
 
+/// Every name in braces is a parameter, and every parameter changes something.
+void check_population(const TableReader& document, const Study& study) {
+  const std::vector<PopulationParameter>& parameters = study.population->parameters;
+  std::vector<std::string> names, used;
+  for (const PopulationParameter& parameter : parameters) names.push_back(parameter.name);
+  const auto look = [&](const std::vector<std::string>& texts, const char* key) {
+    for (const std::string& text : texts)
+      for (const std::string& name : names_in_braces(text)) {
+        if (std::find(names.begin(), names.end(), name) == names.end())
+          sim::fail(document.at(key),
+                    fmt::format("no [[parameter]] `{}`{}", name, sim::suggestion(name, names)));
+        used.push_back(name);
+      }
+  };
+  look(study.settings.overrides, "set");
+  look(study.settings.prepare, "prepare");
+  look(study.command, "command");
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const PopulationParameter& parameter = parameters[i];
+    const Node& node = (*document.find("parameter")->list())[i];
+    if (!study.command.empty() && !parameter.path.empty())
+      sim::fail(*node.find("path"), "a `command` has no values with paths; expected {" +
+                                        parameter.name + "} in one of its words");
+    if (parameter.path.empty() && std::find(used.begin(), used.end(), parameter.name) == used.end())
+      sim::fail(node, fmt::format("parameter `{0}` changes nothing; expected its `path`, or "
+                                  "{{{0}}} in `set`, `prepare` or `command`",
+                                  parameter.name));
+  }
+  for (std::size_t o = 0; o < study.outputs.size(); ++o)
+    if (study.outputs[o].value == StudyValue::History || study.outputs[o].scale ||
+        study.outputs[o].exact)
+      sim::fail((*document.find("output")->list())[o],
+                "`exact`, `scale` and the difference from a history compare with what is right, "
+                "and a [population] is compared with nothing");
+}
+
 }  // namespace
 
 const KeyTable& study_keys() {
   static const KeyTable kTable = [] {
     KeyTable table = with_settings(
-        "study",
-        {{"title", {form::Text{"text"}}, sim::otherwise("file name"), "for reports"},
-         {"scenario", {form::Text{"path"}}, sim::kRequired, "the base, from the study's folder"},
-         {"repeats",
-          {form::Integer{1, kMostRepeats}},
-          sim::standard(1.0),
-          "runs of each case; times are medians"},
-         {"combine",
-          {form::Choice{{{"each", false}, {"all", true}}}},
-          sim::standard("each"),
-          "each choice of each knob alone, or every combination of choices"},
-         {"time_limit",
-          {form::Quantity{sim::kTime, sim::kPositive}},
-          sim::kNone,
-          "a run that takes longer is stopped"}});
+        "study", {{"title", {form::Text{"text"}}, sim::otherwise("file name"), "for reports"},
+                  {"scenario",
+                   {form::Text{"path"}},
+                   sim::otherwise("or `command`"),
+                   "the base, from the study's folder"},
+                  {"command",
+                   {sim::list_of({form::Text{"text"}})},
+                   sim::otherwise("or `scenario`"),
+                   "of a population: a program that writes history.csv where it is started"},
+                  {"repeats",
+                   {form::Integer{1, kMostRepeats}},
+                   sim::standard(1.0),
+                   "runs of each case; times are medians"},
+                  {"combine",
+                   {form::Choice{{{"each", false}, {"all", true}}}},
+                   sim::standard("each"),
+                   "each choice of each knob alone, or every combination of choices"},
+                  {"time_limit",
+                   {form::Quantity{sim::kTime, sim::kPositive}},
+                   sim::kNone,
+                   "a run that takes longer is stopped"}});
     const auto add = [&](std::string_view name, const KeyTable& (*keys)(), sim::Absence absence,
                          std::string_view meaning) {
       table.keys.push_back({name, {sim::entries_of({form::Table{keys}})}, absence, meaning});
@@ -199,6 +243,12 @@ const KeyTable& study_keys() {
     add("knob", knob_keys, sim::kNone, "what is varied");
     add("case", case_keys, sim::kNone, "a case beside those of the knobs");
     add("output", output_keys, sim::kRequired, "what is compared");
+    table.keys.push_back({"population",
+                          {form::Table{population_keys}},
+                          sim::kNone,
+                          "cases are drawn at random, and nothing says what is right"});
+    add("parameter", population_parameter_keys, sim::kNone, "what is drawn for a population");
+    add("correlation", population_correlation_keys, sim::kNone, "of two parameters");
     add("reference", reference_keys, sim::otherwise("or `exact` of every output; neither: a sweep"),
         "what is right: a converged run, or three to extrapolate from");
     return table;
@@ -219,7 +269,11 @@ Study read_study(const std::filesystem::path& file) {
   study.name = file.stem().string();
   study.title = study.name;
   document.read("title", study.title);
-  study.scenario = file.parent_path() / sim::read_text(document.at("scenario"));
+  if (&document.exactly_one({"scenario", "command"}) == document.find("scenario"))
+    study.scenario = file.parent_path() / sim::read_text(document.at("scenario"));
+  else
+    for (const Node& word : sim::read_list(document.at("command"), "a list of texts"))
+      study.command.push_back(sim::read_text(word));
   study.settings = read_settings(document);
   document.read("repeats", study.repeats);
   document.read("combine", study.every_combination);
@@ -242,7 +296,17 @@ Study read_study(const std::filesystem::path& file) {
     study.outputs.push_back(std::move(output));
   }
   study.references = read_references(document);
-  check_references(root, study);
+  if (document.find("population") == nullptr) {
+    document.refuse({"parameter", "correlation", "command"}, "they go with [population]");
+    check_references(root, study);
+    return study;
+  }
+  document.refuse({"knob", "case", "reference", "repeats", "combine"},
+                  "a [population] is drawn, and nothing is compared with it");
+  if (!study.command.empty())
+    document.refuse({"set", "threads", "prepare"}, "they go with `scenario`");
+  study.population = read_population(document, file.parent_path());
+  check_population(document, study);
   return study;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/study/population.hpp"
 #include "tools/study/study_settings.hpp"
 
 /// STUDY.toml: a scenario, what to vary in it, what to look at, and what is right. tools/study/README.md
@@ -46,8 +47,9 @@ struct StudyReference {
 
 struct Study {
   std::filesystem::path file, scenario;
-  std::string name, title;  // name: the file's, without its ending
-  StudySettings settings;   // of every run
+  std::vector<std::string> command;  // in place of the scenario
+  std::string name, title;           // name: the file's, without its ending
+  StudySettings settings;            // of every run
   int repeats = 1;
   bool every_combination = false;    // of the knobs' choices; else one knob at a time
   std::optional<double> time_limit;  // of a run [s]
@@ -55,6 +57,7 @@ struct Study {
   std::vector<StudyExtra> extras;
   std::vector<StudyOutput> outputs;
   std::vector<StudyReference> references;  // finest first; one, two or three of them, or none
+  std::optional<Population> population;
 
   /// Nothing says what is right: only the outputs of the cases are listed.
   bool is_sweep() const;

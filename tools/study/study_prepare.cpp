@@ -18,6 +18,18 @@ using End = ProgramUse::End;
 
 }  // namespace
 
+std::vector<std::string> prepare_command(const fs::path& folder,
+                                         const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{this_program().string()};
+  for (std::string argument : arguments) {
+    const std::string pattern = std::string("${") + kPrepared + "}";
+    if (const auto at = argument.find(pattern); at != std::string::npos)
+      argument.replace(at, pattern.size(), folder.string());
+    command.push_back(argument);
+  }
+  return command;
+}
+
 std::string prepare_meshes(const fs::path& folder, const std::vector<std::string>& arguments,
                            bool fresh) {
   const std::string program = this_program().string();
@@ -26,13 +38,7 @@ std::string prepare_meshes(const fs::path& folder, const std::vector<std::string
   if (!fresh && text_of(done) == key) return "";
   fs::create_directories(folder);
   fs::remove(done);
-  std::vector<std::string> command{program};
-  for (std::string argument : arguments) {
-    const std::string pattern = std::string("${") + kPrepared + "}";
-    if (const auto at = argument.find(pattern); at != std::string::npos)
-      argument.replace(at, pattern.size(), folder.string());
-    command.push_back(argument);
-  }
+  const std::vector<std::string> command = prepare_command(folder, arguments);
   const fs::path log = folder / "log";
   const ProgramUse use = run_measured(command, {}, log, {}, interruption_asked);
   if (use.end == End::Interrupted) throw StudyInterrupted{};
@@ -67,6 +73,14 @@ std::string first_error(const fs::path& log) {
         !line.starts_with("articular: start:"))
       return line.substr(std::string("articular: ").size());
   return "";
+}
+
+std::string last_line(const fs::path& log) {
+  std::ifstream stream(log);
+  std::string line, last;
+  while (std::getline(stream, line))
+    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  return last;
 }
 
 }  // namespace articular::tools

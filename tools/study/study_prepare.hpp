@@ -21,6 +21,10 @@ inline constexpr const char* kPrepared = "ARTICULAR_PREPARED";
 std::string prepare_meshes(const std::filesystem::path& folder,
                            const std::vector<std::string>& arguments, bool fresh);
 
+/// The command that prepare_meshes() runs.
+std::vector<std::string> prepare_command(const std::filesystem::path& folder,
+                                         const std::vector<std::string>& arguments);
+
 /// What a file holds; "" if it can't be read.
 std::string text_of(const std::filesystem::path& file);
 
@@ -32,5 +36,8 @@ std::string joined(const std::vector<std::string>& words);
 
 /// The first error in the log of an `articular` command; "" if there is none.
 std::string first_error(const std::filesystem::path& log);
+
+/// The last line that is not empty, of a log of any program; "" if there is none.
+std::string last_line(const std::filesystem::path& log);
 
 }  // namespace articular::tools

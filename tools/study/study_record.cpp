@@ -33,6 +33,7 @@ std::string CaseRecord::outcome() const {
   if (runs.empty()) return "not run";
   const ProgramUse& run = runs.back();
   if (run.end == End::TimeLimit) return "time limit";
+  if (run.end == End::Lost) return "lost";
   if (run.end == End::Signalled) return "crashed, signal " + std::to_string(run.code);
   switch (run.code) {
     case 0:

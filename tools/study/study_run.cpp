@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <functional>
 #include <mutex>
@@ -9,6 +10,7 @@
 #include "parallel/thread_pool.hpp"
 #include "sim/base/error.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "tools/engine/serve_tasks.hpp"
 #include "tools/process/interruption.hpp"
 #include "tools/process/this_program.hpp"
 #include "tools/study/study_prepare.hpp"
@@ -20,6 +22,15 @@ namespace {
 
 namespace fs = std::filesystem;
 using End = ProgramUse::End;
+
+constexpr const char* kData = "ARTICULAR_DATA";  // an ssh would not pass it on
+
+/// Runs a program in the folder of its results. Shells say with 127 that there is no such program,
+/// which would be said of the shell itself.
+constexpr const char* kRunThere =
+    R"(mkdir -p "$0" && cd "$0" || exit 126
+command -v "$1" > /dev/null || { echo "can't start $1"; exit 126; }
+exec "$@")";
 
 fs::path folder_of(const fs::path& directory, const StudyCase& c) {
   return directory / "cases" / c.folder;
@@ -43,7 +54,12 @@ class CaseRunner {
 
   /// Reads the scenario as the case has it, so that a mistake costs seconds and not hours.
   void check(const StudyCase& c) const {
-    ::setenv(kPrepared, prepared_folder(directory_, c.settings).c_str(), 1);
+    if (!c.command.empty()) return;
+    ::setenv(kPrepared, prepared_of(c).c_str(), 1);
+    for (const std::string& variable : c.environment) {
+      const std::size_t is = variable.find('=');
+      ::setenv(variable.substr(0, is).c_str(), variable.substr(is + 1).c_str(), 1);
+    }
     try {
       sim::read_scenario(study_.scenario, c.settings.overrides);
     } catch (const sim::InputError& error) {
@@ -54,8 +70,8 @@ class CaseRunner {
 
   /// Makes the meshes of a case, if it asks for some that are not there yet.
   void prepare(const StudyCase& c) {
-    if (c.settings.prepare.empty()) return;
-    const fs::path folder = prepared_folder(directory_, c.settings);
+    if (c.settings.prepare.empty() || c.prepares_alone) return;
+    const fs::path folder = prepared_of(c);
     const std::string failure = prepare_meshes(folder, c.settings.prepare, false);
     if (!failure.empty())
       throw sim::InputError({study_.file.string()},
@@ -67,19 +83,34 @@ class CaseRunner {
     return read_record(folder_of(directory_, c) / "case.json", key_of(c));
   }
 
-  /// Runs a case once more.
-  void run(const StudyCase& c, CaseRecord& record) const {
+  /// What runs a case once more, here or elsewhere.
+  Task task_of(const StudyCase& c) const {
     const fs::path folder = folder_of(directory_, c);
     fs::create_directories(folder);
-    const fs::path log = folder / "log";
-    const std::string prepared = prepared_folder(directory_, c.settings).string();
-    const ProgramUse use = run_measured(command_of(c), {std::string(kPrepared) + "=" + prepared},
-                                        log, study_.time_limit, interruption_asked);
-    if (use.end == End::Interrupted || interruption_asked()) throw StudyInterrupted{};
-    record.runs.push_back(use);
-    record.message = record.succeeded() ? "" : first_error(log);
+    Task task{c.folder, key_of(c), {}, c.environment, folder / "log", study_.time_limit};
+    if (c.prepares_alone && !c.settings.prepare.empty()) {
+      fs::create_directories(prepared_of(c));
+      task.commands.push_back(prepare_command(prepared_of(c), c.settings.prepare));
+    }
+    // Elsewhere the working folder is another one.
+    const bool is_here = options_.engine.kind == EngineKind::Local;
+    task.commands.push_back(
+        command_of(c, is_here ? study_.scenario : fs::absolute(study_.scenario)));
+    task.environment.push_back(std::string(kPrepared) + "=" + prepared_of(c).string());
+    if (const char* data = std::getenv(kData); data != nullptr)
+      task.environment.push_back(std::string(kData) + "=" + data);
+    return task;
+  }
+
+  /// Takes in how it went.
+  void finish(const StudyCase& c, const TaskEnd& end, CaseRecord& record) const {
+    const fs::path folder = folder_of(directory_, c);
+    record.runs.push_back(end.use);
+    record.message = end.why;
+    if (end.why.empty() && !record.succeeded())
+      record.message = c.command.empty() ? first_error(folder / "log") : last_line(folder / "log");
     if (record.succeeded()) check_outputs(c);
-    write_record(folder / "case.json", key_of(c), record);
+    if (end.use.end != End::Lost) write_record(folder / "case.json", key_of(c), record);
   }
 
  private:
@@ -90,9 +121,15 @@ class CaseRunner {
       output_value(output, history, study_.file.string());
   }
 
-  std::vector<std::string> command_of(const StudyCase& c) const {
-    std::vector<std::string> command{program_,  "run",   study_.scenario.string(),
-                                     "--quiet", "--out", results_of(directory_, c).string()};
+  std::vector<std::string> command_of(const StudyCase& c, const fs::path& scenario) const {
+    const std::string results = results_of(directory_, c).string();
+    if (!c.command.empty()) {
+      std::vector<std::string> command{"sh", "-c", kRunThere, results};
+      command.insert(command.end(), c.command.begin(), c.command.end());
+      return command;
+    }
+    std::vector<std::string> command{program_,  "run",   scenario.string(),
+                                     "--quiet", "--out", results};
     if (c.settings.threads) {
       command.emplace_back("--threads");
       command.push_back(std::to_string(*c.settings.threads));
@@ -106,11 +143,18 @@ class CaseRunner {
   }
 
   std::string key_of(const StudyCase& c) const {
-    std::vector<std::string> words = command_of(c);
+    std::vector<std::string> words = command_of(c, study_.scenario);
     words.insert(words.end(), c.settings.prepare.begin(), c.settings.prepare.end());
+    words.insert(words.end(), c.environment.begin(), c.environment.end());
     words.push_back(fixed_key_);
-    words.push_back(fmt::format("{} side by side", options_.jobs));
+    // Of a population times are not compared.
+    if (!study_.population) words.push_back(fmt::format("{} side by side", options_.jobs));
     return fmt::format("{:016x}", std::hash<std::string>{}(joined(words)));
+  }
+
+  fs::path prepared_of(const StudyCase& c) const {
+    return c.prepares_alone ? folder_of(directory_, c) / "prepared"
+                            : prepared_folder(directory_, c.settings);
   }
 
   const Study& study_;
@@ -150,6 +194,59 @@ std::vector<std::size_t> tasks_of_round(const std::vector<StudyCase>& cases,
   return tasks;
 }
 
+/// One round of cases, each of which is run once more.
+struct Round {
+  const std::vector<StudyCase>& cases;
+  std::vector<std::size_t> numbers;
+  std::vector<CaseRecord>& records;
+};
+
+void run_here(const CaseRunner& runner, Round round, int jobs, CaseProgress& progress) {
+  ThreadPool pool(jobs);  // each thread waits for a program
+  pool.run(static_cast<int>(round.numbers.size()), [&](int k, int) {
+    const std::size_t i = round.numbers[static_cast<std::size_t>(k)];
+    const Task task = runner.task_of(round.cases[i]);
+    const TaskEnd end{task.key, run_task(task, interruption_asked), ""};
+    if (end.use.end == End::Interrupted || interruption_asked()) throw StudyInterrupted{};
+    runner.finish(round.cases[i], end, round.records[i]);
+    progress.finished(round.cases[i], round.records[i]);
+  });
+}
+
+int most_threads(const Round& round) {
+  int most = 1;
+  for (const std::size_t i : round.numbers)
+    most = std::max(most, round.cases[i].settings.threads.value_or(1));
+  return most;
+}
+
+void run_by_engine(const CaseRunner& runner, Round round, const StudyRunOptions& options,
+                   CaseProgress& progress) {
+  std::vector<Task> tasks;
+  tasks.reserve(round.numbers.size());
+  for (const std::size_t i : round.numbers) tasks.push_back(runner.task_of(round.cases[i]));
+  TaskQueue queue(fs::absolute(options.directory) / "queue");
+  const auto start = [&] {
+    Workers workers =
+        start_workers(options.engine, queue.folder(), options.jobs, most_threads(round));
+    if (!options.quiet)
+      fmt::print(stderr, "articular: {} cases for {}\n", tasks.size(), workers.where);
+    return workers;
+  };
+  const auto ended = [&](std::size_t k, const TaskEnd& end) {
+    const std::size_t i = round.numbers[k];
+    runner.finish(round.cases[i], end, round.records[i]);
+    progress.finished(round.cases[i], round.records[i]);
+  };
+  try {
+    if (!serve_tasks(queue, tasks, options.engine.silence_limit, start, ended, interruption_asked))
+      throw StudyInterrupted{};
+  } catch (...) {
+    queue.close();
+    throw;
+  }
+}
+
 }  // namespace
 
 fs::path results_of(const fs::path& directory, const StudyCase& c) {
@@ -168,15 +265,17 @@ std::vector<CaseRecord> run_cases(const Study& study, const std::vector<StudyCas
   for (int round = 0; round < study.repeats; ++round)
     all += tasks_of_round(cases, records, round).size();
   CaseProgress progress(all, options.quiet);
-  ThreadPool pool(options.jobs);  // each thread waits for a program
-  for (int round = 0; round < study.repeats; ++round) {
-    const std::vector<std::size_t> tasks = tasks_of_round(cases, records, round);
-    pool.run(static_cast<int>(tasks.size()), [&](int k, int) {
-      const std::size_t i = tasks[static_cast<std::size_t>(k)];
-      runner.run(cases[i], records[i]);
-      progress.finished(cases[i], records[i]);
-    });
+  for (int number = 0; number < study.repeats; ++number) {
+    Round round{cases, tasks_of_round(cases, records, number), records};
+    if (round.numbers.empty()) continue;
+    if (options.engine.kind == EngineKind::Local)
+      run_here(runner, std::move(round), options.jobs, progress);
+    else
+      run_by_engine(runner, std::move(round), options, progress);
   }
+  // Workers that wait for more may go.
+  if (options.engine.kind != EngineKind::Local && all > 0)
+    TaskQueue(fs::absolute(options.directory) / "queue").close();
   return records;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/engine/workers.hpp"
 #include "tools/process/measured_program.hpp"
 #include "tools/study/study_cases.hpp"
 #include "tools/study/study_prepare.hpp"
@@ -28,6 +29,7 @@ struct StudyRunOptions {
   int jobs = 1;
   bool fresh = false;  // run again what is there
   bool quiet = false;
+  EngineOptions engine = {};
 };
 
 /// The folder with the results of a case.
@@ -36,6 +38,8 @@ std::filesystem::path results_of(const std::filesystem::path& directory, const S
 /// Runs each case as often as the study says, round by round, so that a slow quarter of an hour of
 /// the machine falls on all of them. What an earlier call finished is kept if scenario, arguments
 /// and program are the same.
+/// With an engine but the local one cases wait in DIR/queue for workers, see tools/engine. One that
+/// is lost there is not kept, so that the next call runs it again.
 /// @return one record a case; fewer runs than asked for after a failure
 /// @throws StudyInterrupted  what is finished stays
 /// @throws sim::InputError   when a case is no valid scenario, before any runs, or when the first

@@ -240,6 +240,34 @@ TEST(MandibleAnatomy, LinesOfActionFollowThePublishedDirections) {
   }
 }
 
+// From flat to steep the disc fills the gap, is well shaped, and is not much thinner in its middle.
+TEST(MandibleAnatomy, DiscsFitEveryEminence) {
+  for (const double slope : {30.0, 36.0, 49.0, 55.0}) {
+    const FossaProfile fossa = fossa_profile(slope);
+    const Mesh mesh = disc(1.8, fossa);
+    double upper = 1e3;
+    for (Eigen::Index i = 0; i < mesh.X_mm.cols(); ++i)
+      upper = std::min(upper, distance_below_fossa(mesh.X_mm.col(i) - kCondyle, fossa));
+    EXPECT_NEAR(upper, kUpperClearance, 1e-6) << slope;
+    const auto [least, largest] = dihedral_range_deg(mesh);
+    EXPECT_GT(least, 12) << slope;
+    EXPECT_LT(largest, 158) << slope;
+  }
+  EXPECT_THROW(fossa_profile(29), std::invalid_argument);
+  EXPECT_THROW(fossa_profile(56), std::invalid_argument);
+}
+
+TEST(MandibleAnatomy, ScaledItKeepsItsProportionsAndForces) {
+  Anatomy jaw = default_anatomy();
+  scale(jaw, 1.1);
+  EXPECT_EQ(jaw.meshes.at("mandible.vtp").X_mm,
+            1.1 * default_anatomy().meshes.at("mandible.vtp").X_mm);
+  EXPECT_EQ(jaw.muscles[3].lower, 1.1 * default_anatomy().muscles[3].lower);
+  EXPECT_EQ(jaw.muscles[3].max_force, default_anatomy().muscles[3].max_force);
+  EXPECT_EQ(jaw.landmarks[0].point, 1.1 * default_anatomy().landmarks[0].point);
+  EXPECT_THROW(scale(jaw, 1.4), std::invalid_argument);
+}
+
 TEST(MandibleAnatomy, RefusesDiscSizesOutsideItsRange) {
   EXPECT_THROW(disc(0.1), std::invalid_argument);
   EXPECT_THROW(disc(5), std::invalid_argument);

@@ -236,11 +236,52 @@ TEST(KneeAnatomy, BonesAreClosedAndCartilageLiesOnThem) {
   }
 }
 
+/// Volume of a layer's tetrahedra over half of its surface, about its mean thickness.
+double thickness(const Mesh& mesh) {
+  double volume = 0, area = 0;
+  for (const auto& tet : mesh.tets.colwise()) {
+    const Vec3 x0 = mesh.X_mm.col(tet(0));
+    volume += (mesh.X_mm.col(tet(1)) - x0)
+                  .cross(mesh.X_mm.col(tet(2)) - x0)
+                  .dot(mesh.X_mm.col(tet(3)) - x0) /
+              6;
+  }
+  const Triangles skin = boundary(mesh.tets);
+  for (const auto& face : skin.colwise()) {
+    const Vec3 x0 = mesh.X_mm.col(face(0));
+    area += (mesh.X_mm.col(face(1)) - x0).cross(mesh.X_mm.col(face(2)) - x0).norm() / 2;
+  }
+  return 2 * volume / area;
+}
+
+// Bones and outlines grow, cartilage is as thick as is asked, and it lies on its bone.
+TEST(KneeAnatomy, AnotherKneeHasItsOwnSizeAndItsOwnCartilage) {
+  const Anatomy usual = knee_anatomy({4, 2}), large = knee_anatomy({4, 2}, {1.15, 0.8});
+  for (const auto& [name, mesh] : usual.meshes) {
+    const Mesh& other = large.meshes.at(name);
+    const auto width = [](const Mesh& m) {
+      return m.X_mm.row(0).maxCoeff() - m.X_mm.row(0).minCoeff();
+    };
+    EXPECT_NEAR(width(other) / width(mesh), 1.15, 0.01) << name;
+    if (name.find("cartilage") != std::string::npos) {
+      EXPECT_EQ(other.tets, mesh.tets);
+      EXPECT_NEAR(thickness(other) / thickness(mesh), 0.8, 0.03) << name;
+    }
+  }
+  const Mesh& femur = large.meshes.at("femur.vtp");
+  SurfaceDistance distance(femur.X_mm, femur.triangles);
+  const Mesh& cartilage = large.meshes.at("femoral_cartilage_medial.vtu");
+  for (Eigen::Index i = 0; i < cartilage.X_mm.cols() / 3; ++i)
+    EXPECT_LT(std::abs(distance(cartilage.X_mm.col(i))), 0.3);
+}
+
 TEST(KneeAnatomy, RefusesSizesAndLayersOutsideTheirRange) {
   EXPECT_THROW(knee_anatomy({0.5, 2}), std::invalid_argument);
   EXPECT_THROW(knee_anatomy({5, 2}), std::invalid_argument);
   EXPECT_THROW(knee_anatomy({2, 1}), std::invalid_argument);
   EXPECT_THROW(knee_anatomy({std::nan(""), 2}), std::invalid_argument);
+  EXPECT_THROW(knee_anatomy({4, 2}, {0.7, 1}), std::invalid_argument);
+  EXPECT_THROW(knee_anatomy({4, 2}, {1, 1.6}), std::invalid_argument);
 }
 
 }  // namespace articular::anatomy::knee_anatomy_test

@@ -31,9 +31,4 @@ TEST(ParameterText, StandsInBracesWithASum) {
                                       "ligament.b.slack_length=\"30.25 mm\""}));
 }
 
-TEST(ParameterText, NamesAreFoundInBracesAlone) {
-  EXPECT_EQ(names_in_braces("{ a } {b_2 - 1e-3} { \"c\" = 1 } {d e} {3} {f -} {g + -2} {h"),
-            (std::vector<std::string>{"a", "b_2"}));
-}
-
 }  // namespace articular::tools::parameter_text_test

@@ -1,6 +1,7 @@
 import { addCurves } from './curves.js';
 import { element } from './elements.js';
 import { addOutcome, addPictures, addProvenance, addSettings, addSetup, addSummary, addTimings, addTrust } from './sections.js';
+import { addPopulation } from './population.js';
 import { addView } from './view.js';
 
 const data = JSON.parse(document.getElementById('data').textContent);
@@ -18,6 +19,11 @@ function showRemarks() {
 async function show() {
   document.getElementById('title').textContent = data.title;
   showRemarks();
+  if (data.kind === 'population') {
+    addPopulation(data);
+    document.documentElement.dataset.state = 'ready';
+    return;
+  }
   if (data.kind === 'run') addOutcome(data.summary);
   if (data.summary) addSummary(data.summary, data.error_bars);
   if (data.kind === 'setup') addSetup(data);

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace articular::tools {
+
+/// `articular work DIR [CASE]... [--wait] [--quiet]`.
+/// @param[out] exit_code  set when the command ran
+void add_work_command(CLI::App& app, int& exit_code);
+
+}  // namespace articular::tools
