@@ -18,7 +18,7 @@ const char* const kWorkHelp =
     R"(Cases of `articular study STUDY.toml --engine folder` wait in OUT/queue. Any number of workers may
 take them, on this machine or on others that see the same folder under the same path. Each case is
 taken once. A worker that is asked to end puts back what it runs. One that dies costs its case only:
-the study notices that it has fallen silent. tools/README.md says what the files of the folder are.)";
+the study notices that it has fallen silent. tools/engine/README.md says what the files of the folder are.)";
 
 }  // namespace
 
