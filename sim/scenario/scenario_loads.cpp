@@ -207,13 +207,14 @@ void check_driven(const Body& body, const std::vector<Vec3>& values, std::size_t
                         freedom_name(first + i), body.name));
 }
 
-void check_start(const TableReader& table, const Motion& motion) {
+/// @param what  "body `femur`"
+void check_start(const TableReader& table, const Motion& motion, const std::string& what) {
   const Pose start = driven_pose(motion, Pose{}, 0);
   if (!start.p.isZero(0) || !start.R.isIdentity(0))
     throw InputError(table.node().where,
-                     table.what() +
-                         ": it starts where the mesh is, and the motion counts from "
-                         "there: expected 0 at t = 0");
+                     fmt::format("{}: {} starts where its mesh is, and its motion counts from "
+                                 "there: expected 0 at t = 0",
+                                 table.what(), what));
 }
 
 void check_held_motion(const TableReader& table, const Body& body, const Motion& motion,
@@ -221,7 +222,7 @@ void check_held_motion(const TableReader& table, const Body& body, const Motion&
   table.refuse({"about"}, "a rigid body turns about the point `at` of its `hold`");
   check_driven(body, motion.translation, 0, refuse);
   check_driven(body, motion.rotation, 3, refuse);
-  check_start(table, motion);
+  check_start(table, motion, fmt::format("body `{}`", body.name));
 }
 
 /// Of nodes that a support holds: along its axes, which are those of the samples.
@@ -248,7 +249,7 @@ void read_motion_of_support(const TableReader& table, const Support& support,
     motion.translation[k] = way;
   }
   fit_spline(motion);
-  check_start(table, motion);
+  check_start(table, motion, fmt::format("support `{}`", support.name));
 }
 
 void check_can_be_driven(const Node& node, const Body& body) {
