@@ -419,7 +419,7 @@ TEST(Program, HelpNamesEverySubcommand) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   for (const char* command :
-       {"run", "scenarios", "keys", "check", "explain", "render", "plot", "report", "study", "fit",
+       {"run", "scenarios", "keys", "check", "explain", "render", "plot", "report", "study", "fit", "track",
         "verify", "collide", "mesh", "anatomy", "manual"}) {
     EXPECT_NE(result.out.find(std::string("  ") + command + " "), std::string::npos) << command;
     const ProgramResult own = run_program(folder, std::string(command) + " --help");
