@@ -45,6 +45,16 @@ struct Iterate {
   double sum = 0;  // of squared misfits and effort
 };
 
+/// Of the scenario, one an unknown.
+std::vector<sim::Curve> own_excitations(const sim::Model& model,
+                                        const std::vector<TrackUnknown>& unknowns) {
+  std::vector<sim::Curve> own;
+  for (const TrackUnknown& unknown : unknowns)
+    own.push_back(
+        model.muscles[static_cast<std::size_t>(unknown.muscles.front())].given.excitation);
+  return own;
+}
+
 class Tracker {
  public:
   Tracker(const Track& track, const TrackOptions& options)
@@ -53,6 +63,7 @@ class Tracker {
         scenario_(sim::read_scenario(find_scenario(track.scenario), all_overrides())),
         model_(build()),
         unknowns_(unknowns_of(track, model_)),
+        own_(own_excitations(model_, unknowns_)),
         run_(track, scenario_, model_, unknowns_) {
     if (track.look_ahead && model_.is_static)
       throw sim::InputError({track.file.string()},
@@ -87,7 +98,8 @@ class Tracker {
     try {
       for (double before = 0; before < duration_;) {
         const double time = next_time(before);
-        Iterate place = solve(state, excitation, before, time, result);
+        const VectorXd guess = before == 0 ? first_guess(time) : excitation;
+        Iterate place = solve(state, {before, time, excitation, guess}, result);
         excitation = place.excitation;
         state = std::move(place.trial.state);
         before = time;
@@ -121,6 +133,13 @@ class Tracker {
   double next_time(double t) const {
     const double next = interval_ * (std::floor(t / interval_ + 1e-6) + 1);
     return next > duration_ - 0.1 * interval_ ? duration_ : next;
+  }
+
+  VectorXd first_guess(double time) const {
+    VectorXd guess = start_;
+    for (std::size_t u = 0; u < own_.size(); ++u)
+      if (!own_[u].time.empty()) guess[static_cast<Index>(u)] = sim::value_at(own_[u], time);
+    return guess.cwiseMax(lowest_).cwiseMin(highest_);
   }
 
   std::vector<double> times_to_look_at(double time) const {
@@ -203,9 +222,9 @@ class Tracker {
     return false;
   }
 
-  Iterate solve(const sim::State& state, const VectorXd& before, double t_before, double time,
-                TrackResult& result) {
-    const Ramp ramp{t_before, time, before, before};
+  /// @param ramp  to the first guess
+  Iterate solve(const sim::State& state, const Ramp& ramp, TrackResult& result) {
+    const double time = ramp.t_to;
     TrackPoint point;
     point.time = time;
     point.trials = 1;
@@ -258,6 +277,7 @@ class Tracker {
   sim::Scenario scenario_;
   sim::Model model_;
   std::vector<TrackUnknown> unknowns_;
+  std::vector<sim::Curve> own_;  // excitations of the scenario: the first guess
   TrackRun run_;
   VectorXd lowest_, highest_, count_, start_;
   double duration_ = 0, interval_ = 0;  // [s]

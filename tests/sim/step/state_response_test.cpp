@@ -47,7 +47,7 @@ Scenario block_on_a_table() {
   s.attachments = {attach("block", "wall", {-1, -1, 0.0199}, {-0.0099, 1, 0.0201})};
   s.contacts = {{"block", "table", {}}};
   s.muscles = {
-      line_muscle("down", anchor("table", {0, 0, -0.02}), anchor("block", {0, 0, 0.02}, 0.006)),
+      line_muscle("down", anchor("wall", {0, 0, -0.02}), anchor("block", {0, 0, 0.02}, 0.006)),
       line_muscle("aside", anchor("wall", {0.05, 0, 0.02}),
                   anchor("block", {0.01, 0, 0.02}, 0.006))};
   return s;
@@ -140,7 +140,8 @@ INSTANTIATE_TEST_SUITE_P(StateResponse, Statics,
 
 // After twenty steps of implicit Euler, with all that activation, inertia and force-velocity do.
 TEST(StateResponse, IsCarriedThroughStepsInTime) {
-  const Scenario s = bone_on_a_block();
+  Scenario s = bone_on_a_block();
+  s.integrator.position_tolerance = 1e-12;  // noise of twenty steps is then below that of forces
   const VectorXd excitation = Eigen::Vector2d(0.4, 0.3);
   // Activations begin below the excitations, and rise.
   const auto with = [&](const VectorXd& a) {

@@ -44,9 +44,8 @@ TEST(BoundedLeastSquares, TheSumFallsInNoDirectionThatIsAllowed) {
       ASSERT_GE(x[i], 0);
       ASSERT_LE(x[i], 1);
       const bool is_free = x[i] > 0 && x[i] < 1;
-      if (is_free) EXPECT_NEAR(slope[i], 0, 1e-9);
-      if (x[i] == 0) EXPECT_GE(slope[i], -1e-9);
-      if (x[i] == 1) EXPECT_LE(slope[i], 1e-9);
+      EXPECT_TRUE(x[i] == 1 || slope[i] > -1e-9) << slope[i];
+      EXPECT_TRUE(x[i] == 0 || slope[i] < 1e-9) << slope[i];
       (is_free ? within : at_bounds) += 1;
     }
   }

@@ -13,6 +13,12 @@ namespace articular::track_test {
 
 const std::string kScene = ARTICULAR_SOURCE_DIR "/scenarios/verification/three_muscles.toml";
 
+/// The scene's own excitations, which are the first guess, would be those of the twin.
+const std::string kNoGuess =
+    "\"muscle.pull_y.excitation\" = { time = [\"0 s\"], value = [0] }, "
+    "\"muscle.pull_z.excitation\" = { time = [\"0 s\"], value = [0] }";
+const std::string kStatic = "set = { " + kNoGuess + " }\n";
+
 const std::string kTargets =
     "[[target]]\ncolumn = \"bone.position.y [mm]\"\nfile = \"twin/history.csv\"\nspread = 0.01\n"
     "[[target]]\ncolumn = \"bone.position.z [mm]\"\nfile = \"twin/history.csv\"\nspread = 0.01\n";
@@ -45,8 +51,7 @@ class TrackTest : public ::testing::Test {
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
   ProgramResult track(const std::string& text, const std::string& more = "") const {
-    folder_.file("t.toml", "scenario = \"" + kScene + "\"
-" + text);
+    folder_.file("t.toml", "scenario = \"" + kScene + "\"\n" + text);
     return program("track t.toml " + more);
   }
 
@@ -57,7 +62,7 @@ using Track = TrackTest;
 
 TEST_F(Track, FindsTheExcitationsOfATwinAgain) {
   make_twin();
-  const ProgramResult result = track(kTwoMuscles + kTargets);
+  const ProgramResult result = track(kStatic + kTwoMuscles + kTargets);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out,
             "out/t/track.md\nout/t/excitations.csv\nout/t/excitations.txt\nout/t/targets.csv\n"
@@ -86,7 +91,7 @@ TEST_F(Track, FindsTheExcitationsOfATwinAgain) {
 // Three muscles for two freedoms: which share is whose, targets do not say.
 TEST_F(Track, SaysWhatTargetsDoNotDetermine) {
   make_twin();
-  ASSERT_EQ(track("[[muscle]]\nname = \"*\"\n" + kTargets).exit_code, 0);
+  ASSERT_EQ(track(kStatic + "[[muscle]]\nname = \"*\"\n" + kTargets).exit_code, 0);
   auto muscles = columns(folder_ / "out/t/excitations.csv");
   // The third helps: squares are least where it takes part.
   EXPECT_GT(muscles["aslant"][4], 0.1);
@@ -100,10 +105,10 @@ TEST_F(Track, SaysWhatTargetsDoNotDetermine) {
 
 TEST_F(Track, EmgDecidesWhereMotionDoesNot) {
   make_twin();
-  ASSERT_EQ(
-      track("[[muscle]]\nname = \"aslant\"\nemg = 0\nemg_spread = 0.01\n" + kTwoMuscles + kTargets)
-          .exit_code,
-      0);
+  ASSERT_EQ(track(kStatic + "[[muscle]]\nname = \"aslant\"\nemg = 0\nemg_spread = 0.01\n" +
+                  kTwoMuscles + kTargets)
+                .exit_code,
+            0);
   auto found = columns(folder_ / "out/t/excitations.csv");
   EXPECT_NEAR(found["pull_y"][2], 0.6, 2e-3);
   EXPECT_NEAR(found["pull_z"][4], 0.4, 2e-3);
@@ -111,10 +116,11 @@ TEST_F(Track, EmgDecidesWhereMotionDoesNot) {
 
 // A force is a target like any other. pull_y alone has 3 N where it has them.
 TEST_F(Track, MeetsForces) {
-  ASSERT_EQ(track("duration = \"0.5 s\"\n[[muscle]]\nname = \"pull_y\"\n[[target]]\ncolumn = "
-                  "\"pull_y.force [N]\"\nvalue = 3\nspread = 0.01\n")
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      track(kStatic + "duration = \"0.5 s\"\n[[muscle]]\nname = \"pull_y\"\n[[target]]\ncolumn = "
+                      "\"pull_y.force [N]\"\nvalue = 3\nspread = 0.01\n")
+          .exit_code,
+      0);
   const std::string targets = content(folder_ / "out/t/targets.csv");
   const std::string row = "0.5,pull_y.force [N],N,3,";
   const std::size_t at = targets.find(row);
@@ -124,7 +130,8 @@ TEST_F(Track, MeetsForces) {
 
 TEST_F(Track, BoundsHoldAndAreTold) {
   make_twin();
-  ASSERT_EQ(track("[[muscle]]\nname = \"pull_y\"\nhighest = 0.5\n[[muscle]]\nname = \"pull_z\"\n" +
+  ASSERT_EQ(track(kStatic +
+                  "[[muscle]]\nname = \"pull_y\"\nhighest = 0.5\n[[muscle]]\nname = \"pull_z\"\n" +
                   kTargets)
                 .exit_code,
             0);
@@ -135,8 +142,8 @@ TEST_F(Track, BoundsHoldAndAreTold) {
 }
 
 TEST_F(Track, MusclesTogetherHaveOneExcitation) {
-  ASSERT_EQ(track("[[muscle]]\nname = \"pull_*\"\ntogether = true\n[[target]]\ncolumn = "
-                  "\"bone.position.y [mm]\"\nvalue = 1\nspread = 0.01\n")
+  ASSERT_EQ(track(kStatic + "[[muscle]]\nname = \"pull_*\"\ntogether = true\n[[target]]\ncolumn = "
+                            "\"bone.position.y [mm]\"\nvalue = 1\nspread = 0.01\n")
                 .exit_code,
             0);
   auto found = columns(folder_ / "out/t/excitations.csv");
@@ -147,7 +154,8 @@ TEST_F(Track, MusclesTogetherHaveOneExcitation) {
 /// Moves in time, for a tenth of a second.
 const std::string kInTime =
     "set = { analysis = \"dynamic\", duration = \"0.1 s\", \"integrator.step\" = \"1 ms\", "
-    "\"integrator.position_tolerance\" = \"1e-6 um\", \"output.interval\" = \"10 ms\" }\n";
+    "\"integrator.position_tolerance\" = \"1e-6 um\", \"output.interval\" = \"10 ms\", " +
+    kNoGuess + " }\n";
 const std::string kSetInTime =
     "--set analysis=dynamic --set duration='0.1 s' --set integrator.step='1 ms' --set "
     "integrator.position_tolerance='1e-6 um' --set output.interval='10 ms' ";
