@@ -80,17 +80,21 @@ TEST_F(TrackFile, SaysWhatIsWrongAndWhere) {
   const auto expect = [&](const std::string& text, const std::string& message) {
     EXPECT_EQ(refusal(text), message) << text;
   };
-  expect(kMuscle + kTarget, "t.toml:1:1: track has no `scenario`");
-  expect(kHead + kTarget, "t.toml:1:1: track has no `muscle`");
-  expect(kHead + kMuscle, "t.toml:1:1: track has no `target`");
+  expect("cost = \"power\"\n" + kHead + kMuscle + kTarget,
+         "t.toml:1:8: `cost`: expected one of \"squares\", \"cubes\", \"largest\", found "
+         "\"power\"");
+  expect(kMuscle + kTarget, "t.toml:1:1: track: `scenario` is missing");
+  expect(kHead + kTarget, "t.toml:1:1: track: `muscle` is missing");
+  expect(kHead + kMuscle, "t.toml:1:1: track: `target` is missing");
   expect(kHead + kMuscle + "lowest = 0.5\nhighest = 0.5\n" + kTarget,
          "t.toml:2:1: `muscle[0]`: expected `lowest` to be less than `highest`");
   expect(kHead + kMuscle + "emg_spread = 0.1\n" + kTarget,
-         "t.toml:4:1: `emg_spread`: it is that of `emg`");
+         "t.toml:4:1: [[muscle]]: `emg_spread` does not belong here: it is that of `emg`");
   expect(kHead + kMuscle + "[[target]]\ncolumn = \"a [N]\"\nspread = 1\n",
-         "t.toml:4:1: [[target]] needs one of `value`, `file`");
+         "t.toml:4:1: [[target]]: expected `value` or `file`, found none of them");
   expect(kHead + kMuscle + kTarget + "weight = 2\n",
-         "t.toml:8:1: [[target]]: unknown key `weight`; did you mean `name`?");
+         "t.toml:8:1: [[target]]: unknown key `weight`; expected one of `name`, `column`, `value`, "
+         "`file`, `file_column`, `spread`");
   expect("cost = \"power\"\n" + kHead + kMuscle + kTarget, "");
 }
 
