@@ -208,6 +208,10 @@ class Tracker {
     }
   }
 
+  void tell(double time, int trial, std::optional<double> sum) const {
+    if (options_.after_trial) options_.after_trial(time, trial, sum);
+  }
+
   /// From `best` towards `next`, as far as the sum falls. @return whether it did
   bool improve(const sim::State& state, Ramp ramp, const VectorXd& next, Iterate& best,
                int& trials) {
@@ -215,6 +219,7 @@ class Tracker {
       ramp.to = best.excitation + part * (next - best.excitation);
       ++trials;
       std::optional<Iterate> place = try_place(state, ramp);
+      tell(ramp.t_to, trials, place ? std::optional(place->sum) : std::nullopt);
       if (!place || !(place->sum < best.sum)) continue;
       best = std::move(*place);
       return true;
@@ -229,6 +234,7 @@ class Tracker {
     point.time = time;
     point.trials = 1;
     Iterate best = place_at(state, ramp);
+    tell(time, point.trials, best.sum);
     for (int k = 0;; ++k) {
       const ActivationProblem problem = problem_at(best, time);
       const VectorXd next = least_activation(problem, track_.cost);

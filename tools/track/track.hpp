@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct TrackOptions {
   int threads = 1;
   int most_iterations = 10;  // of each time
   std::function<void(const TrackResult&, double duration)> after_point;
+  /// @param sum  that is made least; none: the run failed
+  std::function<void(double time, int trial, std::optional<double> sum)> after_trial;
   std::function<void(const std::string&)> warn;  // of the scenario
 };
 

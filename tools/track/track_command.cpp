@@ -37,6 +37,12 @@ std::string progress_text(const TrackResult& result, double duration) {
       point.converged ? "" : ", not converged");
 }
 
+std::string trial_text(double time, int trial, const std::optional<double>& sum) {
+  return fmt::format("articular: {:g} s, run {}: ", time, trial) +
+         (sum ? fmt::format("sum of squares and effort {:.4g}", *sum)
+              : "failed, the next one is nearer to the best so far");
+}
+
 void write(const Track& track, const TrackResult& result, const fs::path& directory) {
   const fs::path table = fs::absolute(directory) / "excitations.csv";
   const std::pair<const char*, std::string> files[] = {
@@ -60,10 +66,14 @@ int run_track(const TrackArguments& arguments) {
     fmt::print(stderr, "articular: warning: {}\n", warning);
   };
   StatusLine status;
-  if (!arguments.quiet)
+  if (!arguments.quiet) {
+    options.after_trial = [&](double time, int trial, const std::optional<double>& sum) {
+      status.show(trial_text(time, trial, sum));
+    };
     options.after_point = [&](const TrackResult& result, double duration) {
       status.show(progress_text(result, duration));
     };
+  }
   listen_for_interruption();
   const TrackResult result = track_excitations(track, options);
   status.end();
