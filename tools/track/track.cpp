@@ -212,16 +212,18 @@ class Tracker {
     if (options_.after_trial) options_.after_trial(time, trial, sum);
   }
 
-  /// From `best` towards `next`, as far as the sum falls. @return whether it did
-  bool improve(const sim::State& state, Ramp ramp, const VectorXd& next, Iterate& best,
-               int& trials) {
+  /// From `here` towards `next`, as far as the sum falls. The whole way is taken also where the sum
+  /// rises by less than a spread a row: along what targets do not determine they bend, and the next
+  /// iteration makes up for that. @return whether it went
+  bool go_on(const sim::State& state, Ramp ramp, const VectorXd& next, double rows, Iterate& here,
+             int& trials) {
     for (double part = 1; part >= kShortest; part *= 0.5) {
-      ramp.to = best.excitation + part * (next - best.excitation);
+      ramp.to = here.excitation + part * (next - here.excitation);
       ++trials;
       std::optional<Iterate> place = try_place(state, ramp);
       tell(ramp.t_to, trials, place ? std::optional(place->sum) : std::nullopt);
-      if (!place || !(place->sum < best.sum)) continue;
-      best = std::move(*place);
+      if (!place || !(place->sum < here.sum + (part == 1 ? rows : 0))) continue;
+      here = std::move(*place);
       return true;
     }
     return false;
@@ -233,15 +235,18 @@ class Tracker {
     TrackPoint point;
     point.time = time;
     point.trials = 1;
-    Iterate best = place_at(state, ramp);
-    tell(time, point.trials, best.sum);
+    Iterate here = place_at(state, ramp);
+    tell(time, point.trials, here.sum);
+    Iterate best = here;
     for (int k = 0;; ++k) {
-      const ActivationProblem problem = problem_at(best, time);
+      const ActivationProblem problem = problem_at(here, time);
       const VectorXd next = least_activation(problem, track_.cost);
-      point.converged = best.sum - sum_of(problem, next) <= kConverged * best.sum + kNegligible;
+      point.converged = here.sum - sum_of(problem, next) <= kConverged * here.sum + kNegligible;
+      const auto rows = static_cast<double>(problem.A.rows());
       if (point.converged || k == options_.most_iterations ||
-          !improve(state, ramp, next, best, point.trials))
+          !go_on(state, ramp, next, rows, here, point.trials))
         break;
+      if (here.sum < best.sum) best = here;
     }
     describe(best, point);
     result.points.push_back(std::move(point));

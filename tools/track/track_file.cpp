@@ -190,7 +190,7 @@ const KeyTable& track_keys() {
         "cubes, or the square of the largest"},
        {"effort",
         {form::Number{sim::kPositive}},
-        sim::standard(1e-3),
+        sim::standard(0.1),
         "the cost of a muscle at full excitation, in squared spreads of a target"},
        {"muscle",
         {sim::entries_of({form::Table{track_muscle_keys}})},

@@ -37,7 +37,7 @@ TEST_F(TrackFile, HasDefaults) {
   EXPECT_EQ(track.scenario, folder_ / "jaw.toml");
   EXPECT_EQ(track.title, "t");
   EXPECT_EQ(track.cost, TrackCost::Squares);
-  EXPECT_EQ(track.effort, 1e-3);
+  EXPECT_EQ(track.effort, 0.1);
   EXPECT_FALSE(track.duration || track.interval || track.look_ahead);
   EXPECT_EQ(track.muscles[0].highest, 1);
   EXPECT_FALSE(track.muscles[0].together);
