@@ -18,8 +18,9 @@ constexpr double kNearMotionAlone = 1e-9;  // [m] without tissue and contact
 constexpr double kNearActivation = 1e-6;
 constexpr double kNearSpeed = 1e-6;  // [m/s]
 
-/// What is left of the balance below this part is noise of forces between nearby states.
-constexpr double kSolved = 1e-5;
+/// Of the balance this part may be left: iterations that go by slopes need no more, and forces
+/// between nearby states have noise not far below.
+constexpr double kSolved = 1e-4;
 constexpr int kMostCorrections = 20;
 
 /// The largest of the blocks' displacements [m], or velocities [m/s].

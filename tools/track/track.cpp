@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 
 /// The sum would not fall by more than this part of it, or than by the square of a thousandth of a
 /// spread.
-constexpr double kConverged = 1e-3, kNegligible = 1e-6;
+constexpr double kConverged = 3e-3, kNegligible = 1e-6;
 /// A step that is this short helps no more.
 constexpr double kShortest = 1.0 / 32;
 
