@@ -60,7 +60,7 @@ class Tracker {
   Tracker(const Track& track, const TrackOptions& options)
       : track_(track),
         options_(options),
-        scenario_(sim::read_scenario(find_scenario(track.scenario), all_overrides())),
+        scenario_(sim::read_scenario(find_scenario(track.scenario), track.overrides)),
         model_(build()),
         unknowns_(unknowns_of(track, model_)),
         own_(own_excitations(model_, unknowns_)),
@@ -115,12 +115,6 @@ class Tracker {
   }
 
  private:
-  std::vector<std::string> all_overrides() const {
-    std::vector<std::string> all = track_.overrides;
-    all.insert(all.end(), options_.overrides.begin(), options_.overrides.end());
-    return all;
-  }
-
   sim::Model build() {
     scenario_.threads = options_.threads;
     sim::Model model = sim::build_model(scenario_);

@@ -39,7 +39,6 @@ struct TrackResult {
 };
 
 struct TrackOptions {
-  std::vector<std::string> overrides;  // of the scenario, after those of the track
   int threads = 1;
   int most_iterations = 10;  // of each time
   std::function<void(const TrackResult&, double duration)> after_point;

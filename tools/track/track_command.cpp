@@ -22,6 +22,7 @@ constexpr int kEndedEarly = 3;
 
 struct TrackArguments {
   fs::path track, directory;
+  std::vector<std::string> overrides;  // of the scenario, after those of the track
   TrackOptions options;
   bool quiet = false;
 };
@@ -58,7 +59,9 @@ void write(const Track& track, const TrackResult& result, const fs::path& direct
 }
 
 int run_track(const TrackArguments& arguments) {
-  const Track track = read_track(find_scenario(arguments.track));
+  Track track = read_track(find_scenario(arguments.track));
+  track.overrides.insert(track.overrides.end(), arguments.overrides.begin(),
+                         arguments.overrides.end());
   const fs::path directory =
       arguments.directory.empty() ? fs::path("out") / track.name : arguments.directory;
   TrackOptions options = arguments.options;
@@ -118,7 +121,7 @@ void add_track_command(CLI::App& app, int& exit_code) {
   command.add_option("--out", arguments->directory, "Folder of the results (default: out/NAME)")
       ->type_name("DIR");
   command
-      .add_option("--set", arguments->options.overrides,
+      .add_option("--set", arguments->overrides,
                   "Override a value of the scenario by its path, as of `articular run`")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");

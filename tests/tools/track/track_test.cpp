@@ -225,6 +225,17 @@ TEST_F(Track, DoesTheExampleOfItsPage) {
   EXPECT_NEAR(found["pull_z"][4], 0.4, 5e-3);
 }
 
+// What the command sets stands in what it writes for `run`.
+TEST_F(Track, WritesWhatItsCommandSets) {
+  ASSERT_EQ(track(kStatic + kTwoMuscles +
+                      "[[target]]\ncolumn = \"bone.position.y [mm]\"\nvalue = 1\nspread = 0.01\n",
+                  "--set duration='0.5 s'")
+                .exit_code,
+            0);
+  EXPECT_NE(content(folder_ / "out/t/excitations.txt").find("\nduration=0.5 s\n"),
+            std::string::npos);
+}
+
 TEST_F(Track, SaysWhatIsWrongAndWhere) {
   const auto refused = [&](const std::string& text, const std::string& message) {
     const ProgramResult result = track(text);
