@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "sim/scenario/data_path.hpp"
+#include "sim/scenario/excitation_table.hpp"
 #include "sim/scenario/scenario_choices.hpp"
 #include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
@@ -115,6 +116,8 @@ const KeyTable& scenario_keys() {
     add("muscle", {conditional_entries_of({form::Table{muscle_keys}})}, "muscles");
     add("muscle_table", {conditional_entries_of({form::Table{muscle_table_keys}})},
         "muscles of a table");
+    add("excitations", {form::Table{excitations_keys}},
+        "excitations of muscles from a table, in place of their own");
     add("ligament", {conditional_entries_of({form::Table{ligament_keys}})}, "ligaments");
     add("load", {conditional_entries_of({form::VariantTable{load_variants}})},
         "what acts from outside");
@@ -160,7 +163,10 @@ Scenario read_scenario(const std::filesystem::path& file,
   Mistakes on_bodies;  // what names them
   on_bodies.in([&] { scenario.attachments = read_attachments(document, context); });
   on_bodies.in([&] { scenario.supports = read_supports(document, context); });
-  on_bodies.in([&] { scenario.muscles = read_muscles(document, context); });
+  on_bodies.in([&] {
+    scenario.muscles = read_muscles(document, context);
+    replace_excitations(document.find("excitations"), context, scenario.muscles);
+  });
   on_bodies.in([&] { scenario.ligaments = read_ligaments(document, context, scenario.muscles); });
   on_bodies.in([&] { scenario.loads = read_loads(document, context, scenario.supports); });
   on_bodies.in([&] { read_contacts(document, context, scenario); });

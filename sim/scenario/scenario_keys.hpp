@@ -15,6 +15,7 @@ const KeyTable& attach_keys();
 const KeyTable& support_keys();
 const KeyTable& muscle_keys();
 const KeyTable& muscle_table_keys();
+const KeyTable& excitations_keys();
 const KeyTable& ligament_keys();
 const KeyTable& contact_keys();
 const form::Variants& load_variants();

@@ -14,6 +14,7 @@
 #include "sim/base/error.hpp"
 #include "sim/base/stopwatch.hpp"
 #include "sim/base/sundials.hpp"
+#include "sim/model/displace.hpp"
 #include "sim/model/held_blocks.hpp"
 #include "sim/model/newton_weights.hpp"
 
@@ -177,14 +178,8 @@ Equilibrium::Solver::Solver(const Model& model, Dynamics& dynamics, const StepSe
 
 /// y = start moved by u.
 void Equilibrium::Solver::move(const Eigen::VectorXd& u, Eigen::VectorXd& y) const {
-  const Layout& layout = model_.layout;
   y = start_;
-  y.head(3 * layout.num_free_nodes) += u.head(3 * layout.num_free_nodes);
-  for (int r = 0; r < layout.num_rigid; ++r) {
-    const int row = 3 * model_.rigid_bodies[static_cast<std::size_t>(r)].block;
-    y.segment<3>(layout.rigid_p(r)) += u.segment<3>(row);
-    turn(y.data() + layout.rigid_q(r), u.segment<3>(row + 3));
-  }
+  displace(model_, u, y);
 }
 
 const Eigen::VectorXd& Equilibrium::Solver::residual_at(const Eigen::VectorXd& u) {

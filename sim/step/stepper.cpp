@@ -86,6 +86,20 @@ void Stepper::set_stop(const std::function<bool()>& is_to_stop) {
   if (equilibrium_) equilibrium_->set_stop(is_to_stop);
 }
 
+void Stepper::look_at(const State& state, const Eigen::VectorXd& y) {
+  dynamics_->evaluate(y.data(), state.t, {.step_start = model_.is_static ? 0 : t_before_});
+}
+
+bool Stepper::follow(const State& state, const Eigen::MatrixXd& excitation,
+                     StateResponse& response) {
+  if (!response_) response_ = std::make_unique<ResponseSolver>(model_, *dynamics_);
+  const bool followed =
+      model_.is_static ? response_->follow_equilibrium(state.y, state.t, excitation, response)
+                       : response_->follow_step(state.y, t_before_, state.t, excitation, response);
+  look_at(state, state.y);
+  return followed;
+}
+
 void Stepper::restart(const State& state) {
   dynamics_->forget();
   if (integrator_) integrator_->restart(state.next_step);

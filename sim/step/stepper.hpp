@@ -9,6 +9,7 @@
 #include "sim/model/state.hpp"
 #include "sim/statics/load_step.hpp"
 #include "sim/step/equilibrium_diagnosis.hpp"
+#include "sim/step/state_response.hpp"
 #include "sim/time/time_integrator.hpp"
 
 namespace articular::sim {
@@ -59,6 +60,16 @@ class Stepper {
   /// assembly, factorization and solution too; likewise.
   void set_stop(const std::function<bool()>& is_to_stop);
 
+  /// Takes a response of the state before the last step() over to the state that it led to: to the
+  /// equilibrium there, or by one implicit Euler step of the same length.
+  /// @param excitation  how excitations at the step's end change, muscles x inputs
+  /// @return false where the matrix there can't be solved
+  [[nodiscard]] bool follow(const State& state, const Eigen::MatrixXd& excitation,
+                            StateResponse& response);
+  /// now() is y at the time of the state, a little beside that of the last step(), so that
+  /// contacts found for it hold. look_at(state, state.y) must follow before anything else.
+  void look_at(const State& state, const Eigen::VectorXd& y);
+
   /// A restart point: drops everything that a run resumed from `state` would not have.
   void restart(const State& state);
 
@@ -104,6 +115,7 @@ class Stepper {
   TissueDamping damping_;
   std::unique_ptr<TimeIntegrator> integrator_;  // dynamic analysis
   std::unique_ptr<Equilibrium> equilibrium_;    // static analysis
+  std::unique_ptr<ResponseSolver> response_;    // once it is asked for
   std::vector<ConvergenceRow> convergence_;
   std::optional<RigidBodyMode> loose_;  // in the last load step: what nothing holds
   std::vector<RigidBodyMode> indifferent_;

@@ -13,6 +13,7 @@
 #include "tools/keys/key_reference.hpp"
 #include "tools/keys/key_schema.hpp"
 #include "tools/study/study_file.hpp"
+#include "tools/track/track_file.hpp"
 
 namespace articular::tools {
 namespace {
@@ -29,7 +30,9 @@ std::vector<KeyDocument> documents() {
           {"Study files", "How to use them: [articular study](../tools/study/README.md).",
            key_sections(study_keys())},
           {"Fit files", "How to use them: [articular fit](../tools/fit/README.md).",
-           key_sections(fit_keys())}};
+           key_sections(fit_keys())},
+          {"Track files", "How to use them: [articular track](../tools/track/README.md).",
+           key_sections(track_keys())}};
 }
 
 std::vector<KeySection> all_sections() {
@@ -118,6 +121,7 @@ std::string answer(const KeysArguments& arguments) {
     return json_schema(sim::scenario_keys(), "A scenario of articular");
   if (arguments.schema_of == "study") return json_schema(study_keys(), "A study of articular");
   if (arguments.schema_of == "fit") return json_schema(fit_keys(), "A fit of articular");
+  if (arguments.schema_of == "track") return json_schema(track_keys(), "A track of articular");
   if (arguments.markdown) return keys_as_markdown(documents());
   return arguments.name.empty() ? overview() : look_up(arguments.name);
 }
@@ -126,10 +130,10 @@ std::string answer(const KeysArguments& arguments) {
 
 void add_keys_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<KeysArguments>();
-  CLI::App* command =
-      app.add_subcommand("keys",
-                         "Say what scenario, study and fit files may hold: all keys, with type, "
-                         "unit, range, default and meaning");
+  CLI::App* command = app.add_subcommand(
+      "keys",
+      "Say what scenario, study, fit and track files may hold: all keys, with type, "
+      "unit, range, default and meaning");
   CLI::Option* name = command->add_option(
       "name", arguments->name,
       "A table (integrator, body, material), a key (young_modulus), or the path of one "
@@ -139,10 +143,10 @@ void add_keys_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--json-schema", arguments->schema_of,
                    "A JSON schema for editors, of files of this kind [scenario]")
-      ->type_name("scenario|study|fit")
+      ->type_name("scenario|study|fit|track")
       ->expected(0, 1)
       ->default_str("scenario")
-      ->check(CLI::IsMember({"scenario", "study", "fit"}))
+      ->check(CLI::IsMember({"scenario", "study", "fit", "track"}))
       ->excludes(name)
       ->excludes(markdown);
   markdown->excludes(name);

@@ -32,6 +32,7 @@
 #include "tools/run/commands.hpp"
 #include "tools/shipped/scenarios_command.hpp"
 #include "tools/study/study_command.hpp"
+#include "tools/track/track_command.hpp"
 #include "tools/verify/verify_command.hpp"
 
 namespace {
@@ -87,6 +88,7 @@ int run_program(int argc, char** argv) {
   articular::tools::add_study_command(app, exit_code);
   articular::tools::add_work_command(app, exit_code);
   articular::tools::add_fit_command(app, exit_code);
+  articular::tools::add_track_command(app, exit_code);
   articular::tools::add_verify_command(app, exit_code);
   articular::tools::add_collide_command(app, exit_code);
   articular::tools::add_mesh_command(app, exit_code);

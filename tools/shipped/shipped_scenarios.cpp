@@ -112,9 +112,11 @@ std::vector<ShippedScenario> shipped_scenarios() {
     const sim::Node document = sim::read_toml(folder / (name + ".toml"));
     const bool is_study = document.find("scenario") != nullptr;
     const bool is_fit = is_study && document.find("parameter") != nullptr;
+    const bool is_track = is_study && document.find("target") != nullptr;
     if (!is_study && document.find("duration") == nullptr) continue;
     scenarios.push_back({name,
                          is_fit     ? "fit"
+                         : is_track ? "track"
                          : is_study ? "study"
                                     : text_of(document, "analysis", "dynamic"),
                          text_of(document, "title", name)});

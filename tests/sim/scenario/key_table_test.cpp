@@ -28,6 +28,7 @@ choice = { disc = "tissue" }
 curve = { ramp = { time = ["0 s", "1 s"], value = [0, 1] } }
 integrator = { step = "1 ms", scheme = "tr-bdf2", position_tolerance = "1 um", max_iterations = 9, solver = "auto" }
 detection = { tree = "blocks" }
+excitations = { file = "excitations.csv" }
 output = { interval = "10 ms", length_unit = "mm", directory = "o", frames = true, contact_surfaces = true, checkpoint_interval = "1 s", directions = ["left", "posterior", "superior"] }
 [[body]]
 name = "skull"
@@ -401,6 +402,7 @@ class KeyTables : public ScenarioTest {
           "id,muscle,body_upper,ux_mm,uy_mm,uz_mm,body_lower,lx_mm,ly_mm,lz_mm,max_force_N,"
           "max_over_opt_length,tendon_ratio\nm1,masseter,hyoid,0,0,0,free,0,0,9,1,1.3,0\n"
           "m2,geniohyoid,hyoid,0,0,0,free,0,0,9,1,1.3,0\n");
+    write("excitations.csv", "time [s],line_left\n0,0\n");
     write("motion.csv", "time [s],translation.x [mm]\n0,0\n1,1\n2,2\n");
   }
 

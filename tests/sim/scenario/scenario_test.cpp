@@ -566,7 +566,8 @@ TEST(ShippedScenarios, LeaveContactAsItIs) {
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(ARTICULAR_SOURCE_DIR "/scenarios")) {
     const std::string name = entry.path().filename().string();
-    if (!name.ends_with(".toml") || name.ends_with("-study.toml") || name.ends_with("-fit.toml"))
+    const auto is_of = [&](const char* kind) { return name.ends_with(kind); };
+    if (!is_of(".toml") || is_of("-study.toml") || is_of("-fit.toml") || is_of("-track.toml"))
       continue;
     if (name.starts_with("subject")) continue;  // reads data that is not here
     const auto settings = nlohmann::json::parse(read_scenario(entry.path()).settings_json);

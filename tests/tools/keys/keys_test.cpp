@@ -31,7 +31,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Committed{"Reference", "--markdown", "KEYS.md"},
                       Committed{"Schema", "--json-schema", "scenario.schema.json"},
                       Committed{"StudySchema", "--json-schema study", "study.schema.json"},
-                      Committed{"FitSchema", "--json-schema fit", "fit.schema.json"}),
+                      Committed{"FitSchema", "--json-schema fit", "fit.schema.json"},
+                      Committed{"TrackSchema", "--json-schema track", "track.schema.json"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 /// What the schema says of files, which are shell patterns.
@@ -49,12 +50,15 @@ TEST(Schema, TakesAllShippedFiles) {
       validate(folder, "scenario.schema.json",
                "$(find " + all + " -name '*.toml' | xargs grep -L '^scenario *=' )");
   EXPECT_EQ(scenarios.exit_code, 0) << scenarios.out << scenarios.err;
-  const ProgramResult studies = validate(
-      folder, "study.schema.json",
-      "$(grep -L 'parameter' $(find " + all + " -name '*.toml' | xargs grep -l '^scenario *='))");
+  const ProgramResult studies = validate(folder, "study.schema.json",
+                                         "$(grep -L 'parameter\\|target' $(find " + all +
+                                             " -name '*.toml' | xargs grep -l '^scenario *='))");
   EXPECT_EQ(studies.exit_code, 0) << studies.out << studies.err;
   const ProgramResult fits = validate(folder, "fit.schema.json", all + "/knee/laxity-fit.toml");
   EXPECT_EQ(fits.exit_code, 0) << fits.out << fits.err;
+  const ProgramResult tracks =
+      validate(folder, "track.schema.json", all + "/mandible/*-track.toml");
+  EXPECT_EQ(tracks.exit_code, 0) << tracks.out << tracks.err;
 }
 
 TEST(Schema, RefusesWhatTheTablesRefuse) {

@@ -428,7 +428,7 @@ TEST(Program, HelpNamesEverySubcommand) {
   EXPECT_EQ(result.err, "");
   for (const char* command :
        {"run", "scenarios", "keys", "check", "explain", "render", "plot", "report", "study", "work",
-        "fit", "verify", "collide", "mesh", "anatomy", "manual"}) {
+        "fit", "track", "verify", "collide", "mesh", "anatomy", "manual"}) {
     EXPECT_NE(result.out.find(std::string("  ") + command + " "), std::string::npos) << command;
     const ProgramResult own = run_program(folder, std::string(command) + " --help");
     EXPECT_EQ(own.exit_code, 0) << command;

@@ -1,0 +1,174 @@
+#include "sim/step/state_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/assembly/solver_setup.hpp"
+#include "sim/model/displace.hpp"
+#include "sim/model/held_blocks.hpp"
+#include "sim/model/newton_weights.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Between nearby states, of the smallest element: far below what contact and laws bend in, and far
+/// above round-off.
+constexpr double kNearMotion = 1e-6;
+constexpr double kNearMotionAlone = 1e-9;  // [m] without tissue and contact
+constexpr double kNearActivation = 1e-6;
+constexpr double kNearSpeed = 1e-6;  // [m/s]
+
+/// Of the balance this part may be left: iterations that go by slopes need no more, and forces
+/// between nearby states have noise not far below.
+constexpr double kSolved = 1e-4;
+constexpr int kMostCorrections = 20;
+
+/// The largest of the blocks' displacements [m], or velocities [m/s].
+double largest_motion(const Model& model, const Eigen::VectorXd& blocks) {
+  double largest = blocks.head(3 * model.layout.num_free_nodes).lpNorm<Eigen::Infinity>();
+  for (int r = 0; r < model.layout.num_rigid; ++r) {
+    const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(r)];
+    largest = std::max({largest, blocks.segment<3>(3 * rigid.block).norm(),
+                        turning_radius(rigid) * blocks.segment<3>(3 * rigid.block + 3).norm()});
+  }
+  return largest;
+}
+
+NearbyStates states_along(const Model& model, const Eigen::VectorXd& y,
+                          const Eigen::VectorXd& motion, const Eigen::VectorXd& velocity,
+                          const Eigen::VectorXd& activation) {
+  const Layout& layout = model.layout;
+  const double near_motion =
+      std::isfinite(model.trusted_motion) ? kNearMotion * model.trusted_motion : kNearMotionAlone;
+  const double size = std::max(
+      {largest_motion(model, motion) / near_motion, largest_motion(model, velocity) / kNearSpeed,
+       activation.size() > 0 ? activation.lpNorm<Eigen::Infinity>() / kNearActivation : 0});
+  if (size == 0) return {y, y, 1};
+  const double part = 1 / size;
+  Eigen::VectorXd middle = y;
+  for (int m = 0; m < layout.num_muscles; ++m) {
+    const double room = part * std::abs(activation[m]);
+    double& a = middle[layout.activations() + m];
+    a = std::clamp(a, room, 1 - room);
+  }
+  const auto moved = [&](double by) {
+    Eigen::VectorXd z = middle;
+    displace(model, by * motion, z);
+    z.segment(layout.velocities(), velocity.size()) += by * velocity;
+    z.segment(layout.activations(), layout.num_muscles) += by * activation;
+    return z;
+  };
+  return {moved(-part), moved(part), 2 * part};
+}
+
+}  // namespace
+
+StateResponse no_response(const Model& model, Eigen::Index inputs) {
+  const Eigen::Index rows = 3 * model.layout.num_unknown_blocks();
+  return {Eigen::MatrixXd::Zero(rows, inputs), Eigen::MatrixXd::Zero(rows, inputs),
+          Eigen::MatrixXd::Zero(model.layout.num_muscles, inputs), 0};
+}
+
+NearbyStates nearby_states(const Model& model, const Eigen::VectorXd& y,
+                           const StateResponse& response, Eigen::Index input) {
+  return states_along(model, y, response.motion.col(input), response.velocity.col(input),
+                      response.activation.col(input));
+}
+
+ResponseSolver::ResponseSolver(const Model& model, Dynamics& dynamics)
+    : model_(model), dynamics_(dynamics), solver_(make_linear_solver(model)) {}
+
+bool ResponseSolver::factor(const SystemScale& scale) {
+  dynamics_.evaluate(y_.data(), t_, conditions_);
+  for (const fem::Tangent tangent : {fem::Tangent::Consistent, fem::Tangent::Projected})
+    if (prepare_linear(*solver_, dynamics_.assemble(scale, tangent),
+                       dynamics_.now().configuration.x))
+      return true;
+  return false;
+}
+
+/// Of the unknown blocks along the column [N, N m].
+Eigen::VectorXd ResponseSolver::force_change(const Column& column) {
+  const NearbyStates states =
+      states_along(model_, y_, column.motion, column.velocity, column.activation);
+  const Eigen::Index rows = column.motion.size();
+  dynamics_.evaluate(states.above.data(), t_, conditions_);
+  Eigen::VectorXd change = dynamics_.now().forces.head(rows);
+  dynamics_.evaluate(states.below.data(), t_, conditions_);
+  change -= dynamics_.now().forces.head(rows);
+  return change / states.apart;
+}
+
+/// x with residual(x) = 0 from where it is, as far as corrections by the matrix make that smaller.
+template <class Residual>
+bool ResponseSolver::solve(const Residual& residual, Eigen::VectorXd& x, double& error) {
+  Eigen::VectorXd r = residual(x), correction(x.size());
+  const double first = r.norm();
+  double left = first;
+  for (int k = 0; k < kMostCorrections && left > kSolved * first; ++k) {
+    correction.setZero();
+    if (!solver_->solve(r, correction).converged || !correction.allFinite()) return false;
+    keep_free_part(model_, correction);
+    const Eigen::VectorXd next = x + correction;
+    r = residual(next);
+    if (!(r.norm() < left)) break;
+    x = next;
+    left = r.norm();
+  }
+  if (first > 0) error = std::max(error, left / first);
+  return true;
+}
+
+bool ResponseSolver::follow_equilibrium(const Eigen::VectorXd& y, double t,
+                                        const Eigen::MatrixXd& excitation,
+                                        StateResponse& response) {
+  y_ = y;
+  t_ = t;
+  conditions_ = {};
+  response = no_response(model_, excitation.cols());
+  response.activation = excitation;
+  if (model_.layout.num_unknown_blocks() == 0) return true;
+  if (!factor({0, 0, 1})) return false;
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(response.velocity.rows());
+  for (Eigen::Index j = 0; j < excitation.cols(); ++j) {
+    Eigen::VectorXd motion = rest;
+    const auto unbalanced = [&](const Eigen::VectorXd& x) {
+      return force_change({x, rest, excitation.col(j)});
+    };
+    if (!solve(unbalanced, motion, response.error)) return false;
+    response.motion.col(j) = motion;
+  }
+  return true;
+}
+
+// v' of implicit Euler: M (v' − v) = h Δf(x + h v', v', a').
+bool ResponseSolver::follow_step(const Eigen::VectorXd& y, double t_before, double t,
+                                 const Eigen::MatrixXd& excitation, StateResponse& response) {
+  const double h = t - t_before;
+  y_ = y;
+  t_ = t;
+  conditions_ = {};
+  conditions_.step_start = t_before;
+  for (int m = 0; m < model_.layout.num_muscles; ++m) {
+    const double part = h / activation_time(model_, y.data(), t, m);
+    response.activation.row(m) =
+        (response.activation.row(m) + part * excitation.row(m)) / (1 + part);
+  }
+  if (model_.layout.num_unknown_blocks() == 0) return true;
+  if (!factor({1, h, h * h, h})) return false;
+  for (Eigen::Index j = 0; j < excitation.cols(); ++j) {
+    const Eigen::VectorXd before = response.velocity.col(j), x = response.motion.col(j);
+    Eigen::VectorXd velocity = before, inertia;
+    const auto unbalanced = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+      const Eigen::VectorXd change = h * force_change({x + h * v, v, response.activation.col(j)});
+      dynamics_.multiply_mass(v - before, inertia);
+      return change - inertia;
+    };
+    if (!solve(unbalanced, velocity, response.error)) return false;
+    response.velocity.col(j) = velocity;
+    response.motion.col(j) += h * velocity;
+  }
+  return true;
+}
+
+}  // namespace articular::sim

@@ -1,0 +1,65 @@
+// Excitations from a table, in place of those of the muscles.
+#include "sim/scenario/excitation_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/sim/support/scenario_file.hpp"
+
+namespace articular::sim::excitation_table_test {
+
+class ExcitationTable : public ScenarioTest {
+ protected:
+  const std::string scene_ =
+      kStart +
+      "[[muscle]]\nname = \"pull\"\nmirror = \"x\"\nmax_force = \"1 N\"\nexcitation = { time = "
+      "[\"0 s\"], value = [0.5] }\n"
+      "path = [{ body = \"skull\", point = \"0.1 0 0 m\" }, { body = \"mandible\", point = \"0.1 0 "
+      "1 m\" }]\n";
+  const std::string table_ = "[excitations]\nfile = \"e.csv\"\n";
+
+  std::string refusal_of(const std::string& csv) const {
+    write("e.csv", csv);
+    return refusal(scene_ + table_);
+  }
+};
+
+TEST_F(ExcitationTable, ReplacesThoseOfItsMusclesAndNoOthers) {
+  write("e.csv", "pull_right,time [s]\n0,0\n0.25,0.1\n");
+  const Scenario scenario = read(scene_ + table_);
+  EXPECT_EQ(scenario.muscles[0].excitation.value, (std::vector<double>{0.5}));
+  EXPECT_EQ(scenario.muscles[1].excitation.time, (std::vector<double>{0, 0.1}));
+  EXPECT_EQ(scenario.muscles[1].excitation.value, (std::vector<double>{0, 0.25}));
+}
+
+TEST_F(ExcitationTable, CanBeGivenByAnOverride) {
+  const std::string file = write("e.csv", "time [s],pull_left\n0,1\n").string();
+  const Scenario scenario = read(scene_, {"excitations.file=" + file});
+  EXPECT_EQ(scenario.muscles[0].excitation.value, (std::vector<double>{1}));
+  const auto& files = scenario.files;  // of which results keep record
+  EXPECT_NE(std::find(files.begin(), files.end(), file), files.end());
+}
+
+TEST_F(ExcitationTable, SaysWhatIsWrongAndWhere) {
+  const auto expect = [&](const std::string& csv, const std::string& message) {
+    EXPECT_EQ(refusal_of(csv), message);
+  };
+  expect("time [s],pull_lift\n0,1\n",
+         "e.csv:1: column \"pull_lift\": the scenario has no such muscle; did you mean "
+         "`pull_left`?");
+  expect("pull_left\n1\n", "e.csv:1: expected a column \"time [s]\"");
+  expect("time [s],pull_left,pull_left\n0,1,1\n", "e.csv:1: column \"pull_left\" appears twice");
+  expect("time [s],pull_left\n0,1\n0,1\n", "e.csv:3: times must increase, found 0 s after 0 s");
+  expect("time [s],pull_left\n0,1.5\n",
+         "e.csv:2: column `pull_left`: an excitation must lie between 0 and 1, found 1.5");
+  expect("time [s],pull_left\n", "e.csv: the table of excitations has no rows");
+}
+
+TEST_F(ExcitationTable, HasToBeThere) {
+  EXPECT_NE(refusal(scene_ + table_).find("jaw.toml:28:8: cannot read the table of excitations"),
+            std::string::npos)
+      << refusal(scene_ + table_);
+}
+
+}  // namespace articular::sim::excitation_table_test

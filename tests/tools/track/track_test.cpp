@@ -1,0 +1,255 @@
+// `articular track` as a user runs it. Twins: what a scenario does with known excitations is
+// tracked, and these are found again.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "tests/tools/support/program.hpp"
+
+namespace articular::track_test {
+
+const std::string kScene = ARTICULAR_SOURCE_DIR "/scenarios/verification/three_muscles.toml";
+
+/// The scene's own excitations, which are the first guess, would be those of the twin.
+const std::string kNoGuess =
+    "\"muscle.pull_y.excitation\" = { time = [\"0 s\"], value = [0] }, "
+    "\"muscle.pull_z.excitation\" = { time = [\"0 s\"], value = [0] }";
+const std::string kStatic = "set = { " + kNoGuess + " }\n";
+
+const std::string kTargets =
+    "[[target]]\ncolumn = \"bone.position.y [mm]\"\nfile = \"twin/history.csv\"\nspread = 0.01\n"
+    "[[target]]\ncolumn = \"bone.position.z [mm]\"\nfile = \"twin/history.csv\"\nspread = 0.01\n";
+const std::string kTwoMuscles = "[[muscle]]\nname = \"pull_*\"\n";
+
+/// The columns of a table of numbers.
+std::map<std::string, std::vector<double>> columns(const std::filesystem::path& file) {
+  std::istringstream lines(content(file));
+  std::string line, cell;
+  std::vector<std::string> names;
+  std::getline(lines, line);
+  for (std::istringstream row(line); std::getline(row, cell, ',');) names.push_back(cell);
+  std::map<std::string, std::vector<double>> table;
+  while (std::getline(lines, line)) {
+    std::size_t c = 0;
+    for (std::istringstream row(line); std::getline(row, cell, ',');)
+      table[names[c++]].push_back(std::stod(cell));
+  }
+  return table;
+}
+
+class TrackTest : public ::testing::Test {
+ protected:
+  ProgramResult program(const std::string& arguments) const {
+    return run_program(folder_, arguments + " --quiet");
+  }
+  /// Runs the scene as it is: in `twin`.
+  void make_twin(const std::string& settings = "") const {
+    const ProgramResult run = program("run '" + kScene + "' --out twin " + settings);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  ProgramResult track(const std::string& text, const std::string& more = "") const {
+    folder_.file("t.toml", "scenario = \"" + kScene + "\"\n" + text);
+    return program("track t.toml " + more);
+  }
+
+  TemporaryFolder folder_;
+};
+
+using Track = TrackTest;
+
+TEST_F(Track, FindsTheExcitationsOfATwinAgain) {
+  make_twin();
+  const ProgramResult result = track(kStatic + kTwoMuscles + kTargets);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out,
+            "out/t/track.md\nout/t/excitations.csv\nout/t/excitations.txt\nout/t/targets.csv\n"
+            "out/t/muscles.csv\n");
+  auto found = columns(folder_ / "out/t/excitations.csv");
+  EXPECT_EQ(found["time [s]"], (std::vector<double>{0, 0.25, 0.5, 0.75, 1}));
+  const std::vector<double> y{0, 0.3, 0.6, 0.4, 0.2}, z{0, 0.1, 0.2, 0.3, 0.4};
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    EXPECT_NEAR(found["pull_y"][k], y[k], 1e-4);
+    EXPECT_NEAR(found["pull_z"][k], z[k], 1e-4);
+  }
+  const std::string text = content(folder_ / "out/t/track.md");
+  EXPECT_NE(text.find("determined |"), std::string::npos) << text;
+  EXPECT_EQ(text.find("not determined"), std::string::npos) << text;
+
+  // What was found runs, and does what the twin did.
+  const ProgramResult again =
+      program("run '" + kScene + "' --set @out/t/excitations.txt --out again");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const auto wanted = columns(folder_ / "twin/history.csv"),
+             got = columns(folder_ / "again/history.csv");
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_NEAR(got.at("bone.position.y [mm]")[k], wanted.at("bone.position.y [mm]")[k], 1e-4);
+}
+
+// Three muscles for two freedoms: which share is whose, targets do not say.
+TEST_F(Track, SaysWhatTargetsDoNotDetermine) {
+  make_twin();
+  ASSERT_EQ(track(kStatic + "[[muscle]]\nname = \"*\"\n" + kTargets).exit_code, 0);
+  auto muscles = columns(folder_ / "out/t/excitations.csv");
+  // The third helps: squares are least where it takes part.
+  EXPECT_GT(muscles["aslant"][4], 0.1);
+  EXPECT_LT(muscles["pull_z"][4], 0.35);
+  const std::string text = content(folder_ / "out/t/track.md");
+  EXPECT_NE(text.find("2 of 3"), std::string::npos) << text;
+  EXPECT_NE(text.find("in part"), std::string::npos) << text;
+  // The way is met all the same.
+  EXPECT_NE(text.find("| 1 s | 0.0"), std::string::npos) << text;
+}
+
+TEST_F(Track, EmgDecidesWhereMotionDoesNot) {
+  make_twin();
+  ASSERT_EQ(track(kStatic + "[[muscle]]\nname = \"aslant\"\nemg = 0\nemg_spread = 0.01\n" +
+                  kTwoMuscles + kTargets)
+                .exit_code,
+            0);
+  auto found = columns(folder_ / "out/t/excitations.csv");
+  EXPECT_NEAR(found["pull_y"][2], 0.6, 2e-3);
+  EXPECT_NEAR(found["pull_z"][4], 0.4, 2e-3);
+}
+
+// A force is a target like any other. pull_y alone has 3 N where it has them.
+TEST_F(Track, MeetsForces) {
+  ASSERT_EQ(
+      track(kStatic + "duration = \"0.5 s\"\n[[muscle]]\nname = \"pull_y\"\n[[target]]\ncolumn = "
+                      "\"pull_y.force [N]\"\nvalue = 3\nspread = 0.01\n")
+          .exit_code,
+      0);
+  const std::string targets = content(folder_ / "out/t/targets.csv");
+  const std::string row = "0.5,pull_y.force [N],N,3,";
+  const std::size_t at = targets.find(row);
+  ASSERT_NE(at, std::string::npos) << targets;
+  EXPECT_NEAR(std::stod(targets.substr(at + row.size())), 3, 1e-4);
+}
+
+TEST_F(Track, BoundsHoldAndAreTold) {
+  make_twin();
+  ASSERT_EQ(track(kStatic +
+                  "[[muscle]]\nname = \"pull_y\"\nhighest = 0.5\n[[muscle]]\nname = \"pull_z\"\n" +
+                  kTargets)
+                .exit_code,
+            0);
+  auto found = columns(folder_ / "out/t/excitations.csv");
+  EXPECT_EQ(found["pull_y"][2], 0.5);
+  const std::string text = content(folder_ / "out/t/track.md");
+  EXPECT_NE(text.find("`pull_y` | 0.5000, at its highest"), std::string::npos) << text;
+}
+
+TEST_F(Track, MusclesTogetherHaveOneExcitation) {
+  ASSERT_EQ(track(kStatic + "[[muscle]]\nname = \"pull_*\"\ntogether = true\n[[target]]\ncolumn = "
+                            "\"bone.position.y [mm]\"\nvalue = 1\nspread = 0.01\n")
+                .exit_code,
+            0);
+  auto found = columns(folder_ / "out/t/excitations.csv");
+  EXPECT_GT(found["pull_y"][4], 0.1);
+  EXPECT_EQ(found["pull_y"], found["pull_z"]);
+}
+
+/// Moves in time, for a tenth of a second.
+const std::string kInTime =
+    "set = { analysis = \"dynamic\", duration = \"0.1 s\", \"integrator.step\" = \"1 ms\", "
+    "\"integrator.position_tolerance\" = \"1e-6 um\", \"output.interval\" = \"10 ms\", " +
+    kNoGuess + " }\n";
+const std::string kSetInTime =
+    "--set analysis=dynamic --set duration='0.1 s' --set integrator.step='1 ms' --set "
+    "integrator.position_tolerance='1e-6 um' --set output.interval='10 ms' ";
+
+double rise_and_fall(double part) { return part < 0.5 ? 1.2 * part : 1 - 0.8 * part; }
+
+const std::string kTwinInTime =
+    kSetInTime +
+    "--set muscle.pull_y.excitation='{ time = [\"0 s\", \"50 ms\", \"0.1 s\"], value = [0, 0.6, "
+    "0.2] "
+    "}' --set muscle.pull_z.excitation='{ time = [\"0 s\", \"0.1 s\"], value = [0, 0.4] }'";
+
+// In time, with activation dynamics and inertia between excitation and motion. Without looking
+// ahead a twin is found exactly, but errors grow from one interval to the next: five of them show
+// it.
+TEST_F(Track, FindsTheExcitationsOfATwinInTime) {
+  make_twin(kTwinInTime);
+  const ProgramResult result =
+      track("look_ahead = \"1 ms\"\nduration = \"50 ms\"\n" + kInTime + kTwoMuscles + kTargets);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  auto found = columns(folder_ / "out/t/excitations.csv");
+  ASSERT_EQ(found["pull_y"].size(), 6u);
+  for (std::size_t k = 1; k <= 5; ++k) {
+    const double part = 0.1 * static_cast<double>(k);
+    EXPECT_NEAR(found["pull_y"][k], rise_and_fall(part), 2e-3) << k;
+    EXPECT_NEAR(found["pull_z"][k], 0.4 * part, 2e-3) << k;
+  }
+}
+
+// With a look ahead of an interval it is calm.
+TEST_F(Track, LookingAheadFollowsATwinInTime) {
+  make_twin(kTwinInTime);
+  const ProgramResult result = track(kInTime + kTwoMuscles + kTargets);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  auto found = columns(folder_ / "out/t/excitations.csv");
+  for (std::size_t k = 1; k <= 10; ++k) {
+    const double part = 0.1 * static_cast<double>(k);
+    EXPECT_NEAR(found["pull_y"][k], rise_and_fall(part), 0.1) << k;
+    EXPECT_NEAR(found["pull_z"][k], 0.4 * part, 0.1) << k;
+  }
+  const ProgramResult again =
+      program("run '" + kScene + "' --set @out/t/excitations.txt --out again");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const auto wanted = columns(folder_ / "twin/history.csv").at("bone.position.y [mm]"),
+             got = columns(folder_ / "again/history.csv").at("bone.position.y [mm]");
+  ASSERT_EQ(got.size(), wanted.size());
+  for (std::size_t k = 0; k < wanted.size(); ++k) EXPECT_NEAR(got[k], wanted[k], 0.05) << k;
+}
+
+/// The block of TOML behind a sentence of a page.
+std::string block_after(const std::string& page, const std::string& sentence) {
+  const std::size_t begin = page.find("```toml\n", page.find(sentence)) + 8;
+  return page.substr(begin, page.find("```", begin) - begin);
+}
+
+// From the top of the tree, as the page says.
+TEST_F(Track, DoesTheExampleOfItsPage) {
+  const std::string page = content(ARTICULAR_SOURCE_DIR "/tools/README.md");
+  std::filesystem::create_directory_symlink(ARTICULAR_SOURCE_DIR "/scenarios",
+                                            folder_ / "scenarios");
+  folder_.file("bone.toml", block_after(page, "A track file looks like this"));
+  ASSERT_EQ(program("run scenarios/verification/three_muscles.toml --out out/known").exit_code, 0);
+  const ProgramResult result = program("track bone.toml");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  auto found = columns(folder_ / "out/bone/excitations.csv");
+  EXPECT_NEAR(found["pull_y"][2], 0.6, 5e-3);
+  EXPECT_NEAR(found["pull_z"][4], 0.4, 5e-3);
+}
+
+// What the command sets stands in what it writes for `run`.
+TEST_F(Track, WritesWhatItsCommandSets) {
+  ASSERT_EQ(track(kStatic + kTwoMuscles +
+                      "[[target]]\ncolumn = \"bone.position.y [mm]\"\nvalue = 1\nspread = 0.01\n",
+                  "--set duration='0.5 s'")
+                .exit_code,
+            0);
+  EXPECT_NE(content(folder_ / "out/t/excitations.txt").find("\nduration=0.5 s\n"),
+            std::string::npos);
+}
+
+TEST_F(Track, SaysWhatIsWrongAndWhere) {
+  const auto refused = [&](const std::string& text, const std::string& message) {
+    const ProgramResult result = track(text);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+  };
+  const std::string target =
+      "[[target]]\ncolumn = \"bone.position.y [mm]\"\nvalue = 1\nspread = 0.01\n";
+  refused("[[muscle]]\nname = \"pul_y\"\n" + target,
+          "t.toml:2:1: the scenario has no muscle `pul_y` that an entry before does not name; did "
+          "you mean `pull_y`?");
+  refused(kTwoMuscles + "[[target]]\ncolumn = \"bone.position.w [mm]\"\nvalue = 1\nspread = 0.01\n",
+          "t.toml:4:1: no probe of the scenario shows `bone.position.w [mm]`");
+  refused("look_ahead = \"1 s\"\n" + kTwoMuscles + target, "`look_ahead` is for dynamic scenarios");
+}
+
+}  // namespace articular::track_test

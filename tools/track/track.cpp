@@ -1,0 +1,297 @@
+#include "tools/track/track.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "sim/base/error.hpp"
+#include "sim/build/build_model.hpp"
+#include "sim/scenario/curve.hpp"
+#include "tools/process/interruption.hpp"
+#include "tools/shipped/shipped_scenarios.hpp"
+#include "tools/track/least_activation.hpp"
+
+namespace articular::tools {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// The sum would not fall by more than this part of it, or than by the square of a thousandth of a
+/// spread.
+constexpr double kConverged = 3e-3, kNegligible = 1e-6;
+/// A step that is this short helps no more.
+constexpr double kShortest = 1.0 / 32;
+
+bool counts_at(const TrackTarget& target, double t) {
+  const std::vector<double>& times = target.value.time;
+  const double slack = 1e-9 * (1 + std::abs(t));
+  return times.size() == 1 || (t > times.front() - slack && t < times.back() + slack);
+}
+
+double wanted_at(const TrackTarget& target, double t) {
+  return counts_at(target, t) ? sim::value_at(target.value, t)
+                              : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// One place that the iteration has come to.
+struct Iterate {
+  VectorXd excitation;
+  TrackTrial trial;
+  double sum = 0;  // of squared misfits and effort
+};
+
+/// Of the scenario, one an unknown.
+std::vector<sim::Curve> own_excitations(const sim::Model& model,
+                                        const std::vector<TrackUnknown>& unknowns) {
+  std::vector<sim::Curve> own;
+  for (const TrackUnknown& unknown : unknowns)
+    own.push_back(
+        model.muscles[static_cast<std::size_t>(unknown.muscles.front())].given.excitation);
+  return own;
+}
+
+class Tracker {
+ public:
+  Tracker(const Track& track, const TrackOptions& options)
+      : track_(track),
+        options_(options),
+        scenario_(sim::read_scenario(find_scenario(track.scenario), track.overrides)),
+        model_(build()),
+        unknowns_(unknowns_of(track, model_)),
+        own_(own_excitations(model_, unknowns_)),
+        run_(track, scenario_, model_, unknowns_) {
+    if (track.look_ahead && model_.is_static)
+      throw sim::InputError({track.file.string()},
+                            "`look_ahead` is for dynamic scenarios: an equilibrium does not depend "
+                            "on what was before");
+    const auto n = static_cast<Index>(unknowns_.size());
+    lowest_.resize(n), highest_.resize(n), count_.resize(n), start_.resize(n);
+    for (Index u = 0; u < n; ++u) {
+      const TrackUnknown& unknown = unknowns_[static_cast<std::size_t>(u)];
+      lowest_[u] = unknown.given->lowest;
+      highest_[u] = unknown.given->highest;
+      count_[u] = static_cast<double>(unknown.muscles.size());
+      start_[u] = sim::steady_activation(
+          model_.muscles[static_cast<std::size_t>(unknown.muscles.front())], 0);
+    }
+    duration_ = track.duration.value_or(scenario_.duration);
+    if (duration_ > scenario_.duration)
+      throw sim::InputError({track.file.string()},
+                            fmt::format("`duration`: the scenario ends at {:g} s, before {:g} s",
+                                        scenario_.duration, duration_));
+    interval_ = track.interval.value_or(model_.is_static ? scenario_.integrator.step
+                                                         : scenario_.output.interval);
+  }
+
+  TrackResult go() {
+    TrackResult result;
+    result.unknowns = unknowns_;
+    result.start = start_;
+    result.is_static = model_.is_static;
+    sim::State state = run_.begin();
+    VectorXd excitation = start_;
+    try {
+      for (double before = 0; before < duration_;) {
+        const double time = next_time(before);
+        const VectorXd guess = before == 0 ? first_guess(time) : excitation;
+        Iterate place = solve(state, {before, time, excitation, guess}, result);
+        excitation = place.excitation;
+        state = std::move(place.trial.state);
+        before = time;
+        if (options_.after_point) options_.after_point(result, duration_);
+      }
+    } catch (const sim::Interruption&) {
+      result.interrupted = true;
+      result.failure = "interrupted";
+    } catch (const sim::SimulationError& error) {
+      result.failure = error.what();
+    }
+    return result;
+  }
+
+ private:
+  sim::Model build() {
+    scenario_.threads = options_.threads;
+    sim::Model model = sim::build_model(scenario_);
+    if (options_.warn)
+      for (const std::string& warning : model.warnings) options_.warn(warning);
+    return model;
+  }
+
+  /// Multiples of the interval; the last one is the duration, if it is not a tenth of one away.
+  double next_time(double t) const {
+    const double next = interval_ * (std::floor(t / interval_ + 1e-6) + 1);
+    return next > duration_ - 0.1 * interval_ ? duration_ : next;
+  }
+
+  VectorXd first_guess(double time) const {
+    VectorXd guess = start_;
+    for (std::size_t u = 0; u < own_.size(); ++u)
+      if (!own_[u].time.empty()) guess[static_cast<Index>(u)] = sim::value_at(own_[u], time);
+    return guess.cwiseMax(lowest_).cwiseMin(highest_);
+  }
+
+  std::vector<double> times_to_look_at(double time) const {
+    std::vector<double> times{time};
+    if (model_.is_static) return times;
+    const double end = std::min(time + track_.look_ahead.value_or(interval_), duration_);
+    while (times.back() < end - 1e-9 * interval_) {
+      const double next = next_time(times.back());
+      if (next > end + 1e-9 * interval_) break;
+      times.push_back(next);
+    }
+    return times;
+  }
+
+  /// Misfits in spreads: of all samples, then of what was measured of excitations.
+  ActivationProblem problem_at(const Iterate& place, double time) const {
+    std::vector<VectorXd> rows;
+    std::vector<double> right;
+    for (const TrackSample& sample : place.trial.samples)
+      for (std::size_t k = 0; k < track_.targets.size(); ++k) {
+        const TrackTarget& target = track_.targets[k];
+        if (!counts_at(target, sample.time)) continue;
+        const auto i = static_cast<Index>(k);
+        rows.emplace_back(sample.slopes.row(i).transpose() / target.spread);
+        right.push_back(rows.back().dot(place.excitation) -
+                        (sample.values[i] - wanted_at(target, sample.time)) / target.spread);
+      }
+    for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+      const TrackMuscle& given = *unknowns_[u].given;
+      if (given.emg.time.empty()) continue;
+      rows.emplace_back(VectorXd::Unit(place.excitation.size(), static_cast<Index>(u)) /
+                        given.emg_spread);
+      right.push_back(sim::value_at(given.emg, time) / given.emg_spread);
+    }
+    ActivationProblem problem;
+    // Where nothing counts a row of zeros stands for all.
+    problem.A.setZero(std::max<Index>(1, static_cast<Index>(rows.size())), place.excitation.size());
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      problem.A.row(static_cast<Index>(r)) = rows[r].transpose();
+    problem.b.setZero(problem.A.rows());
+    std::copy(right.begin(), right.end(), problem.b.begin());
+    problem.lowest = lowest_;
+    problem.highest = highest_;
+    problem.count = count_;
+    problem.effort = track_.effort;
+    return problem;
+  }
+
+  double sum_of(const ActivationProblem& problem, const VectorXd& a) const {
+    return (problem.A * a - problem.b).squaredNorm() +
+           track_.effort * cost_of(track_.cost, a, count_);
+  }
+
+  Iterate place_at(const sim::State& state, const Ramp& ramp) {
+    Iterate place{ramp.to, run_.go(state, ramp, times_to_look_at(ramp.t_to)), 0};
+    place.sum = sum_of(problem_at(place, ramp.t_to), place.excitation);
+    return place;
+  }
+
+  /// None where the run fails.
+  std::optional<Iterate> try_place(const sim::State& state, const Ramp& ramp) {
+    try {
+      return place_at(state, ramp);
+    } catch (const sim::SimulationError&) {
+      return std::nullopt;
+    }
+  }
+
+  void tell(double time, int trial, std::optional<double> sum) const {
+    if (options_.after_trial) options_.after_trial(time, trial, sum);
+  }
+
+  /// From `here` towards `next`, as far as the sum falls. The whole way is taken also where the sum
+  /// rises by less than a spread a row: along what targets do not determine they bend, and the next
+  /// iteration makes up for that. @return whether it went
+  bool go_on(const sim::State& state, Ramp ramp, const VectorXd& next, double rows, Iterate& here,
+             int& trials) {
+    for (double part = 1; part >= kShortest; part *= 0.5) {
+      ramp.to = here.excitation + part * (next - here.excitation);
+      ++trials;
+      std::optional<Iterate> place = try_place(state, ramp);
+      tell(ramp.t_to, trials, place ? std::optional(place->sum) : std::nullopt);
+      if (!place || !(place->sum < here.sum + (part == 1 ? rows : 0))) continue;
+      here = std::move(*place);
+      return true;
+    }
+    return false;
+  }
+
+  /// @param ramp  to the first guess
+  Iterate solve(const sim::State& state, const Ramp& ramp, TrackResult& result) {
+    const double time = ramp.t_to;
+    TrackPoint point;
+    point.time = time;
+    point.trials = 1;
+    Iterate here = place_at(state, ramp);
+    tell(time, point.trials, here.sum);
+    Iterate best = here;
+    for (int k = 0;; ++k) {
+      const ActivationProblem problem = problem_at(here, time);
+      const VectorXd next = least_activation(problem, track_.cost);
+      point.converged = here.sum - sum_of(problem, next) <= kConverged * here.sum + kNegligible;
+      const auto rows = static_cast<double>(problem.A.rows());
+      if (point.converged || k == options_.most_iterations ||
+          !go_on(state, ramp, next, rows, here, point.trials))
+        break;
+      if (here.sum < best.sum) best = here;
+    }
+    describe(best, point);
+    result.points.push_back(std::move(point));
+    return best;
+  }
+
+  void describe(const Iterate& place, TrackPoint& point) const {
+    const TrackSample& sample = place.trial.samples.front();
+    point.excitation = place.excitation;
+    point.got = sample.values;
+    point.wanted.resize(point.got.size());
+    double sum = 0;
+    int count = 0;
+    for (std::size_t k = 0; k < track_.targets.size(); ++k) {
+      const auto i = static_cast<Index>(k);
+      point.wanted[i] = wanted_at(track_.targets[k], point.time);
+      if (!std::isfinite(point.wanted[i])) continue;
+      const double off = (point.got[i] - point.wanted[i]) / track_.targets[k].spread;
+      sum += off * off;
+      ++count;
+    }
+    point.misfit = count > 0 ? std::sqrt(sum / count) : 0;
+    point.response_error = place.trial.response_error;
+    const ActivationProblem problem = problem_at(place, point.time);
+    // A number of which only the bounds are known is spread evenly between them.
+    const VectorXd spreads = (highest_ - lowest_) / std::sqrt(12.0);
+    point.determination = determine(problem.A, spreads, problem.A * place.excitation - problem.b);
+    for (std::size_t c = 0; c < kTrackCosts.size(); ++c) {
+      point.by_cost[c] = kTrackCosts[c] == track_.cost ? place.excitation
+                                                       : least_activation(problem, kTrackCosts[c]);
+      const VectorXd off = problem.A * point.by_cost[c] - problem.b;
+      point.misfit_by_cost[c] =
+          off.size() > 0 ? std::sqrt(off.squaredNorm() / static_cast<double>(off.size())) : 0;
+    }
+  }
+
+  const Track& track_;
+  const TrackOptions& options_;
+  sim::Scenario scenario_;
+  sim::Model model_;
+  std::vector<TrackUnknown> unknowns_;
+  std::vector<sim::Curve> own_;  // excitations of the scenario: the first guess
+  TrackRun run_;
+  VectorXd lowest_, highest_, count_, start_;
+  double duration_ = 0, interval_ = 0;  // [s]
+};
+
+}  // namespace
+
+TrackResult track_excitations(const Track& track, const TrackOptions& options) {
+  return Tracker(track, options).go();
+}
+
+}  // namespace articular::tools
