@@ -9,6 +9,7 @@
 #include "sim/loads/surface_load.hpp"
 #include "sim/model/driven_supports.hpp"
 #include "sim/model/held_blocks.hpp"
+#include "sim/model/newton_weights.hpp"
 #include "sim/model/tissue.hpp"
 #include "sim/scenario/curve.hpp"
 
@@ -175,6 +176,13 @@ void Dynamics::add_loads() {
     const Vec3 now = value_at(force.profile, moment_.configuration.t) * force.force;
     add_force(moment_.configuration, force.point, now, moment_.forces);
     note_force(now.norm());
+  }
+  for (const MomentModel& load : model_.moments) {
+    ++evaluations_[Term::Load];
+    const RigidBody& rigid = model_.rigid_bodies[static_cast<std::size_t>(load.rigid)];
+    const Vec3 now = value_at(load.profile, moment_.configuration.t) * load.moment;
+    moment_.forces.segment<3>(3 * rigid.block + 3) += now;
+    note_force(now.norm() / turning_radius(rigid));
   }
   for (const SurfaceLoadModel& load : model_.surface_loads) {
     ++evaluations_[Term::Load];

@@ -434,6 +434,10 @@ class Builder {
         model_.gravity.push_back({gravity->acceleration, gravity->profile});
       if (const auto* force = std::get_if<ForceLoad>(&load))
         model_.forces.push_back({loaded_point(*force), force->force, force->profile});
+      if (const auto* moment = std::get_if<MomentLoad>(&load))
+        model_.moments.push_back(
+            {model_.bodies[static_cast<std::size_t>(body_index(moment->body))].rigid,
+             moment->moment, moment->profile});
       if (const auto* surface = std::get_if<SurfaceLoad>(&load))
         model_.surface_loads.push_back(make_surface_load(*surface, body_index(surface->at.tissue),
                                                          model_, geometry_, surface_));

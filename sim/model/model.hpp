@@ -180,6 +180,12 @@ struct ForceModel {
   Curve profile;
 };
 
+struct MomentModel {
+  int rigid = 0;  // index into Model::rigid_bodies
+  Vec3 moment = Vec3::Zero();
+  Curve profile;
+};
+
 struct SurfaceLoadModel {
   std::variant<double, Vec3> stress;  // [Pa]: pressure, or traction by the area at the start
   Curve profile;                      // factor over time
@@ -304,6 +310,7 @@ struct Model {
   std::vector<MuscleModel> muscles;
   std::vector<LigamentModel> ligaments;
   std::vector<ForceModel> forces;
+  std::vector<MomentModel> moments;
   std::vector<SurfaceLoadModel> surface_loads;
   std::vector<GravityModel> gravity;
   std::vector<HeldBlock> held_blocks;

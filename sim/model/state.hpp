@@ -14,7 +14,7 @@ namespace articular::sim {
 /// Work done and energy lost since the start [J].
 struct EnergyLedger {
   double muscle_work = 0;    // by active muscle force
-  double load_work = 0;      // by forces of the scenario (gravity is a stored energy)
+  double load_work = 0;      // by forces and moments of the scenario (gravity is a stored energy)
   double motion_work = 0;    // by what drives prescribed motions
   double ligament_loss = 0;  // in ligaments' dampers
   double tissue_loss = 0;    // in tissues' dampers

@@ -26,6 +26,7 @@ std::vector<double> kink_times(const Model& model, double duration) {
   };
   for (const MuscleModel& muscle : model.muscles) add(muscle.given.excitation.time);
   for (const ForceModel& force : model.forces) add(force.profile.time);
+  for (const MomentModel& load : model.moments) add(load.profile.time);
   for (const SurfaceLoadModel& load : model.surface_loads) add(load.profile.time);
   for (const GravityModel& gravity : model.gravity) add(gravity.profile.time);
   for (const RigidBody& rigid : model.rigid_bodies)

@@ -270,6 +270,14 @@ struct ForceLoad {
   Location where;
 };
 
+/// A moment on a rigid body.
+struct MomentLoad {
+  std::string body;
+  Vec3 moment = Vec3::Zero();  // [N m]; its axis stays in space
+  Curve profile;               // factor over time
+  Location where;
+};
+
 /// Force on the faces of a tissue's surface whose middles lie in a region.
 struct SurfaceLoad {
   TissueRegion at;
@@ -287,7 +295,7 @@ struct MotionLoad {
   Location where;
 };
 
-using Load = std::variant<GravityLoad, ForceLoad, SurfaceLoad, MotionLoad>;
+using Load = std::variant<GravityLoad, ForceLoad, MomentLoad, SurfaceLoad, MotionLoad>;
 
 /// Without any of these every pair of bodies can meet, and none meets itself.
 struct ContactPair {

@@ -12,7 +12,7 @@
 namespace articular::sim {
 namespace {
 
-enum class LoadKind { Gravity, Force, Pressure, Traction, Motion };
+enum class LoadKind { Gravity, Force, Moment, Pressure, Traction, Motion };
 
 void read_profile(const TableReader& table, const Context& context, Curve& profile) {
   table.read("profile", profile, [&](const Node& n) { return read_curve(n, kAny, context); });
@@ -57,6 +57,15 @@ const KeyTable& force_keys() {
             {form::Quantity{kLength, kNotNegative}},
             standard("0 m"),
             "with `point`, tissue: spreads it over the surface nodes within"}})};
+  return kTable;
+}
+
+const KeyTable& moment_keys() {
+  static const KeyTable kTable{
+      "[[load]]",
+      keys_of_load("moment", LoadKind::Moment, "a moment whose axis stays in space",
+                   {{"body", {form::Text{"name of a rigid body"}}, kRequired, "what it turns"},
+                    {"moment", {form::Vector{kMoment}}, kRequired, "the moment"}})};
   return kTable;
 }
 
@@ -150,6 +159,19 @@ Load read_force(const TableReader& table, const Context& context) {
     load.at = read_anchor(table, context);
   }
   table.read("force", load.force);
+  read_profile(table, context, load.profile);
+  return load;
+}
+
+Load read_moment(const TableReader& table, const Context& context) {
+  MomentLoad load;
+  load.where = table.node().where;
+  const Body& body = read_body_reference(table.at("body"), context);
+  if (body.kind != Body::Kind::Rigid)
+    fail(table.at("body"), fmt::format("a moment turns a rigid body, body `{}` is {}", body.name,
+                                       body.kind == Body::Kind::Fixed ? "fixed" : "tissue"));
+  load.body = body.name;
+  table.read("moment", load.moment);
   read_profile(table, context, load.profile);
   return load;
 }
@@ -366,6 +388,8 @@ Load read_load(const Node& node, const Context& context, const std::vector<Suppo
       return read_gravity(table, context);
     case LoadKind::Force:
       return read_force(table, context);
+    case LoadKind::Moment:
+      return read_moment(table, context);
     case LoadKind::Pressure:
       return read_pressure(table, context);
     case LoadKind::Traction:
@@ -395,6 +419,7 @@ const form::Variants& load_variants() {
                                         "the load is of kind",
                                         {{"gravity", gravity_keys},
                                          {"force", force_keys},
+                                         {"moment", moment_keys},
                                          {"pressure", pressure_keys},
                                          {"traction", traction_keys},
                                          {"motion", motion_keys}}};

@@ -338,6 +338,13 @@ void Stepper::account(State& after) {
         0.5 * (value_at(force.profile, t_before_) + value_at(force.profile, after.t));
     ledger.load_work += factor * force.force.dot(now.position(force.point) - loads_before_[i]);
   }
+  for (const MomentModel& load : model_.moments) {
+    const auto r = static_cast<std::size_t>(load.rigid);
+    const Eigen::AngleAxisd turn(now.poses[r].R * start_.poses[r].R.transpose());
+    const double factor =
+        0.5 * (value_at(load.profile, t_before_) + value_at(load.profile, after.t));
+    ledger.load_work += factor * turn.angle() * load.moment.dot(turn.axis());
+  }
   for (const SurfaceLoadModel& load : model_.surface_loads)
     ledger.load_work += surface_work(load, start_, now);
   const Vec3 changing = mean_changing_gravity(model_, t_before_, after.t);

@@ -44,6 +44,16 @@ void add_forces(const sim::Model& model, const sim::Configuration& start, double
                  {start.position(load.point) / unit}, {load.force.normalized()}, marks);
 }
 
+/// An arrow along the axis, from the body's center of mass or held point.
+void add_moments(const sim::Model& model, const sim::Configuration& start, double unit,
+                 Json& marks) {
+  for (const sim::MomentModel& load : model.moments)
+    if (load.moment.norm() > 0)
+      add_arrows(fmt::format("moment of {:.4g} N m", load.moment.norm()),
+                 {start.poses[static_cast<std::size_t>(load.rigid)].p / unit},
+                 {load.moment.normalized()}, marks);
+}
+
 void add_surface_load(const sim::SurfaceLoadModel& load, const sim::Configuration& start,
                       double unit, Json& marks) {
   const auto* const traction = std::get_if<Vec3>(&load.stress);
@@ -89,6 +99,7 @@ Json setup_marks(const sim::Model& model, const sim::Configuration& start, doubl
   add_points("supported nodes", supported_nodes(model, unit), marks);
   add_points("ends of muscles and ligaments", line_ends(model, start, unit), marks);
   add_forces(model, start, unit, marks);
+  add_moments(model, start, unit, marks);
   for (const sim::SurfaceLoadModel& load : model.surface_loads)
     add_surface_load(load, start, unit, marks);
   add_gravity(model, unit, marks);

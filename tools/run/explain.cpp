@@ -117,7 +117,7 @@ Json left_out(const sim::Model& model) {
     items.push_back("dampers and relaxation of tissue: the scene names none");
   if (model.muscles.empty()) items.push_back("muscles: the scene has none");
   if (model.ligaments.empty()) items.push_back("ligaments: the scene has none");
-  if (model.forces.empty() && model.surface_loads.empty())
+  if (model.forces.empty() && model.moments.empty() && model.surface_loads.empty())
     items.push_back("forces: the scene has none");
   if (model.gravity.empty()) items.push_back("gravity: the scene has none");
   if (any(model.tissues, [](const sim::Tissue& t) { return t.muscle >= 0; }))
@@ -181,7 +181,7 @@ Json explain(const sim::Scenario& scenario, const sim::Model& model) {
           {"contact_pairs", pairs},
           {"muscles", model.muscles.size()},
           {"ligaments", model.ligaments.size()},
-          {"loads", model.forces.size() + model.surface_loads.size()},
+          {"loads", model.forces.size() + model.moments.size() + model.surface_loads.size()},
           {"gravity", !model.gravity.empty()},
           {"unknown_velocities", 3 * model.layout.num_unknown_blocks()},
           {"muscle_activations", model.layout.num_muscles},

@@ -181,6 +181,8 @@ class Measurement {
     if (!model_.gravity.empty()) costs_.terms.push_back({"gravity", 0, 0, 0});
     if (!model_.forces.empty())
       costs_.terms.push_back({fmt::format("{} forces", model_.forces.size()), 0, 0, 0});
+    if (!model_.moments.empty())
+      costs_.terms.push_back({fmt::format("{} moments", model_.moments.size()), 0, 0, 0});
     if (!model_.surface_loads.empty())
       costs_.terms.push_back(
           {fmt::format("{} loads on surfaces", model_.surface_loads.size()), 0, 0, 0});

@@ -149,6 +149,11 @@ body = "tissue"
 force = "0 0 1 N"
 region = {}
 [[load]]
+kind = "moment"
+body = "free"
+moment = "0 0 5 N m"
+profile = { time = ["0 s"], value = [1] }
+[[load]]
 kind = "pressure"
 body = "tissue"
 region = {}

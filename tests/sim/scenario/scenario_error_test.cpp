@@ -487,6 +487,16 @@ INSTANTIATE_TEST_SUITE_P(
                 kStart + "[[load]]\nkind = \"force\"\nbody = @\"skull\"\npoint = \"0 0 0 "
                          "m\"\nforce = \"0 0 1 N\"\n",
                 "`body`: a force moves a rigid body or tissue, body `skull` is fixed"},
+        Mistake{"MomentOnFixed",
+                kStart + "[[load]]\nkind = \"moment\"\nbody = @\"skull\"\nmoment = \"0 0 1 N "
+                         "m\"\n",
+                "`body`: a moment turns a rigid body, body `skull` is fixed"},
+        Mistake{"MomentAsAForce",
+                kStart + "[[load]]\nkind = \"moment\"\nbody = \"mandible\"\nmoment = @\"0 0 1 "
+                         "N\"\n",
+                "`moment`: expected a moment as three numbers and one unit, such as \"0 0 5 N m\", "
+                "found "
+                "\"0 0 1 N\" (a force)"},
         Mistake{"ForceOnRegionOfBone",
                 kStart + "[[load]]\nkind = \"force\"\nbody = \"mandible\"\nregion = @{}\nforce = "
                          "\"0 0 1 N\"\n",

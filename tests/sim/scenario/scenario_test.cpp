@@ -150,6 +150,12 @@ radius = "1 mm"
 force = "0 3 0 N"
 
 [[load]]
+kind = "moment"
+body = "mandible"
+moment = "0 5 0 N m"
+profile = { time = ["0 s", "0.1 s"], value = [0, 1] }
+
+[[load]]
 kind = "motion"
 body = "stand"
 time = ["0 s", "1 s"]
@@ -382,7 +388,7 @@ TEST_F(CompleteScenario, HasItsLigamentsOnBothSides) {
 }
 
 TEST_F(CompleteScenario, HasItsLoads) {
-  ASSERT_EQ(scenario_.loads.size(), 4U);
+  ASSERT_EQ(scenario_.loads.size(), 5U);
   EXPECT_EQ(std::get<GravityLoad>(scenario_.loads[0]).acceleration, Vec3(0, 0, -9.81));
   const auto& on_region = std::get<ForceLoad>(scenario_.loads[1]);
   EXPECT_EQ(std::get<TissueRegion>(on_region.at).tissue, "block");
@@ -393,7 +399,11 @@ TEST_F(CompleteScenario, HasItsLoads) {
   EXPECT_EQ(point.body, "disc_left");
   EXPECT_EQ(point.point, Vec3(1e-3, 2e-3, 3e-3));
   EXPECT_EQ(point.radius, 1e-3);
-  const auto& motion = std::get<MotionLoad>(scenario_.loads[3]);
+  const auto& moment = std::get<MomentLoad>(scenario_.loads[3]);
+  EXPECT_EQ(moment.body, "mandible");
+  EXPECT_EQ(moment.moment, Vec3(0, 5, 0));
+  EXPECT_EQ(moment.profile.value, (std::vector<double>{0, 1}));
+  const auto& motion = std::get<MotionLoad>(scenario_.loads[4]);
   EXPECT_EQ(motion.body, "stand");
   EXPECT_EQ(motion.motion.time, (std::vector<double>{0, 1}));
   EXPECT_EQ(motion.motion.translation[1], Vec3(0, 0, -5e-3));
