@@ -11,7 +11,6 @@
 namespace articular::tools {
 namespace {
 
-
 constexpr double kTrustedOrder = 3;  // faster is not the law of an error, but chance
 
 double spread_of(const std::vector<SizedValue>& values) {
