@@ -23,7 +23,8 @@ struct ErrorCourse {
 
 /// Of the finest run, by the three finest points; 0 where the kind is not varied. Runs are coarse
 /// here: a safety factor of 1.25 is for an order that is the method's within a quarter, and 3 for
-/// another one [Oberkampf, Roy 2010, section 8.7].
+/// another one [Oberkampf, Roy 2010, section 8.7]. Of a larger order that of the method is
+/// believed, and the bar is no less than the two coarser ones foretold.
 ///
 /// [Oberkampf, Roy 2010] Verification and validation in scientific computing. Cambridge.
 DiscretisationError error_of(const ErrorCourse& course);

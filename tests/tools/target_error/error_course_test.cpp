@@ -27,10 +27,10 @@ TEST(ErrorCourse, OfOneRunHasNoError) {
   EXPECT_EQ(expected_change(course, 1), 0);
 }
 
-// Two runs have a safety factor of 3, a third one that confirms the order 1.25.
+// Two runs have a safety factor of 3 and no order above 1; a third one is to confirm the method's.
 TEST(ErrorCourse, ExpectsWhatTheMethodsOrderSays) {
   const ErrorCourse course = course_of(2, 0.3, 2, {1, 1.5});
-  EXPECT_NEAR(expected_bar(course, 1), 3 * 0.3, 1e-12);
+  EXPECT_NEAR(expected_bar(course, 1), 3 * 0.3 * (1.5 * 1.5 - 1) / 0.5, 1e-12);
   EXPECT_NEAR(expected_bar(course, 0.5), 1.25 * 0.3 / 4, 1e-12);
   EXPECT_NEAR(expected_change(course, 0.5), change_of(0.3, 2, 1, 0.5), 1e-12);
 }
@@ -48,6 +48,12 @@ TEST(ErrorCourse, HasTheSmallSafetyFactorForTheMethodsOrderOnly) {
   const DiscretisationError fast = error_of(course_of(2, 0.3, 2.8, {1, 2, 4}));
   EXPECT_NEAR(fast.bar, 3 * 0.3 * (std::pow(2, 2.8) - 1) / 3, 1e-6);
   EXPECT_EQ(fast.doubt, "the method has order 2");
+}
+
+// The finest two nearly agree by chance: what the coarser two foretold counts.
+TEST(ErrorCourse, ThatFallsTooFastIsNoBetterThanForetold) {
+  const ErrorCourse course{"mesh", 2, {{1, 5.0001}, {2, 5}, {4, 4.4}}};
+  EXPECT_NEAR(error_of(course).bar, 1.25 * 0.6 / 12, 1e-9);
 }
 
 // What was expected comes true: the bar is as it was foretold.

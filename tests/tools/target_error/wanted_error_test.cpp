@@ -53,7 +53,7 @@ TEST(WantedResult, ThatIsUnknownOrNotClearIsRefusedWithWhatThereIs) {
     return refusal([&] { wanted_result(of, kColumns); });
   };
   EXPECT_EQ(asked("tipp"), "--of \"tipp\": there is no such probe; did you mean `tip`?");
-  EXPECT_NE(asked("foot").find("plate, share, tip"), std::string::npos) << asked("foot");
+  EXPECT_NE(asked("foot").find("`plate`, `share`, `tip`"), std::string::npos) << asked("foot");
   EXPECT_NE(asked("tip.position.u").find("tip.position.z"), std::string::npos);
   EXPECT_EQ(asked("plate"),
             "--of \"plate\": expected one of its results: plate.force.x, plate.force.z");
