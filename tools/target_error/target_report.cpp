@@ -76,10 +76,11 @@ std::string duration_text(double seconds) {
 
 std::string target_text(const TargetRecord& record) {
   const std::string unit = unit_text(record.result.column);
-  std::string text = fmt::format(
-      "{}: {:.6g} ± {:.2g} {}, that is {}{}{}; {} {}\n", name_of(record.result), record.value,
-      record.bar, unit, error_text(record.bar, record), record.goal.of.empty() ? "" : " ",
-      record.goal.of, record.wanted.text, record.is_met ? "is met" : "is not met");
+  std::string text =
+      fmt::format("{}: {:.6g} ± {:.2g} {}", name_of(record.result), record.value, record.bar, unit);
+  if (record.wanted.is_share)
+    text += fmt::format(", that is {} {}", error_text(record.bar, record), record.goal.of);
+  text += fmt::format("; {} {}\n", record.wanted.text, record.is_met ? "is met" : "is not met");
   text += fmt::format("\nparts of the error [{}], and the sizes that they were seen with\n", unit);
   for (std::size_t i = 0; i < record.courses.size(); ++i)
     text += course_line(record.courses[i], record.kinds[i]);
