@@ -1,27 +1,14 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tools/error_bars/coarser_runs.hpp"
 
 /// A scenario again with coarser elements.
 namespace articular::tools {
-
-/// `articular anatomy ...` or `articular mesh ...` of `made_by`, with another element size and
-/// another place.
-struct MeshCommand {
-  std::vector<std::string> words;  // after `articular`; variables in them are replaced
-  std::size_t size_word = 0;       // "--size 1.2": the number of the word with the number
-  std::size_t out_word = 0;
-};
-
-/// Reads `made_by`. None where it is another command, or one that names no --size or --out.
-std::optional<MeshCommand> mesh_command(const std::string& made_by);
-
-/// The arguments for elements `factor` times as large, with the results in
-/// ${ARTICULAR_PREPARED}.
-std::vector<std::string> coarser_arguments(const MeshCommand& command, double factor);
 
 /// By what two coarser meshes of these cells are coarser, so that few counts are rounded much:
 /// of a few pairs, each ratio between 4/3 and 2.

@@ -23,15 +23,6 @@ std::string seconds(const char* key, double value) {
   return fmt::format("{}=\"{} s\"", key, value);
 }
 
-/// Newton's tolerance, or that of `explicit`, by a factor.
-std::vector<std::string> looser_tolerance(const sim::Integrator& integrator, double factor) {
-  if (integrator.position_tolerance)
-    return {fmt::format("integrator.position_tolerance=\"{:.9g} m\"",
-                        factor * *integrator.position_tolerance)};
-  return {
-      fmt::format("integrator.element_tolerance={:.9g}", factor * integrator.element_tolerance)};
-}
-
 int order_of(Scheme scheme) {
   switch (scheme) {
     case Scheme::TrBdf2:
@@ -142,6 +133,14 @@ Direction softer_contact(const sim::Scenario& scenario, bool anything_touches) {
                             {fmt::format("contact_stiffness_factor={}", factor / softer)},
                             softer});
   return contact;
+}
+
+std::vector<std::string> looser_tolerance(const sim::Integrator& integrator, double factor) {
+  if (integrator.position_tolerance)
+    return {fmt::format("integrator.position_tolerance=\"{:.9g} m\"",
+                        factor * *integrator.position_tolerance)};
+  return {
+      fmt::format("integrator.element_tolerance={:.9g}", factor * integrator.element_tolerance)};
 }
 
 Direction looser_iteration(const sim::Scenario& scenario) {

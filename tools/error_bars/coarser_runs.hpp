@@ -39,6 +39,9 @@ Direction coarser_steps(const sim::Scenario& scenario);
 /// @param anything_touches  whether bodies came near each other in the run
 Direction softer_contact(const sim::Scenario& scenario, bool anything_touches);
 
+/// Overrides for Newton's tolerance, or that of the scheme `explicit`, `factor` times as large.
+std::vector<std::string> looser_tolerance(const sim::Integrator& integrator, double factor);
+
 /// Newton's tolerance ten times as large.
 Direction looser_iteration(const sim::Scenario& scenario);
 

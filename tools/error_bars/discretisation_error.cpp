@@ -11,7 +11,6 @@
 namespace articular::tools {
 namespace {
 
-constexpr double kDoubtSafety = 3;   // where nothing tells how fast a result converges
 constexpr double kTrustedOrder = 3;  // faster is not the law of an error, but chance
 
 double spread_of(const std::vector<SizedValue>& values) {

@@ -7,6 +7,9 @@
 
 namespace articular::tools {
 
+/// The safety factor where nothing tells how fast a result converges.
+inline constexpr double kDoubtSafety = 3;
+
 /// A result, and the size of what it was computed with: elements, steps, ...
 struct SizedValue {
   double size = 0;   // in any unit, above 0

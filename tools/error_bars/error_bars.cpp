@@ -48,15 +48,6 @@ std::string stem_of(const std::string& column) {
   return is_component ? column.substr(0, dot) + column.substr(end) : column;
 }
 
-double scale_of(const RunHistory& history, const std::string& column) {
-  double most = 0;
-  for (std::size_t c = 1; c < history.names.size(); ++c)
-    if (stem_of(history.names[c]) == stem_of(column))
-      for (const double value : history.columns[c])
-        if (std::isfinite(value)) most = std::max(most, std::abs(value));
-  return most;
-}
-
 void append(std::string& list, const std::string& text) {
   list += (list.empty() ? "" : "; ") + text;
 }
@@ -124,6 +115,15 @@ double quantity_value(const RunHistory& history, const std::string& column, Quan
     if (std::isnan(extreme) || is_farther) extreme = value;
   }
   return extreme;
+}
+
+double scale_of(const RunHistory& history, const std::string& column) {
+  double most = 0;
+  for (std::size_t c = 1; c < history.names.size(); ++c)
+    if (stem_of(history.names[c]) == stem_of(column))
+      for (const double value : history.columns[c])
+        if (std::isfinite(value)) most = std::max(most, std::abs(value));
+  return most;
 }
 
 void add_force_sizes(RunHistory& history) {

@@ -31,6 +31,9 @@ struct ErrorBar {
 /// The value of a quantity in a run; NaN where it has none. @throws sim::InputError  no such column
 double quantity_value(const RunHistory& history, const std::string& column, Quantity quantity);
 
+/// The largest size of a column in a run; of a component, that of any component of its vector.
+double scale_of(const RunHistory& history, const std::string& column);
+
 /// Adds what forces are quoted by, their sizes: "plate.force [N]" from "plate.force.x [N]", ...
 void add_force_sizes(RunHistory& history);
 

@@ -1,6 +1,7 @@
 #include "sim/run/run.hpp"
 #include "sim/base/error.hpp"
 #include "sim/build/build_model.hpp"
+#include "sim/scenario/quantity.hpp"
 #include "sim/step/overlap_report.hpp"
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include "tools/run/progress.hpp"
 #include "tools/shipped/shipped_scenarios.hpp"
 #include "tools/study/study_prepare.hpp"
+#include "tools/target_error/reach_target.hpp"
 
 namespace articular::tools {
 namespace {
@@ -29,6 +31,8 @@ struct RunArguments {
   int threads = 1;
   bool resume = false, overwrite = false, quiet = false, error_bars = false;
   bool reproducible = false;
+  std::string target_error, of;
+  double budget = 3600;  // [s]
 };
 
 void print(const sim::Model& model, const sim::OverlapResolution& resolution) {
@@ -115,14 +119,82 @@ int print_error_bars(const sim::Scenario& scenario, const RunArguments& argument
   }
 }
 
-int run_scenario(const RunArguments& arguments) {
-  if (arguments.reproducible) use_portable_arithmetic();
+sim::Scenario read_scenario(const RunArguments& arguments) {
   sim::Scenario scenario =
       sim::read_scenario(find_scenario(arguments.scenario), arguments.overrides);
   scenario.threads = arguments.threads;
   scenario.reproducible = arguments.reproducible;
+  return scenario;
+}
+
+int run_to_target(const sim::Scenario& scenario, const RunArguments& arguments) {
+  TargetSettings settings;
+  settings.error = arguments.target_error;
+  settings.of = arguments.of;
+  settings.budget = arguments.budget;
+  settings.directory = results_folder(scenario, arguments);
+  settings.overrides = arguments.overrides;
+  settings.threads = arguments.threads;
+  settings.quiet = arguments.quiet;
+  settings.run = [&](const std::vector<std::string>& overrides, bool goes_on) {
+    RunArguments chosen = arguments;
+    chosen.overrides.insert(chosen.overrides.end(), overrides.begin(), overrides.end());
+    chosen.out = settings.directory;
+    chosen.resume = arguments.resume && goes_on;
+    return run_once(read_scenario(chosen), chosen);
+  };
+  listen_for_interruption();
+  try {
+    const TargetOutcome outcome = reach_target(scenario, settings);
+    if (!outcome.text.empty()) fmt::print("\n{}", outcome.text);
+    if (!outcome.refusal.empty()) throw sim::SimulationError(outcome.refusal);
+    return outcome.exit_code;
+  } catch (const StudyInterrupted&) {
+    fmt::print(stderr,
+               "articular: interrupted in the coarser runs; those that are done are kept, and the "
+               "same command goes on with what is missing\n");
+    return kInterruptedExitCode;
+  }
+}
+
+int run_scenario(const RunArguments& arguments) {
+  if (arguments.reproducible) use_portable_arithmetic();
+  const sim::Scenario scenario = read_scenario(arguments);
+  if (!arguments.target_error.empty()) return run_to_target(scenario, arguments);
   const int exit_code = run_once(scenario, arguments);
   return exit_code == 0 && arguments.error_bars ? print_error_bars(scenario, arguments) : exit_code;
+}
+
+double budget_of(const std::string& text) {
+  double seconds = 0;
+  try {
+    seconds = sim::parse_quantity(text, sim::kTime);
+  } catch (const std::invalid_argument& problem) {
+    throw sim::InputError(fmt::format("--budget: {}", problem.what()));
+  }
+  if (!(seconds > 0)) throw sim::InputError("--budget: expected more than no time, \"10 min\"");
+  return seconds;
+}
+
+CLI::Option* add_target_options(CLI::App& command, RunArguments& arguments) {
+  CLI::Option* target = command.add_option(
+      "--target-error", arguments.target_error,
+      "Choose element size, step, contact and tolerance so that the discretisation error of --of "
+      "stays below: a share such as 2%, or an amount such as '0.05 mm'");
+  target->type_name("ERROR");
+  CLI::Option* of = command.add_option(
+      "--of", arguments.of,
+      "With --target-error: a result, tip.position.z, at the end of the run; or at its extreme, "
+      "plate.force:largest, plate.force:smallest");
+  of->type_name("RESULT")->needs(target);
+  target->needs(of);
+  command
+      .add_option_function<std::string>(
+          "--budget", [&arguments](const std::string& text) { arguments.budget = budget_of(text); },
+          "With --target-error: time for all runs together, '10 min' [1 h]")
+      ->type_name("TIME")
+      ->needs(target);
+  return target;
 }
 
 }  // namespace
@@ -154,9 +226,11 @@ void add_run_command(CLI::App& app, int& exit_code) {
                     "Go on from the folder's last checkpoint, if there is one");
   command->add_flag("--overwrite", arguments->overwrite,
                     "Replace results of another scenario in the folder");
-  command->add_flag("--error-bars", arguments->error_bars,
-                    "Run again coarser in mesh, step, contact and tolerance, and estimate the "
-                    "discretisation error of every probe: two to six times the time");
+  CLI::Option* error_bars =
+      command->add_flag("--error-bars", arguments->error_bars,
+                        "Run again coarser in mesh, step, contact and tolerance, and estimate the "
+                        "discretisation error of every probe: two to six times the time");
+  add_target_options(*command, *arguments)->excludes(error_bars);
   command->add_flag("--reproducible", arguments->reproducible,
                     "The same bits on every x86-64 processor, by kernels that all have: slower. "
                     "Goes on with --resume in the same way only");
@@ -168,7 +242,9 @@ void add_run_command(CLI::App& app, int& exit_code) {
       "DIR/checkpoint/.\n"
       "Prints the names of these files; with --error-bars also DIR/error_bars.csv and its table. "
       "The\n"
-      "coarser runs stay in DIR/error-bars/; --threads are shared among them.");
+      "coarser runs stay in DIR/error-bars/; --threads are shared among them. With --target-error "
+      "the\n"
+      "coarser runs stay in DIR/target-error/.");
   command->callback([arguments, &exit_code] {
     arguments->overrides = with_override_files(arguments->overrides);
     exit_code = run_scenario(*arguments);

@@ -8,6 +8,8 @@
 #include "sim/mesh/mesh_io.hpp"
 #include "sim/mesh/shapes.hpp"
 #include "tests/sim/support/temporary_folder.hpp"
+#include "tools/error_bars/made_by.hpp"
+#include "tools/error_bars/resized_mesh.hpp"
 
 namespace articular::tools::coarser_mesh_test {
 
@@ -35,12 +37,12 @@ TEST(MeshCommand, KeepsAllButSizeAndPlace) {
   const auto command =
       mesh_command("articular mesh 'my scan.obj' --size \"2 mm\" --out=out/cartilage.vtu --split");
   ASSERT_TRUE(command);
-  EXPECT_EQ(coarser_arguments(*command, 1.5),
+  EXPECT_EQ(resized_arguments(*command, 1.5),
             (Words{"mesh", "my scan.obj", "--size", "3 mm", "--out",
                    "${ARTICULAR_PREPARED}/cartilage.vtu", "--split"}));
   const auto anatomy = mesh_command("build/release/bin/articular anatomy knee --out x --size=2.5");
   ASSERT_TRUE(anatomy);
-  EXPECT_EQ(coarser_arguments(*anatomy, 1.25),
+  EXPECT_EQ(resized_arguments(*anatomy, 1.25),
             (Words{"anatomy", "knee", "--out", "${ARTICULAR_PREPARED}", "--size", "3.125"}));
 }
 

@@ -83,6 +83,7 @@ export function addTrust(summary, bars) {
   const parts = [];
   const add = (title, ...content) => parts.push(element('h3', {}, title), ...content);
   if (bars) add('Error bars', element('p', {}, 'How far each number may be from that of elements, steps and penetrations of size zero.'), table(bars.rows, bars.columns.map(words)));
+  if (summary.target_error) add('Target of the error', element('p', {}, `How far ${summary.target_error.of} may be from that of elements, steps and penetrations of size zero, and the settings that were chosen for it.`), pairs(rowsOf(summary.target_error)));
   if (summary.energy) add(`Energy [${summary.energy.unit}]`, element('p', {}, 'The total at the end is the start, plus works, less losses. Numerical loss is what the time integration took.'), pairs(energyRows(summary.energy)));
   if (summary.counts) add('Steps and iterations', pairs(rowsOf(summary.counts).map(([key, value]) => [words(key), value])));
   if (summary.error_bars) add('Coarser runs', pairs(rowsOf(summary.error_bars)));
