@@ -77,6 +77,7 @@ Eigen::MatrixXd values_at(const Eigen::MatrixXd& points,
 }
 
 bool is_positive_definite(const Eigen::MatrixXd& correlation) {
+  if (correlation.size() == 0) return true;
   constexpr double kLeast = 1e-10;  // of a pivot: the rest of a variance of 1
   const Eigen::LLT<Eigen::MatrixXd> factor(correlation);
   return factor.info() == Eigen::Success &&

@@ -41,6 +41,13 @@ Rows whole_rows(const Eigen::MatrixXd& values) {
   return rows;
 }
 
+/// Exactly: of what does not vary, round-off would be shared out.
+bool varies(const Eigen::MatrixXd& values, const Rows& rows) {
+  return std::any_of(rows.begin(), rows.end(), [&](Eigen::Index r) {
+    return values(r, 0) != values(rows[0], 0) || values(r, 1) != values(rows[0], 0);
+  });
+}
+
 /// Between the percentiles; a bootstrap in which nothing varies says nothing.
 void set_interval(std::vector<double>& samples, Estimate& estimate) {
   samples.erase(
@@ -57,9 +64,8 @@ void set_interval(std::vector<double>& samples, Estimate& estimate) {
 
 std::vector<SobolIndex> sobol_indices(const Eigen::MatrixXd& values, std::uint64_t seed) {
   const Rows rows = whole_rows(values);
-  if (rows.size() < 2) return {};
+  if (rows.size() < 2 || !varies(values, rows)) return {};
   const Plain plain = indices_of(values, rows);
-  if (!plain.first.allFinite() || !plain.total.allFinite()) return {};
   const auto count = static_cast<std::size_t>(plain.first.size());
   std::vector<std::vector<double>> firsts(count), totals(count);
   std::mt19937_64 generator(seed);

@@ -36,8 +36,10 @@ std::map<std::size_t, fs::path> draw_extremes(const PopulationStudy& all,
     std::error_code ignored;
     fs::remove_all(folder, ignored);
     fs::create_directories(folder);
+    // In `render`, as where pictures_of() looks for those of a run.
     std::vector<std::string> command{this_program().string(), "render",
-                                     results_of(directory, c).string(), "--out", folder.string()};
+                                     results_of(directory, c).string(), "--out",
+                                     (folder / "render").string()};
     if (std::find(asked.begin(), asked.end(), "--size") == asked.end())
       command.insert(command.end(), {"--size", kSize});
     command.insert(command.end(), asked.begin(), asked.end());

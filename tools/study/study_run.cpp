@@ -68,6 +68,12 @@ class CaseRunner {
     }
   }
 
+  /// Of cases that make their own meshes when they are run: those of one, so that it can be read.
+  /// That they can't be made is a failure of that case, which it says when it is run.
+  void check_alone(const StudyCase& c) const {
+    if (prepare_meshes(prepared_of(c), c.settings.prepare, false).empty()) check(c);
+  }
+
   /// Makes the meshes of a case, if it asks for some that are not there yet.
   void prepare(const StudyCase& c) {
     if (c.settings.prepare.empty() || c.prepares_alone) return;
@@ -93,9 +99,9 @@ class CaseRunner {
       task.commands.push_back(prepare_command(prepared_of(c), c.settings.prepare));
     }
     // Elsewhere the working folder is another one.
-    const bool is_here = options_.engine.kind == EngineKind::Local;
+    const bool as_it_is = options_.engine.kind == EngineKind::Local || study_.scenario.empty();
     task.commands.push_back(
-        command_of(c, is_here ? study_.scenario : fs::absolute(study_.scenario)));
+        command_of(c, as_it_is ? study_.scenario : fs::absolute(study_.scenario)));
     task.environment.push_back(std::string(kPrepared) + "=" + prepared_of(c).string());
     if (const char* data = std::getenv(kData); data != nullptr)
       task.environment.push_back(std::string(kData) + "=" + data);
@@ -256,7 +262,13 @@ fs::path results_of(const fs::path& directory, const StudyCase& c) {
 std::vector<CaseRecord> run_cases(const Study& study, const std::vector<StudyCase>& cases,
                                   const StudyRunOptions& options) {
   CaseRunner runner(study, options);
-  for (const StudyCase& c : cases) runner.check(c);
+  const auto makes_its_own = [](const StudyCase& c) {
+    return c.prepares_alone && !c.settings.prepare.empty();
+  };
+  for (const StudyCase& c : cases)
+    if (!makes_its_own(c)) runner.check(c);
+  const auto first = std::find_if(cases.begin(), cases.end(), makes_its_own);
+  if (first != cases.end()) runner.check_alone(*first);
   for (const StudyCase& c : cases) runner.prepare(c);
   std::vector<CaseRecord> records;
   records.reserve(cases.size());

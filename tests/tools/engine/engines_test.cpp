@@ -51,7 +51,7 @@ TEST_F(Engines, FolderIsServedByWhoeverWorksThere) {
   const ProgramResult result =
       run_shell(folder_,
                 "\"$articular\" study s.toml --engine folder --out f & study=$!; "
-                "while [ ! -d f/queue ]; do sleep 0.02; done; "
+                "while [ ! -d f/queue ] && kill -0 $study; do sleep 0.02; done; "
                 "\"$articular\" work f/queue --wait --quiet & one=$!; "
                 "\"$articular\" work f/queue --wait --quiet & two=$!; "
                 "wait $study; code=$?; kill $one $two; wait $one; wait $two; exit $code");
@@ -96,14 +96,15 @@ TEST_F(Engines, AWorkerThatIsKilledCostsItsCaseOnly) {
                "command = ['sh', '-c', \"sleep 1; printf 'time [s],y [mm]\\\\n0,%s\\\\n' {x} > "
                "history.csv\"]\n[[output]]\ncolumn = 'y [mm]'\n[population]\nsamples = 3\n"
                "[[parameter]]\nname = 'x'\ndistribution = 'uniform'\nlowest = 0\nhighest = 1\n");
-  const ProgramResult result = run_shell(
-      folder_,
-      "\"$articular\" study slow.toml --engine folder --lost-after 5 --out k & study=$!; "
-      "while [ ! -d k/queue ]; do sleep 0.02; done; "
-      "\"$articular\" work k/queue --wait --quiet & one=$!; "
-      "while ! ls k/queue/*.taken > /dev/null 2>&1; do sleep 0.02; done; kill -KILL $one; "
-      "\"$articular\" work k/queue --wait --quiet & two=$!; "
-      "wait $study; code=$?; kill $two; wait $two; exit $code");
+  const ProgramResult result =
+      run_shell(folder_,
+                "\"$articular\" study slow.toml --engine folder --lost-after 5 --out k & study=$!; "
+                "while [ ! -d k/queue ] && kill -0 $study; do sleep 0.02; done; "
+                "\"$articular\" work k/queue --wait --quiet & one=$!; "
+                "while ! ls k/queue/*.taken > /dev/null 2>&1 && kill -0 $study; do sleep 0.02; "
+                "done; kill -KILL $one; "
+                "\"$articular\" work k/queue --wait --quiet & two=$!; "
+                "wait $study; code=$?; kill $two; wait $two; exit $code");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const std::string text = content(folder_ / "k/population.md");
   EXPECT_NE(text.find("2 of 3 cases succeeded"), std::string::npos) << text;
