@@ -8,8 +8,8 @@
 
 #include "tools/study/study_settings.hpp"
 
-/// FIT.toml: a scenario, what in it is not known, and what was measured. tools/fit/README.md has the
-/// format.
+/// FIT.toml: a scenario, what in it is not known, and what was measured. tools/fit/README.md has
+/// the format.
 namespace articular::tools {
 
 /// A number of the scenario that the fit may change. All values are in `unit`.

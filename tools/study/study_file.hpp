@@ -8,8 +8,8 @@
 #include "tools/study/population.hpp"
 #include "tools/study/study_settings.hpp"
 
-/// STUDY.toml: a scenario, what to vary in it, what to look at, and what is right. tools/study/README.md
-/// has the format.
+/// STUDY.toml: a scenario, what to vary in it, what to look at, and what is right.
+/// tools/study/README.md has the format.
 namespace articular::tools {
 
 /// One thing to vary. Its choices have names such as "0.5 ms" or "smoothed".
