@@ -16,7 +16,7 @@ void list() {
   std::size_t width = 0;
   for (const ShippedScenario& scenario : scenarios) width = std::max(width, scenario.name.size());
   for (const ShippedScenario& scenario : scenarios)
-    fmt::print("{:<{}}  {:<7}  {}\n", scenario.name, width, scenario.kind, scenario.title);
+    fmt::print("{:<{}}  {:<10}  {}\n", scenario.name, width, scenario.kind, scenario.title);
 }
 
 }  // namespace

@@ -111,14 +111,16 @@ std::vector<ShippedScenario> shipped_scenarios() {
   for (const std::string& name : names_in(folder)) {
     const sim::Node document = sim::read_toml(folder / (name + ".toml"));
     const bool is_study = document.find("scenario") != nullptr;
-    const bool is_fit = is_study && document.find("parameter") != nullptr;
+    const bool is_population = document.find("population") != nullptr;
+    const bool is_fit = is_study && !is_population && document.find("parameter") != nullptr;
     const bool is_track = is_study && document.find("target") != nullptr;
     if (!is_study && document.find("duration") == nullptr) continue;
     scenarios.push_back({name,
-                         is_fit     ? "fit"
-                         : is_track ? "track"
-                         : is_study ? "study"
-                                    : text_of(document, "analysis", "dynamic"),
+                         is_population ? "population"
+                         : is_fit      ? "fit"
+                         : is_track    ? "track"
+                         : is_study    ? "study"
+                                       : text_of(document, "analysis", "dynamic"),
                          text_of(document, "title", name)});
   }
   return scenarios;

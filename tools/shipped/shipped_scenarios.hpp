@@ -17,7 +17,7 @@ std::filesystem::path shipped_folder();
 
 struct ShippedScenario {
   std::string name;   // "mandible/opening"
-  std::string kind;   // "dynamic", "static", "study", "fit" or "track"
+  std::string kind;   // "dynamic", "static", "study", "population", "fit" or "track"
   std::string title;  // the name if it has none
 };
 

@@ -106,7 +106,7 @@ meet the targets alike it takes the least. Writes DIR/track.md (misfits, which m
 determine, what another cost would have given), DIR/excitations.csv, DIR/targets.csv,
 DIR/muscles.csv, and DIR/excitations.txt for `articular run SCENARIO --set @DIR/excitations.txt`.
 Exit code 3: it ended early, or some time did not converge; what is written says where. The format
-of TRACK.toml and an example: tools/README.md.)";
+of TRACK.toml and an example: tools/track/README.md.)";
 
 }  // namespace
 

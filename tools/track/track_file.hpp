@@ -9,7 +9,7 @@
 #include "sim/scenario/scenario.hpp"
 
 /// TRACK.toml: a scenario, what is known of its motion and forces, and whose excitations are
-/// sought. tools/README.md has the format.
+/// sought. tools/track/README.md has the format.
 namespace articular::tools {
 
 /// What counts as the least activation, of those that meet the targets equally well.

@@ -577,7 +577,8 @@ TEST(ShippedScenarios, LeaveContactAsItIs) {
        std::filesystem::recursive_directory_iterator(ARTICULAR_SOURCE_DIR "/scenarios")) {
     const std::string name = entry.path().filename().string();
     const auto is_of = [&](const char* kind) { return name.ends_with(kind); };
-    if (!is_of(".toml") || is_of("-study.toml") || is_of("-fit.toml") || is_of("-track.toml"))
+    if (!is_of(".toml") || is_of("-study.toml") || is_of("-fit.toml") || is_of("-track.toml") ||
+        is_of("-population.toml"))
       continue;
     if (name.starts_with("subject")) continue;  // reads data that is not here
     const auto settings = nlohmann::json::parse(read_scenario(entry.path()).settings_json);

@@ -110,13 +110,14 @@ MatrixXd slopes_by_runs(const Scenario& s, const VectorXd& excitation, Scenario:
 }
 
 /// Places and tensions each by their own size.
-void expect_alike(const MatrixXd& found, const MatrixXd& expected, Index num_lines) {
+void expect_alike(const MatrixXd& found, const MatrixXd& expected, Index num_lines,
+                  double tolerance = kTolerance) {
   const Index num_places = found.rows() - num_lines;
   for (Index j = 0; j < found.cols(); ++j) {
     const auto places_off = (found - expected).col(j).head(num_places).norm();
     const auto tensions_off = (found - expected).col(j).tail(num_lines).norm();
-    EXPECT_LT(places_off, kTolerance * expected.col(j).head(num_places).norm()) << "input " << j;
-    EXPECT_LT(tensions_off, kTolerance * expected.col(j).tail(num_lines).norm()) << "input " << j;
+    EXPECT_LT(places_off, tolerance * expected.col(j).head(num_places).norm()) << "input " << j;
+    EXPECT_LT(tensions_off, tolerance * expected.col(j).tail(num_lines).norm()) << "input " << j;
     EXPECT_GT(expected.col(j).head(num_places).norm(), 1e-4) << "input " << j;  // [m]
   }
 }
@@ -139,6 +140,7 @@ INSTANTIATE_TEST_SUITE_P(StateResponse, Statics,
                          ::testing::Values(bone_on_a_block, block_on_a_table));
 
 // After twenty steps of implicit Euler, with all that activation, inertia and force-velocity do.
+// Terms of second order in the bone's turn are left out.
 TEST(StateResponse, IsCarriedThroughStepsInTime) {
   Scenario s = bone_on_a_block();
   s.integrator.position_tolerance = 1e-12;  // noise of twenty steps is then below that of forces
@@ -166,7 +168,7 @@ TEST(StateResponse, IsCarriedThroughStepsInTime) {
     below.advance(kUntil);
     expected.col(j) = (shown(above, above.state.y) - shown(below, below.state.y)) / kApart;
   }
-  expect_alike(found, expected, 2);
+  expect_alike(found, expected, 2, 1e-2);
 }
 
 // At the bounds muscles don't pull any less or more: the slope is the one from within.

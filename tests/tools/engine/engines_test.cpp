@@ -1,6 +1,7 @@
 // One study file on every engine: the same table comes out.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <sstream>
 
 #include "tests/tools/support/program.hpp"
@@ -67,6 +68,7 @@ TEST_F(Engines, GnuParallelStartsWorkers) {
 
 // In place of ssh a script that notes the machine and runs the command here.
 TEST_F(Engines, SshStartsWorkersOnEveryMachine) {
+  std::filesystem::create_directory(folder_ / "bin");
   folder_.file("bin/ssh", "#!/bin/sh\nshift 2\necho \"$1\" >> '" + (folder_ / "asked").string() +
                               "'\nshift\nexec sh -c \"$*\"\n");
   folder_.file("machines", "# ours\nleft 2\n\nright\n");

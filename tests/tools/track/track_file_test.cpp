@@ -95,7 +95,6 @@ TEST_F(TrackFile, SaysWhatIsWrongAndWhere) {
   expect(kHead + kMuscle + kTarget + "weight = 2\n",
          "t.toml:8:1: [[target]]: unknown key `weight`; expected one of `name`, `column`, `value`, "
          "`file`, `file_column`, `spread`");
-  expect("cost = \"power\"\n" + kHead + kMuscle + kTarget, "");
 }
 
 }  // namespace articular::tools::track_file_test

@@ -213,7 +213,7 @@ std::string block_after(const std::string& page, const std::string& sentence) {
 
 // From the top of the tree, as the page says.
 TEST_F(Track, DoesTheExampleOfItsPage) {
-  const std::string page = content(ARTICULAR_SOURCE_DIR "/tools/README.md");
+  const std::string page = content(ARTICULAR_SOURCE_DIR "/tools/track/README.md");
   std::filesystem::create_directory_symlink(ARTICULAR_SOURCE_DIR "/scenarios",
                                             folder_ / "scenarios");
   folder_.file("bone.toml", block_after(page, "A track file looks like this"));
