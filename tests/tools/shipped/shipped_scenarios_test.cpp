@@ -51,8 +51,8 @@ TEST_F(Shipped, AreListedWithNameKindAndTitle) {
   const ProgramResult result = program("scenarios");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out,
-            "jaw/block        dynamic  A block\n"
-            "jaw/block-study  study    jaw/block-study\n");
+            "jaw/block        dynamic     A block\n"
+            "jaw/block-study  study       jaw/block-study\n");
 }
 
 TEST_F(Shipped, RunByNameIntoTheWorkingFolderAndReadFilesBesideThem) {
