@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tools/fit/parameter_text.hpp"
+#include "tools/study/history_columns.hpp"
 #include "tools/study/number_with_unit.hpp"
 
 namespace articular::tools {
@@ -98,24 +99,12 @@ std::size_t read_run_name(const Node& node, const std::vector<FitRun>& runs) {
   return static_cast<std::size_t>(found - names.begin());
 }
 
-std::vector<std::string> read_columns(const Node& node) {
-  if (node.text() != nullptr) return {sim::read_text(node)};
-  std::vector<std::string> columns;
-  for (const Node& element : sim::read_list(node, "a column of history.csv, or a list of them"))
-    columns.push_back(sim::read_text(element));
-  return columns;
-}
-
 const KeyTable& measurement_keys() {
-  const sim::KeyType column = {form::Text{"column of history.csv"}};
   static const KeyTable kTable{
       "[[measurement]] of a fit",
       {{"name", {form::Text{"name"}}, sim::kRequired, "of what was measured"},
        {"run", {form::Text{"name of a run"}}, sim::otherwise("the only one"), "which run shows it"},
-       {"column",
-        {form::Either{{column, {sim::list_of(column)}}}},
-        sim::kRequired,
-        "with its unit; of a list the sum"},
+       {"column", history_columns(), sim::kRequired, "with its unit; of a list the sum"},
        {"at", {form::Quantity{sim::kTime, sim::kNotNegative}}, sim::kRequired, "when"},
        {"minus",
         {form::Quantity{sim::kTime, sim::kNotNegative}},
@@ -143,7 +132,7 @@ FitMeasurement read_measurement(const Node& node, const std::vector<FitRun>& run
     measurement.run = read_run_name(*run, runs);
   else if (runs.size() > 1)
     table.at("run");
-  measurement.columns = read_columns(table.at("column"));
+  measurement.columns = read_history_columns(table.at("column"));
   table.read("at", measurement.at);
   table.read("minus", measurement.minus);
   const Node& target = table.exactly_one({"value", "at_most", "at_least"});

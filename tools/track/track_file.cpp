@@ -6,6 +6,7 @@
 #include "sim/scenario/data_path.hpp"
 #include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
+#include "tools/study/history_columns.hpp"
 #include "tools/study/study_settings.hpp"
 
 namespace articular::tools {
@@ -58,13 +59,10 @@ sim::Curve read_column(const std::filesystem::path& file, const std::string& col
 }
 
 const KeyTable& target_keys() {
-  const sim::KeyType column = {form::Text{"column of history.csv"}};
   static const KeyTable kTable{
       "[[target]] of a track",
       {{"name", {form::Text{"name"}}, sim::otherwise("the column"), "for the report"},
-       {"column",
-        {form::Either{{{column}, {sim::list_of(column)}}}},
-        sim::kRequired,
+       {"column", history_columns(), sim::kRequired,
         "what a probe shows, with its unit; of a list the sum"},
        {"value",
         {number_or_curve()},
@@ -86,19 +84,11 @@ const KeyTable& target_keys() {
   return kTable;
 }
 
-std::vector<std::string> read_columns(const Node& node) {
-  if (node.text() != nullptr) return {sim::read_text(node)};
-  std::vector<std::string> columns;
-  for (const Node& element : sim::read_list(node, "a column of history.csv, or a list of them"))
-    columns.push_back(sim::read_text(element));
-  return columns;
-}
-
 TrackTarget read_target(const Node& node, const std::filesystem::path& folder) {
   const TableReader table(node, target_keys(), "[[target]]");
   TrackTarget target;
   target.where = node.where;
-  target.columns = read_columns(table.at("column"));
+  target.columns = read_history_columns(table.at("column"));
   target.name = fmt::format("{}", fmt::join(target.columns, " + "));
   table.read("name", target.name);
   const Node& value = table.exactly_one({"value", "file"});
