@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <csignal>
+#include <functional>
 #include <memory>
 
 #include "tools/error_bars/measure_error_bars.hpp"
@@ -53,7 +54,8 @@ std::filesystem::path results_folder(const sim::Scenario& scenario, const RunArg
   return scenario.output.directory.value_or(std::filesystem::path("out") / scenario.name);
 }
 
-int run_once(const sim::Scenario& scenario, const RunArguments& arguments) {
+int run_once(const sim::Scenario& scenario, const RunArguments& arguments,
+             const std::function<bool()>& is_to_stop = interruption_asked) {
   sim::Model model = sim::build_model(scenario);
   sim::warn_of_overlaps(scenario, model);
   for (const std::string& warning : model.warnings)
@@ -64,14 +66,14 @@ int run_once(const sim::Scenario& scenario, const RunArguments& arguments) {
   options.resume = arguments.resume;
   options.overwrite = arguments.overwrite;
   Progress progress(scenario, arguments.quiet);
-  options.is_to_stop = interruption_asked;
+  options.is_to_stop = is_to_stop;
   options.after_step = [&](const sim::State& state, double) {
     progress.update(state);
-    return interruption_asked();
+    return is_to_stop();
   };
   options.after_iteration = [&](double t, const sim::NewtonIteration& iteration) {
     progress.update(t, iteration);
-    return interruption_asked();
+    return is_to_stop();
   };
   options.after_overlap_resolution = [&](const sim::OverlapResolution& resolution) {
     if (!arguments.quiet) print(model, resolution);
@@ -99,7 +101,7 @@ int run_once(const sim::Scenario& scenario, const RunArguments& arguments) {
     if (std::filesystem::exists(options.directory / name))  // interrupted before the first frame
       fmt::print("{}\n", (options.directory / name).string());
   if (outcome == sim::RunOutcome::Finished) return 0;
-  fmt::print(stderr, "articular: interrupted; go on with --resume\n");
+  if (interruption_asked()) fmt::print(stderr, "articular: interrupted; go on with --resume\n");
   return kInterruptedExitCode;
 }
 
@@ -136,12 +138,13 @@ int run_to_target(const sim::Scenario& scenario, const RunArguments& arguments) 
   settings.overrides = arguments.overrides;
   settings.threads = arguments.threads;
   settings.quiet = arguments.quiet;
-  settings.run = [&](const std::vector<std::string>& overrides, bool goes_on) {
+  settings.run = [&](const std::vector<std::string>& overrides, bool goes_on,
+                     const std::function<bool()>& is_to_stop) {
     RunArguments chosen = arguments;
     chosen.overrides.insert(chosen.overrides.end(), overrides.begin(), overrides.end());
     chosen.out = settings.directory;
     chosen.resume = arguments.resume && goes_on;
-    return run_once(read_scenario(chosen), chosen);
+    return run_once(read_scenario(chosen), chosen, is_to_stop);
   };
   listen_for_interruption();
   try {

@@ -13,6 +13,7 @@
 #include "sim/output/fingerprint.hpp"
 #include "sim/output/probe_columns.hpp"
 #include "sim/output/results_folder.hpp"
+#include "tools/process/interruption.hpp"
 #include "tools/process/this_program.hpp"
 #include "tools/target_error/first_courses.hpp"
 #include "tools/target_error/kept_runs.hpp"
@@ -95,7 +96,7 @@ class TargetSearch {
     if (!has_run_) return outcome;
     record_.is_met = outcome.refusal.empty();
     if (!KeptRun(folder_, record_.overrides).is_in(settings_.directory))
-      outcome.exit_code = settings_.run(record_.overrides, false);
+      outcome.exit_code = settings_.run(record_.overrides, false, interruption_asked);
     if (outcome.exit_code != 0) return outcome;
     const fs::path summary = settings_.directory / "summary.json";
     sim::write_text_file(summary, summary_with_target(text_of(summary), record_));
@@ -188,8 +189,11 @@ class TargetSearch {
       const Clock::time_point start = Clock::now();
       const bool goes_on = kept.is_begun();
       kept.begin();
-      if (const int exit_code = settings_.run(plan.overrides, goes_on); exit_code != 0)
-        return exit_code;
+      const int exit_code = settings_.run(
+          plan.overrides, goes_on, [&] { return interruption_asked() || seconds_left() <= 0; });
+      if (exit_code == kInterruptedExitCode && !interruption_asked())
+        throw sim::SimulationError(end_of_budget(plan, seconds_since(start)));
+      if (exit_code != 0) return exit_code;
       kept.keep(settings_.directory, seconds_since(start));
     }
     has_run_ = true;
@@ -206,6 +210,18 @@ class TargetSearch {
     say(fmt::format("the run has {:.6g} ± {:.2g}, that is {}{}", record_.value, record_.bar,
                     error_text(record_.bar, record_), parts_behind(record_.courses)));
     return 0;
+  }
+
+  std::string end_of_budget(const Plan& plan, double seconds) const {
+    std::string text = fmt::format(
+        "--budget {} is over: the run of the chosen settings was to take about {}, and was stopped "
+        "after {}; the same command with --resume and more time goes on",
+        duration_text(settings_.budget), duration_text(plan.chosen.seconds),
+        duration_text(seconds));
+    if (has_run_)
+      text += fmt::format("; a run before it had {} with {}", error_text(record_.bar, record_),
+                          fmt::join(record_.overrides, "  "));
+    return text;
   }
 
   std::string refusal(const std::optional<Plan>& plan) const {

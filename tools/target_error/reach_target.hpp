@@ -18,8 +18,11 @@ struct TargetSettings {
   int threads = 1;
   bool quiet = false;  // no progress on stderr
   /// Runs the scenario with overrides after these into the folder, or goes on from its checkpoint.
+  /// It ends early, with kInterruptedExitCode, once it is to stop.
   /// @return the exit code
-  std::function<int(const std::vector<std::string>& overrides, bool goes_on)> run;
+  std::function<int(const std::vector<std::string>& overrides, bool goes_on,
+                    const std::function<bool()>& is_to_stop)>
+      run;
 };
 
 struct TargetOutcome {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -162,6 +163,37 @@ TEST(RunTargetError, ThatTheBudgetDoesNotAllowIsRefusedWithWhatItAllows) {
   const ProgramResult none = run_program(folder, command + "--target-error 1% --budget '1 us'");
   EXPECT_EQ(none.exit_code, 3);
   EXPECT_NE(none.err.find("--budget"), std::string::npos) << none.err;
+}
+
+/// The coarse runs are said to have taken next to no time.
+void belittle_coarse_runs(const std::filesystem::path& results) {
+  int changed = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(results / "target-error"))
+    if (entry.path().filename() == "case.json") {
+      auto record = nlohmann::json::parse(content(entry.path()));
+      for (auto& run : record.at("runs")) run.at("wall_s") = 1e-3;
+      std::ofstream(entry.path()) << record;
+      ++changed;
+    }
+  ASSERT_GT(changed, 0);
+}
+
+// Foretold to take milliseconds, it takes seconds.
+TEST(RunTargetError, ARunThatTakesLongerThanForetoldIsStoppedAtTheEndOfTheBudget) {
+  const TemporaryFolder folder;
+  folder.file("drop.toml", kDrop);
+  const std::string command = "run drop.toml --of middle.position.z --out out --quiet ";
+  ASSERT_EQ(run_program(folder, command + "--target-error 1e-7%").exit_code, 3);
+  belittle_coarse_runs(folder / "out");
+  const ProgramResult stopped =
+      run_program(folder, command + "--target-error 0.03% --budget '0.3 s'");
+  EXPECT_EQ(stopped.exit_code, 3);
+  EXPECT_NE(stopped.err.find("--budget 0.3 s is over"), std::string::npos) << stopped.err;
+  const auto summary = nlohmann::json::parse(content(folder / "out/summary.json"));
+  EXPECT_EQ(summary.at("outcome"), "interrupted");
+  EXPECT_LT(summary.at("simulated_time_s").get<double>(), 0.2);
+  const ProgramResult whole = run_program(folder, command + "--target-error 0.03% --resume");
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
 }
 
 }  // namespace articular::target_error_run_test
