@@ -136,11 +136,12 @@ void add_study_command(CLI::App& app, int& exit_code) {
           "Who runs the cases: this machine, Slurm, GNU parallel, machines by ssh, or whoever "
           "runs `articular work` [local]")
       ->transform(CLI::CheckedTransformer(
-          std::map<std::string, EngineKind>{{"local", EngineKind::Local},
-                                            {"slurm", EngineKind::Slurm},
-                                            {"parallel", EngineKind::Parallel},
-                                            {"ssh", EngineKind::Ssh},
-                                            {"folder", EngineKind::Folder}}))
+                      std::map<std::string, EngineKind>{{"local", EngineKind::Local},
+                                                        {"slurm", EngineKind::Slurm},
+                                                        {"parallel", EngineKind::Parallel},
+                                                        {"ssh", EngineKind::Ssh},
+                                                        {"folder", EngineKind::Folder}})
+                      .description(""))  // the type says it
       ->type_name("local|slurm|parallel|ssh|folder");
   command
       .add_option("--machines", arguments->options.engine.machines,
