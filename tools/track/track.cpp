@@ -211,17 +211,10 @@ class Tracker {
   /// iteration makes up for that. @return whether it went
   bool go_on(const sim::State& state, Ramp ramp, const VectorXd& next, double rows, Iterate& here,
              int& trials) {
-    // An equilibrium does not depend on what was before: the way from the one at hand is shorter.
-    sim::State start = state;
-    if (model_.is_static) {
-      start = here.trial.state;
-      start.t = state.t;
-      ramp.from = here.excitation;
-    }
     for (double part = 1; part >= kShortest; part *= 0.5) {
       ramp.to = here.excitation + part * (next - here.excitation);
       ++trials;
-      std::optional<Iterate> place = try_place(start, ramp);
+      std::optional<Iterate> place = try_place(state, ramp);
       tell(ramp.t_to, trials, place ? std::optional(place->sum) : std::nullopt);
       if (!place || !(place->sum < here.sum + (part == 1 ? rows : 0))) continue;
       here = std::move(*place);
