@@ -54,6 +54,7 @@ std::string axis_numbers(char axis, double low, double high) {
 
 std::vector<std::string> number_places(const std::vector<SharePoint>& points) {
   std::vector<Box> taken;
+  taken.reserve(2 * points.size());
   for (const SharePoint& p : points)
     taken.push_back({p.x - kPoint, p.x + kPoint, p.y - kPoint, p.y + kPoint});
   std::vector<std::string> places;

@@ -223,6 +223,7 @@ std::string study_plot(const std::vector<StudyCase>& cases, const std::string& t
   const FrontAxes axes = front_axes(drawn, assessment);
   text += axes.text() + front_line(assessment);
   std::vector<SharePoint> points;
+  points.reserve(drawn.size());
   for (const std::size_t i : drawn) points.push_back(axes.shares(assessment.cases[i]));
   const std::vector<std::string> places = number_places(points);
   std::string plots = "plot $front with lines lw 2 lc rgb '#d95f02' title 'front'";
