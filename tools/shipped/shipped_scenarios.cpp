@@ -155,7 +155,7 @@ fs::path find_file(const fs::path& given) {
 }
 
 fs::path find_file_for(std::string_view subcommand, const fs::path& given) {
-  const fs::path file = find_file(given);
+  fs::path file = find_file(given);
   const std::string kind = kind_of(sim::read_toml(file));
   if (kind.empty() || subcommand_of(kind) == subcommand) return file;
   const std::string_view right = subcommand_of(kind);
