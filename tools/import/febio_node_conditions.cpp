@@ -76,7 +76,7 @@ void add_grip(ScenarioDraft& draft, const ConditionTable& table,
 std::string add_support_entry(ScenarioDraft& draft, const std::string& wanted,
                               const ImportedBody& tissue, const sim::MeshSet& set,
                               const std::string& freedoms) {
-  const std::string name = new_name(draft, wanted);
+  std::string name = new_name(draft, wanted);
   draft.text += TomlEntry("[[support]]")
                     .add("name", toml_text(name))
                     .add("body", toml_text(tissue.name))
