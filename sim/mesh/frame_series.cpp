@@ -7,28 +7,12 @@
 
 #include "sim/base/error.hpp"
 #include "sim/base/file_bytes.hpp"
+#include "sim/base/xml_text.hpp"
 #include "sim/mesh/mesh_readers.hpp"
 #include "sim/mesh/xml_events.hpp"
 
 namespace articular::sim {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
 
 /// The shortest text that reads back as the same number.
 std::string shortest(double value) {
@@ -117,8 +101,8 @@ void SeriesFile::append(const std::vector<SeriesEntry>& entries) {
     const std::size_t number =
         part_number_.try_emplace(entry.part, part_number_.size()).first->second;
     text += "    <DataSet timestep=\"" + shortest(entry.time) + "\" part=\"" +
-            std::to_string(number) + "\" name=\"" + escaped(entry.part) + "\" file=\"" +
-            escaped(entry.file) + "\"/>\n";
+            std::to_string(number) + "\" name=\"" + xml_text(entry.part) + "\" file=\"" +
+            xml_text(entry.file) + "\"/>\n";
   }
   file_.append(text, kTail);
 }

@@ -189,6 +189,26 @@ Sheet skull_sheet() {
   return sheet;
 }
 
+/// Styloid process, which stylohyoid and stylomandibular ligament come from.
+Sheet styloid_sheet() {
+  Sheet sheet;
+  add_rods(sheet, {{45, 40, 94, 3.2}, {42, 41.5, 82, 2.3}, {38, 44, 66.5, 1.8}});
+  return sheet;
+}
+
+/// One half: body with the greater horn.
+Sheet hyoid_sheet() {
+  Sheet sheet;
+  add_rods(sheet, smoothed({{0, 7.5, -7, 4.2},
+                            {6, 8.2, -7, 4},
+                            {12, 11, -6.5, 3.2},
+                            {17, 18, -5, 2.4},
+                            {20, 26, -3.5, 2},
+                            {21.5, 33, -2, 2.2}},
+                           3));
+  return sheet;
+}
+
 /// Temporal bone around the joint: everything within 7 mm above the fossa surface, cut to a block.
 double temporal_block_distance(const Vec3& p, const FossaProfile& fossa) {
   const Vec3 d = p - kCondyle;
@@ -200,6 +220,8 @@ double temporal_block_distance(const Vec3& p, const FossaProfile& fossa) {
   const double top = std::abs(below + 4.0) - 4.0;  // 0 to 8 mm above the surface
   return std::max(top, box_distance);
 }
+
+const Vec3 kSkullLow(-82, -56, 36), kSkullHigh(82, 66, 160);
 
 /// Strip along the arch between two offsets from its middle.
 Mesh arch_strip(double h, double dz, bool normal_up) {
@@ -283,7 +305,20 @@ Mesh mandible_surface(double h) {
 }
 
 Mesh skull_surface(double h, const FossaProfile& fossa) {
-  return contour_even(skull_distance(fossa), {-82, -56, 36}, {82, 66, 160}, h);
+  const auto with_styloid = [skull = skull_distance(fossa),
+                             styloid = styloid_sheet()](const Vec3& p) {
+    return smooth_min(skull(p), distance(styloid, p), 2);
+  };
+  return contour_even(with_styloid, kSkullLow, kSkullHigh, h);
+}
+
+Mesh skull_without_styloid(double h) {
+  return contour_even(skull_distance(), kSkullLow, kSkullHigh, h);
+}
+
+Mesh hyoid_surface(double h) {
+  return contour_even([sheet = hyoid_sheet()](const Vec3& p) { return distance(sheet, p); },
+                      {-28, -2, -16}, {28, 40, 6}, h);
 }
 
 Mesh lower_teeth_sheet(double h) { return arch_strip(h, 0, true); }

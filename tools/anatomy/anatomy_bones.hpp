@@ -3,7 +3,7 @@
 #include "tools/anatomy/anatomy_joint.hpp"
 #include "tools/anatomy/anatomy_solids.hpp"
 
-/// Mandible and skull parts to look at, with teeth. Unions of thick
+/// Mandible, hyoid and skull parts to look at, with teeth. Unions of thick
 /// triangles and superellipsoids, symmetric about x = 0. mm.
 namespace articular::anatomy {
 
@@ -12,11 +12,18 @@ namespace articular::anatomy {
 /// @param h  spacing of the contoured grid
 Mesh mandible_surface(double h);
 
-/// Closed surface: upper teeth and maxilla, zygomatic arches, temporal bones with fossa and
-/// eminence.
+/// Closed surface: upper teeth and maxilla, zygomatic arches, temporal bones with fossa, eminence
+/// and styloid process.
 Mesh skull_surface(double h, const FossaProfile& fossa = usual_fossa());
 
-/// Signed distances from both bones before they are contoured, < 0 inside; to use for x >= 0.
+/// The same without styloid process, which no muscle of tissue touches.
+Mesh skull_without_styloid(double h);
+
+/// Closed surface: the body of the hyoid with its greater horns.
+Mesh hyoid_surface(double h);
+
+/// Signed distances from both bones before they are contoured, < 0 inside; to use for x >= 0. The
+/// skull's is without its styloid process.
 Distance mandible_distance();
 Distance skull_distance(const FossaProfile& fossa = usual_fossa());
 

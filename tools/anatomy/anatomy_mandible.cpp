@@ -173,6 +173,7 @@ Anatomy mandible_anatomy(double disc_edge, double slope_deg) {
   add_both_sides("condyle", ".vtp", condyle_sheet(kSheetEdge), anatomy);
   add_both_sides("fossa", ".vtp", fossa_sheet(kSheetEdge, fossa), anatomy);
   anatomy.meshes["mandible.vtp"] = mandible_surface(kMandibleGrid);
+  anatomy.meshes["hyoid.vtp"] = hyoid_surface(kMandibleGrid);
   anatomy.meshes["skull.vtp"] = skull_surface(kSkullGrid, fossa);
   anatomy.meshes["lower_teeth.vtp"] = lower_teeth_sheet(kTeethEdge);
   anatomy.meshes["upper_teeth.vtp"] = upper_teeth_sheet(kTeethEdge);

@@ -293,7 +293,7 @@ Mesh ramus_sheet(double h) {
 }
 
 Mesh temporal_sheet(double h) {
-  return part_of(skull_surface(h), [](const Vec3& p, const Vec3& normal) {
+  return part_of(skull_without_styloid(h), [](const Vec3& p, const Vec3& normal) {
     const Vec3 d = p - kCondyle;  // the joint has its own surface
     const bool joint =
         std::abs(d.x()) < 14 && d.y() < 11 && d.y() > -26 && d.z() < 14 && normal.z() < -0.3;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "sim/base/error.hpp"
+#include "sim/output/history_column.hpp"
 
 namespace articular::tools {
 namespace {
@@ -39,13 +40,15 @@ std::vector<Quantity> quantities_of(const std::vector<double>& column) {
   return quantities;
 }
 
-/// "tip.force [N]" of "tip.force.x [N]": what the components of a vector share.
-std::string stem_of(const std::string& column) {
-  const std::size_t end = column.find(" [");
-  const std::size_t dot = end == std::string::npos || end < 2 ? end : end - 2;
-  const bool is_component = dot != std::string::npos && column[dot] == '.' &&
-                            column[dot + 1] >= 'x' && column[dot + 1] <= 'z';
-  return is_component ? column.substr(0, dot) + column.substr(end) : column;
+/// What the components of a vector share: "tip.force [N]" of "tip.force.x [N]".
+sim::HistoryColumn stem_of(const std::string& text) {
+  sim::HistoryColumn column = sim::history_column(text);
+  for (const std::string_view axis : {".x", ".y", ".z"})
+    if (column.name.ends_with(axis)) {
+      column.name.resize(column.name.size() - axis.size());
+      break;
+    }
+  return column;
 }
 
 void append(std::string& list, const std::string& text) {

@@ -13,5 +13,5 @@ do for [m = 1:n] {
     print sprintf('| %s | %s | %.3g %+.3g x %+.3g x² | %.0f %% | %.4f |', figure, word(methods, m), a, b, c, 100 * FIT_STDFIT, 1 - FIT_WSSR / total)
   }
 }
-plot for [m = 1:n] rows(series, m, 3, everything) using 3:5 with points pt 7 ps 0.7 lc rgb colour(m) title word(methods, m), \
-  for [m = 1:n] line(m, x / 1000) lc rgb colour(m) title sprintf('linear, σ %.0f %%', c_sd[m])
+plot for [m = 1:n] rows(series, m, 3, everything) using 3:5 with points pt 7 ps 0.5 lc rgb colour(m) notitle, \
+  for [m = 1:n] line(m, x / 1000) lw 1.5 lc rgb colour(m) title sprintf('%s: σ %.0f %%', name(m), c_sd[m])

@@ -27,7 +27,7 @@ struct FitArguments {
 };
 
 int run_fit(const FitArguments& arguments) {
-  const Fit fit = read_fit(find_scenario(arguments.fit));
+  const Fit fit = read_fit(find_file_for("fit", arguments.fit));
   StudyRunOptions options = arguments.options;
   if (options.directory.empty()) options.directory = fs::path("out") / fit.name;
   sim::make_folders(options.directory);

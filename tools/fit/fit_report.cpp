@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "sim/output/history_column.hpp"
 #include "tools/fit/fit_values.hpp"
 #include "tools/fit/parameter_text.hpp"
 #include "tools/study/csv_cell.hpp"
@@ -15,18 +16,13 @@ using Eigen::Index;
 
 constexpr double kToldCorrelation = 0.9;
 
-std::string unit_of(const std::string& column) {
-  const std::size_t at = column.rfind(" [");
-  return at == std::string::npos ? "" : column.substr(at + 2, column.size() - at - 3);
-}
-
 std::string with_unit(double value, const std::string& unit) {
   return unit.empty() || unit == "-" ? fmt::format("{:.4g}", value)
                                      : fmt::format("{:.4g} {}", value, unit);
 }
 
 std::string target_text(const FitMeasurement& m) {
-  const std::string unit = unit_of(m.columns.front());
+  const std::string unit = sim::history_column(m.columns.front()).unit;
   if (m.target == FitTarget::AtMost) return "at most " + with_unit(m.value, unit);
   if (m.target == FitTarget::AtLeast) return "at least " + with_unit(m.value, unit);
   return fmt::format("{:.4g} ± {}", m.value, with_unit(m.spread, unit));
@@ -140,9 +136,10 @@ std::string measurements_csv(const Fit& fit, const FitResult& result) {
                                : m.target == FitTarget::AtMost ? "at most"
                                                                : "at least";
     text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_cell(m.name),
-                        csv_cell(unit_of(m.columns.front())), target, csv_cell(m.value),
-                        csv_cell(m.spread), m.held_out ? "yes" : "no", csv_cell(result.before[i]),
-                        csv_cell(result.after[i]), csv_cell(misfit(m, result.after[i])));
+                        csv_cell(sim::history_column(m.columns.front()).unit), target,
+                        csv_cell(m.value), csv_cell(m.spread), m.held_out ? "yes" : "no",
+                        csv_cell(result.before[i]), csv_cell(result.after[i]),
+                        csv_cell(misfit(m, result.after[i])));
   }
   return text;
 }

@@ -7,14 +7,10 @@
 
 #include "sim/base/error.hpp"
 #include "sim/base/message_text.hpp"
+#include "sim/output/history_column.hpp"
 
 namespace articular::tools {
 namespace {
-
-std::string column_unit(const std::string& column) {
-  const std::size_t at = column.rfind(" [");
-  return at == std::string::npos ? "" : column.substr(at);
-}
 
 const std::vector<double>& column_of(const std::string& name, const RunHistory& history,
                                      const std::string& what) {
@@ -56,7 +52,7 @@ double sum_at(const FitMeasurement& measurement, double time, const RunHistory& 
               const std::string& what) {
   double sum = 0;
   for (const std::string& name : measurement.columns) {
-    if (column_unit(name) != column_unit(measurement.columns.front()))
+    if (sim::history_column(name).unit != sim::history_column(measurement.columns.front()).unit)
       throw sim::InputError(fmt::format("{}: columns `{}` and `{}` have different units", what,
                                         measurement.columns.front(), name));
     const std::vector<double>& values = column_of(name, history, what);

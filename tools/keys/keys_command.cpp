@@ -96,6 +96,20 @@ bool has(const KeySection& section, std::string_view key) {
                                         : fmt::format("did you mean {}?", sim::in_ticks(near))));
 }
 
+/// A key of a section, and the tables that its values are.
+std::string key_as_text(const KeySection& section, const std::string& key,
+                        const std::vector<KeySection>& all) {
+  std::vector<std::string> names;
+  for (const KeyRow& row : key_rows(section))
+    if (row.key.name == key)
+      for (std::string& name : sections_of(row.key.type)) names.push_back(std::move(name));
+  std::string text = keys_as_text(section, key) + "\n";
+  for (const KeySection& table : all)
+    if (std::find(names.begin(), names.end(), table.name) != names.end())
+      text += keys_as_text(table) + "\n";
+  return text;
+}
+
 /// The tables of a name, else the key at a path, else all keys of a name.
 std::string look_up(const std::string& name) {
   const std::vector<KeySection> all = all_sections();
@@ -105,7 +119,7 @@ std::string look_up(const std::string& name) {
   if (!text.empty()) return text;
   const std::vector<std::string> path = parts_of(name);
   for (const KeySection& section : path.size() == 1 ? all : sections_at(path, all))
-    if (has(section, path.back())) text += keys_as_text(section, path.back()) + "\n";
+    if (has(section, path.back())) text += key_as_text(section, path.back(), all);
   if (text.empty()) fail_unknown(name, all);
   return text;
 }

@@ -32,7 +32,7 @@ CommonX common_x(const std::vector<PlottedRun>& runs, const std::string& name) {
   CommonX x{name.empty() ? "time" : name, {}, {}, {}};
   for (const PlottedRun& run : runs) {
     std::vector<std::string> names;
-    for (const HistoryColumn& column : run.columns) names.push_back(column.name);
+    for (const sim::HistoryColumn& column : run.columns) names.push_back(column.name);
     const std::optional<std::size_t> found = find_column(run, x.name);
     if (!found)
       throw sim::InputError(fmt::format("--x: {} has no column {}{}",

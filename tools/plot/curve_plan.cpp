@@ -14,12 +14,13 @@ namespace {
 constexpr std::size_t kMostPanels = 300;  // a page of 5 m is what PDF allows
 
 /// All columns but the time and that on the x axis, in the order in which they first appear.
-std::vector<HistoryColumn> union_of(const std::vector<PlottedRun>& runs, const std::string& x) {
-  std::vector<HistoryColumn> all;
+std::vector<sim::HistoryColumn> union_of(const std::vector<PlottedRun>& runs,
+                                         const std::string& x) {
+  std::vector<sim::HistoryColumn> all;
   for (const PlottedRun& run : runs)
     for (std::size_t i = 1; i < run.columns.size(); ++i) {
-      const HistoryColumn& column = run.columns[i];
-      const auto is_it = [&](const HistoryColumn& one) { return one.name == column.name; };
+      const sim::HistoryColumn& column = run.columns[i];
+      const auto is_it = [&](const sim::HistoryColumn& one) { return one.name == column.name; };
       if (column.name != x && std::none_of(all.begin(), all.end(), is_it)) all.push_back(column);
     }
   return all;
@@ -30,7 +31,7 @@ CurvePlan make_plan(const std::vector<PlottedRun>& runs, const std::vector<std::
   CurvePlan plan;
   plan.columns = union_of(runs, x.name);
   std::vector<std::string> names;
-  for (const HistoryColumn& column : plan.columns) names.push_back(column.name);
+  for (const sim::HistoryColumn& column : plan.columns) names.push_back(column.name);
   if (names.empty()) throw sim::InputError("these runs have no probes to plot");
   const bool is_single = runs.size() == 1;
   plan.panels = probe_panels(plan.columns, chosen_columns(names, probes), is_single);

@@ -22,7 +22,7 @@ struct DrawnCurve {
 };
 
 struct CurvePlan {
-  std::vector<HistoryColumn> columns;
+  std::vector<sim::HistoryColumn> columns;
   std::vector<ProbePanel> panels;
   std::vector<AxisUnit> units;  // of the panels
   std::vector<DrawnCurve> curves;

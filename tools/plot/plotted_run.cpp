@@ -52,18 +52,19 @@ Line next_line(std::ifstream& stream, std::string& line, const fs::path& file) {
   return Line::Whole;
 }
 
-std::vector<HistoryColumn> columns_of(std::string_view line) {
+std::vector<sim::HistoryColumn> columns_of(std::string_view line) {
   if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // byte order mark
-  std::vector<HistoryColumn> columns;
+  std::vector<sim::HistoryColumn> columns;
   for (;;) {
     const std::size_t comma = line.find(',');
-    columns.push_back(history_column(line.substr(0, comma)));
+    columns.push_back(sim::history_column(line.substr(0, comma)));
     if (comma == std::string_view::npos) return columns;
     line.remove_prefix(comma + 1);
   }
 }
 
-double value_of(std::string_view cell, const HistoryColumn& column, const sim::Location& where) {
+double value_of(std::string_view cell, const sim::HistoryColumn& column,
+                const sim::Location& where) {
   cell = sim::trimmed(cell);
   if (cell.empty()) return kNothing;
   double value = 0;
@@ -111,7 +112,7 @@ void read_error_bars(PlottedRun& run) {
                                             });
   for (const sim::CsvRow& row : table.rows) {
     if (row.fields[quantity] != "end" || row.fields[value].empty()) continue;
-    LastBar last{history_column(row.fields[column]),
+    LastBar last{sim::history_column(row.fields[column]),
                  sim::csv_number(row.fields[value], "value", row.where),
                  {},
                  row.fields[verdict]};
@@ -145,7 +146,7 @@ class RowReader {
   }
 
  private:
-  const std::vector<HistoryColumn>& columns_;
+  const std::vector<sim::HistoryColumn>& columns_;
   std::vector<double> values_;
   std::vector<bool> wanted_;
 };
@@ -168,7 +169,7 @@ PlottedRun open_run(const fs::path& folder) {
   if (next_line(stream, line, file) != Line::Whole)
     throw sim::InputError({shown(file)}, "holds no row of results yet");
   run.columns = columns_of(line);
-  if (run.columns.front() != HistoryColumn{"time", "s"})
+  if (run.columns.front() != sim::HistoryColumn{"time", "s"})
     throw sim::InputError({shown(file), 1},
                           fmt::format("expected `time [s]` as the first column, found {}",
                                       sim::in_quotes(line.substr(0, line.find(',')))));

@@ -15,7 +15,7 @@ namespace articular::tools {
 
 /// The last value of a column with its error bar, from error_bars.csv.
 struct LastBar {
-  HistoryColumn column;
+  sim::HistoryColumn column;
   double value = 0;
   std::optional<double> bar;  // none: not estimated
   std::string verdict;
@@ -23,8 +23,8 @@ struct LastBar {
 
 struct PlottedRun {
   std::filesystem::path folder;
-  std::vector<HistoryColumn> columns;  // of history.csv; the first is the time
-  std::string outcome;                 // of summary.json; "": unknown
+  std::vector<sim::HistoryColumn> columns;  // of history.csv; the first is the time
+  std::string outcome;                      // of summary.json; "": unknown
   bool is_static = false;
   double duration = 0;  // [s], of the whole load in statics; 0: unknown
   std::vector<LastBar> bars;

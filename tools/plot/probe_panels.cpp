@@ -36,14 +36,7 @@ std::vector<std::string> parts_of(std::string_view name) {
 
 }  // namespace
 
-HistoryColumn history_column(std::string_view text) {
-  text = sim::trimmed(text);
-  const std::size_t at = text.rfind(" [");
-  if (at == std::string_view::npos || !text.ends_with(']')) return {std::string(text), ""};
-  return {std::string(text.substr(0, at)), std::string(text.substr(at + 2, text.size() - at - 3))};
-}
-
-AxisUnit column_unit(const HistoryColumn& column, const sim::Location& where) try {
+AxisUnit column_unit(const sim::HistoryColumn& column, const sim::Location& where) try {
   return axis_unit(column.unit);
 } catch (const std::invalid_argument& error) {
   throw sim::InputError(where,
@@ -76,14 +69,14 @@ std::vector<std::size_t> chosen_columns(const std::vector<std::string>& names,
   return chosen;
 }
 
-std::vector<ProbePanel> probe_panels(const std::vector<HistoryColumn>& columns,
+std::vector<ProbePanel> probe_panels(const std::vector<sim::HistoryColumn>& columns,
                                      const std::vector<std::size_t>& chosen, bool join_vectors) {
   std::vector<ProbePanel> panels;
   const auto is_component = [&](std::size_t i, const std::string& stem, char axis) {
     return i < chosen.size() && columns[chosen[i]].name == stem + "." + axis;
   };
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const HistoryColumn& column = columns[chosen[i]];
+    const sim::HistoryColumn& column = columns[chosen[i]];
     const std::string stem = column.name.substr(0, column.name.rfind('.'));
     const bool is_vector = join_vectors && is_component(i, stem, 'x') &&
                            is_component(i + 1, stem, 'y') && is_component(i + 2, stem, 'z') &&

@@ -6,24 +6,14 @@
 #include <vector>
 
 #include "sim/base/error.hpp"
+#include "sim/output/history_column.hpp"
 #include "tools/plot/axis_unit.hpp"
 
 /// Which columns of history.csv are drawn, and which of them together.
 namespace articular::tools {
 
-/// A column as the first line of history.csv names it.
-struct HistoryColumn {
-  std::string name;  // "incisor.position.z"
-  std::string unit;  // "mm"; "" where the line has none
-
-  bool operator==(const HistoryColumn&) const = default;
-};
-
-/// "incisor.position.z [mm]"
-HistoryColumn history_column(std::string_view text);
-
 /// @throws sim::InputError  at `where`, names the column, where its unit is none
-AxisUnit column_unit(const HistoryColumn& column, const sim::Location& where);
+AxisUnit column_unit(const sim::HistoryColumn& column, const sim::Location& where);
 
 /// Whether a word means a column: its name, its first parts up to a dot, or with `*` for any
 /// characters a pattern of either. "condyle" means "condyle.force.x", and so does "con*.force".
@@ -45,7 +35,7 @@ struct ProbePanel {
 
 /// Columns `p.x`, `p.y` and `p.z` of one unit, one after another, become one panel.
 /// @param join_vectors  false: every column has a panel of its own, as where runs are compared
-std::vector<ProbePanel> probe_panels(const std::vector<HistoryColumn>& columns,
+std::vector<ProbePanel> probe_panels(const std::vector<sim::HistoryColumn>& columns,
                                      const std::vector<std::size_t>& chosen, bool join_vectors);
 
 }  // namespace articular::tools

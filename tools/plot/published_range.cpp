@@ -36,7 +36,7 @@ std::optional<double> take_number(std::string_view& rest) {
 }
 
 BandColumn band_column(const sim::CsvTable& table, std::size_t i) {
-  const HistoryColumn header = history_column(table.columns.fields[i]);
+  const sim::HistoryColumn header = sim::history_column(table.columns.fields[i]);
   BandColumn column{header.name, column_unit(header, table.columns.where), {}};
   for (const sim::CsvRow& row : table.rows)
     column.values.push_back(column.unit.size *

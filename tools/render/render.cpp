@@ -266,6 +266,10 @@ int render(const RenderOptions& options) {
     all.insert(all.end(), sequence.panels.begin(), sequence.panels.end());
   setting.survey =
       survey(all, {options.field, options.flat, options.difference}, options.focus, setting.axes);
+  std::erase_if(setting.survey.coloured, [&](const std::string& part) {
+    const auto asked = options.opacity.find(part);
+    return asked != options.opacity.end() && asked->second < 1;
+  });
   if (!setting.survey.coloured.empty())
     setting.field = field_scale(setting.survey, options.range, options.colour_map);
   else if (options.range || !options.colour_map.empty())

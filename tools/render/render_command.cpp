@@ -143,8 +143,11 @@ void add_render_command(CLI::App& app, int& exit_code) {
   add_files(command, *options);
   command.callback([options, &exit_code] {
     std::error_code error;
-    for (auto& run : options->runs)
+    for (auto& run : options->runs) {
       if (!std::filesystem::exists(run, error)) run = shipped_file(run).value_or(run);
+      if (run.extension() == ".toml" && std::filesystem::exists(run, error))
+        run = find_file_for("run", run);
+    }
     exit_code = render(*options);
   });
 }

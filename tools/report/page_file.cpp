@@ -4,6 +4,7 @@
 
 #include "sim/base/error.hpp"
 #include "sim/base/file_bytes.hpp"
+#include "sim/base/xml_text.hpp"
 #include "tools/process/this_program.hpp"
 
 namespace articular::tools {
@@ -13,19 +14,6 @@ namespace fs = std::filesystem;
 
 // What page/bundle.mjs leaves for us to fill in.
 constexpr std::string_view kTitle = "@ARTICULAR_TITLE@", kData = "@ARTICULAR_DATA@";
-
-std::string html_text(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else
-      result += c;
-  }
-  return result;
-}
 
 /// JSON that ends no <script>: it has `<` in strings only, where it may be written otherwise.
 std::string script_text(const Json& data) {
@@ -63,7 +51,7 @@ std::string empty_page() {
 
 std::string page_with(const std::string& page, const std::string& title, const Json& data) {
   std::string result = page;
-  replace_once(result, kTitle, html_text(title));
+  replace_once(result, kTitle, sim::xml_text(title));
   replace_once(result, kData, script_text(data));
   return result;
 }

@@ -88,7 +88,7 @@ Json run_data(const fs::path& folder) {
 int report(const ReportOptions& options) {
   const std::string page = empty_page();
   const bool is_run = is_folder(options.what);
-  const fs::path scenario = is_run ? fs::path() : find_scenario(options.what);
+  const fs::path scenario = is_run ? fs::path() : find_file_for("run", options.what);
   const Json data = is_run ? run_data(options.what) : setup_of(scenario);
   const fs::path file = !options.out.empty() ? options.out
                         : is_run             ? fs::path(options.what) / "report.html"

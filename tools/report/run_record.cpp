@@ -101,7 +101,7 @@ Json history_of(const fs::path& folder) {
     const auto [axis, is_new] = axes.emplace(samples.x, axes.size());
     if (is_new) json["axes"].push_back(packed_doubles(samples.x));
     largest[shown[c]] = largest_size(samples.y);
-    const HistoryColumn& column = run.columns[shown[c]];
+    const sim::HistoryColumn& column = run.columns[shown[c]];
     json["columns"].push_back({{"name", column.name},
                                {"unit", column.unit},
                                {"axis", axis->second},

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "sim/build/build_model.hpp"
+#include "sim/mesh/mesh_io.hpp"
 #include "sim/step/overlap_report.hpp"
 #include "sim/step/stepper.hpp"
 #include "tools/run/commands.hpp"
@@ -50,11 +51,13 @@ void add_check_command(CLI::App& app, int& exit_code) {
       ->add_option("--seconds", arguments->seconds,
                    "Of --diagnose: wall time until the failure, and again for all trials [60]")
       ->check(CLI::PositiveNumber);
-  command->footer(
+  command->footer(fmt::format(
       "Writes nothing, and runs nothing but for --diagnose. Exit code 0: `run` will start; 2: it "
-      "would not; 3: bodies overlap so that `run` could not set them apart, or a step failed.");
+      "would not; 3: bodies overlap so that `run` could not set them apart, or a step failed.\n"
+      "Files of tissue: {}. Surfaces of bones also: .stl, .obj, .ply, .vtp.",
+      sim::kTissueEndings));
   command->callback([arguments, &exit_code] {
-    const sim::Scenario scenario = sim::read_scenario(find_scenario(arguments->scenario),
+    const sim::Scenario scenario = sim::read_scenario(find_file_for("run", arguments->scenario),
                                                       with_override_files(arguments->overrides));
     const sim::Model model = sim::build_model(scenario);
     for (const std::string& warning : model.warnings) fmt::print("warning: {}\n", warning);

@@ -291,7 +291,7 @@ void add_explain_command(CLI::App& app, int& exit_code) {
                     "times where things are at the start");
   command->callback([arguments, &exit_code] {
     const double before = heap_in_use();
-    const sim::Scenario scenario = sim::read_scenario(find_scenario(arguments->scenario),
+    const sim::Scenario scenario = sim::read_scenario(find_file_for("run", arguments->scenario),
                                                       with_override_files(arguments->overrides));
     const sim::Model model = sim::build_model(scenario);
     const double model_bytes = heap_in_use() - before;

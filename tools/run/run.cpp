@@ -123,7 +123,7 @@ int print_error_bars(const sim::Scenario& scenario, const RunArguments& argument
 
 sim::Scenario read_scenario(const RunArguments& arguments) {
   sim::Scenario scenario =
-      sim::read_scenario(find_scenario(arguments.scenario), arguments.overrides);
+      sim::read_scenario(find_file_for("run", arguments.scenario), arguments.overrides);
   scenario.threads = arguments.threads;
   scenario.reproducible = arguments.reproducible;
   return scenario;

@@ -36,7 +36,7 @@ void add_scenarios_command(CLI::App& app, int& exit_code) {
     if (name->empty())
       list();
     else
-      fmt::print("{}\n", find_scenario(*name).string());
+      fmt::print("{}\n", find_file(*name).string());
     exit_code = 0;
   });
 }

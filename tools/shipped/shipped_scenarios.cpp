@@ -41,6 +41,19 @@ std::string text_of(const sim::Node& document, std::string_view key, std::string
   return node != nullptr && node->text() != nullptr ? *node->text() : std::string(otherwise);
 }
 
+/// "dynamic", "static", "study", "population", "fit" or "track"; "": another file.
+std::string kind_of(const sim::Node& document) {
+  const auto has = [&](std::string_view key) { return document.find(key) != nullptr; };
+  if (has("population")) return "population";
+  if (has("scenario")) return has("target") ? "track" : has("parameter") ? "fit" : "study";
+  return has("duration") ? text_of(document, "analysis", "dynamic") : "";
+}
+
+std::string_view subcommand_of(std::string_view kind) {
+  if (kind == "fit" || kind == "track") return kind;
+  return kind == "study" || kind == "population" ? "study" : "run";
+}
+
 /// "mandible/opening" for what users may write for it: `opening`,
 /// `scenarios/mandible/opening.toml`.
 std::string nearest_shipped(const fs::path& given, const std::vector<std::string>& names) {
@@ -110,18 +123,8 @@ std::vector<ShippedScenario> shipped_scenarios() {
   std::vector<ShippedScenario> scenarios;
   for (const std::string& name : names_in(folder)) {
     const sim::Node document = sim::read_toml(folder / (name + ".toml"));
-    const bool is_study = document.find("scenario") != nullptr;
-    const bool is_population = document.find("population") != nullptr;
-    const bool is_fit = is_study && !is_population && document.find("parameter") != nullptr;
-    const bool is_track = is_study && document.find("target") != nullptr;
-    if (!is_study && document.find("duration") == nullptr) continue;
-    scenarios.push_back({name,
-                         is_population ? "population"
-                         : is_fit      ? "fit"
-                         : is_track    ? "track"
-                         : is_study    ? "study"
-                                       : text_of(document, "analysis", "dynamic"),
-                         text_of(document, "title", name)});
+    if (const std::string kind = kind_of(document); !kind.empty())
+      scenarios.push_back({name, kind, text_of(document, "title", name)});
   }
   return scenarios;
 }
@@ -134,7 +137,7 @@ std::optional<fs::path> shipped_file(const fs::path& name) {
   return *folder / (name.string() + ".toml");
 }
 
-fs::path find_scenario(const fs::path& given) {
+fs::path find_file(const fs::path& given) {
   std::error_code error;
   if (fs::exists(given, error) && !is_folder(given)) {
     refuse_mesh(given);
@@ -149,6 +152,17 @@ fs::path find_scenario(const fs::path& given) {
       where, fmt::format("no such file, and no scenario of this name is shipped; {}",
                          near.empty() ? "`articular scenarios` lists those that are"
                                       : fmt::format("did you mean {}?", sim::in_ticks(near))));
+}
+
+fs::path find_file_for(std::string_view subcommand, const fs::path& given) {
+  fs::path file = find_file(given);
+  const std::string kind = kind_of(sim::read_toml(file));
+  if (kind.empty() || subcommand_of(kind) == subcommand) return file;
+  const std::string_view right = subcommand_of(kind);
+  const std::string path = sim::one_line(given.string());
+  throw sim::InputError({path}, fmt::format("expected a {}, found a {}; `articular {} {}` runs it",
+                                            subcommand == "run" ? "scenario" : subcommand,
+                                            right == "run" ? "scenario" : kind, right, path));
 }
 
 }  // namespace articular::tools

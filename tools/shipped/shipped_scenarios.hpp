@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The scenarios and studies that come with the program, each known by its path in their folder:
@@ -28,8 +29,15 @@ std::vector<ShippedScenario> shipped_scenarios();
 /// The file of a shipped scenario, or nothing if none has this name.
 std::optional<std::filesystem::path> shipped_file(const std::filesystem::path& name);
 
-/// The file that a user means: `given` if that is a file, else the shipped scenario of that name.
+/// The file that a user means: `given` if that is a file, else what is shipped by that name.
 /// @throws sim::InputError  if there is neither; suggests the nearest name
-std::filesystem::path find_scenario(const std::filesystem::path& given);
+std::filesystem::path find_file(const std::filesystem::path& given);
+
+/// The same of a file that a subcommand takes: "run" stands for all that take a scenario, and there
+/// are "study", "fit" and "track".
+/// @throws sim::InputError  also where another subcommand takes it: names that one; where it is no
+///                          valid TOML
+std::filesystem::path find_file_for(std::string_view subcommand,
+                                    const std::filesystem::path& given);
 
 }  // namespace articular::tools

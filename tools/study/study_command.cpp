@@ -80,7 +80,7 @@ void check_engine(const EngineOptions& engine) {
 }
 
 int study(const StudyArguments& arguments) {
-  const Study study = read_study(find_scenario(arguments.study));
+  const Study study = read_study(find_file_for("study", arguments.study));
   StudyRunOptions options = arguments.options;
   check_engine(options.engine);
   if (options.directory.empty()) options.directory = fs::path("out") / study.name;

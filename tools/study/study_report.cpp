@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/output/history_column.hpp"
 #include "tools/study/csv_cell.hpp"
+#include "tools/study/front_axes.hpp"
 
 namespace articular::tools {
 namespace {
@@ -124,7 +126,21 @@ std::vector<std::size_t> drawn_cases(const std::vector<StudyCase>& cases,
 }
 
 /// Both axes as far as there is something, with room around it.
-std::string ranges(const std::vector<std::size_t>& drawn, const Assessment& assessment) {
+struct FrontAxes {
+  double least_time, most_time, least_error, most_error;  // [s], [%]
+
+  SharePoint shares(const CaseAssessment& c) const {
+    return {std::log(c.time / least_time) / std::log(most_time / least_time),
+            std::log(100 * c.error / least_error) / std::log(most_error / least_error)};
+  }
+  std::string text() const {
+    return fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", least_time,
+                       most_time, least_error, most_error) +
+           axis_numbers('x', least_time, most_time) + axis_numbers('y', least_error, most_error);
+  }
+};
+
+FrontAxes front_axes(const std::vector<std::size_t>& drawn, const Assessment& assessment) {
   constexpr double kRoom = 1.5;
   double least = kInfinity, most = 0;
   for (const std::size_t i : drawn) {
@@ -132,10 +148,8 @@ std::string ranges(const std::vector<std::size_t>& drawn, const Assessment& asse
     most = std::max(most, assessment.cases[i].error);
   }
   if (assessment.uncertainty > 0) least = std::min(least, assessment.uncertainty);
-  return fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n",
-                     assessment.cases[drawn.front()].time / kRoom,
-                     assessment.cases[drawn.back()].time * kRoom, 100 * least / kRoom,
-                     100 * most * kRoom);
+  return {assessment.cases[drawn.front()].time / kRoom, assessment.cases[drawn.back()].time * kRoom,
+          100 * least / kRoom, 100 * most * kRoom};
 }
 
 std::string front_line(const Assessment& assessment) {
@@ -149,8 +163,13 @@ std::string front_line(const Assessment& assessment) {
 }  // namespace
 
 std::string unit_of(const std::string& column) {
-  const std::size_t at = column.rfind(" [");
-  return at == std::string::npos ? "" : " " + column.substr(at + 2, column.size() - at - 3);
+  const std::string unit = sim::history_column(column).unit;
+  return unit.empty() ? "" : " " + unit;
+}
+
+std::string repeats_text(int repeats, const std::string& times) {
+  return repeats == 1 ? "one run of each case"
+                      : fmt::format("{} runs of each case, median {}", repeats, times);
 }
 
 std::string study_csv(const Study& study, const std::vector<StudyCase>& cases,
@@ -175,8 +194,8 @@ std::string study_csv(const Study& study, const std::vector<StudyCase>& cases,
 std::string study_text(const Study& study, const std::vector<StudyCase>& cases,
                        const std::vector<CaseRecord>& records, const Assessment& assessment) {
   std::string text =
-      fmt::format("# {}\n\nScenario {}, {} runs of each case, median {}{}.\n\n", study.title,
-                  study.scenario.filename().string(), study.repeats, time_word(assessment), "s");
+      fmt::format("# {}\n\nScenario {}, {}.\n\n", study.title, study.scenario.filename().string(),
+                  repeats_text(study.repeats, std::string(time_word(assessment)) + "s"));
   text += "What is right:\n\n";
   for (std::size_t o = 0; o < study.outputs.size(); ++o)
     text += reference_text(study, assessment, o);
@@ -201,7 +220,12 @@ std::string study_plot(const std::vector<StudyCase>& cases, const std::string& t
       "set key outside right top Left reverse samplen 1 font ',10'\n",
       std::max(kLeastHeight, kLine * drawn.size() + 120), plot_label(picture.string()),
       plot_label(title), time_word(assessment));
-  text += ranges(drawn, assessment) + front_line(assessment);
+  const FrontAxes axes = front_axes(drawn, assessment);
+  text += axes.text() + front_line(assessment);
+  std::vector<SharePoint> points;
+  points.reserve(drawn.size());
+  for (const std::size_t i : drawn) points.push_back(axes.shares(assessment.cases[i]));
+  const std::vector<std::string> places = number_places(points);
   std::string plots = "plot $front with lines lw 2 lc rgb '#d95f02' title 'front'";
   if (assessment.uncertainty > 0)
     plots += fmt::format(", {:.8g} with lines dt 2 lc rgb '#1b9e77' title 'reference known to'",
@@ -211,8 +235,8 @@ std::string study_plot(const std::vector<StudyCase>& cases, const std::string& t
     const char* colour = c.on_front ? "#d95f02" : "#999999";
     text += fmt::format(
         "$case{0} << END\n{1:.8g} {2:.8g}\nEND\n"
-        "set label {0} '{0}' at {1:.8g},{2:.8g} left offset 0.5,0.5 textcolor rgb '{3}'\n",
-        n + 1, c.time, 100 * c.error, c.on_front ? "black" : "#777777");
+        "set label {0} '{0}' at {1:.8g},{2:.8g} {4} textcolor rgb '{3}'\n",
+        n + 1, c.time, 100 * c.error, c.on_front ? "black" : "#777777", places[n]);
     plots += fmt::format(", $case{0} with points pt 7 ps 0.7 lc rgb '{1}' title \"{0}  {2}\"",
                          n + 1, colour, plot_label(cases[drawn[n]].name));
   }

@@ -11,6 +11,9 @@ namespace articular::tools {
 /// " mm" of "tip.position.z [mm]", or "".
 std::string unit_of(const std::string& column);
 
+/// "3 runs of each case, median TIMES"
+std::string repeats_text(int repeats, const std::string& times);
+
 /// One row a case: outcome, times, memory, error, and value and error of each output.
 std::string study_csv(const Study& study, const std::vector<StudyCase>& cases,
                       const std::vector<CaseRecord>& records, const Assessment& assessment);

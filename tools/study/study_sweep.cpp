@@ -38,9 +38,9 @@ std::string sweep_text(const Study& study, const std::vector<StudyCase>& cases,
                        const std::vector<CaseRecord>& records,
                        const std::vector<std::vector<OutputValue>>& values) {
   std::string text = fmt::format(
-      "# {}\n\nScenario {}, {} runs of each case, median times. Nothing says what is "
-      "right: values side by side.\n\n| Case |",
-      study.title, study.scenario.filename().string(), study.repeats);
+      "# {}\n\nScenario {}, {}. Nothing says what is right: values side by side.\n\n"
+      "| Case |",
+      study.title, study.scenario.filename().string(), repeats_text(study.repeats, "times"));
   std::string line = "| --- |";
   for (const StudyOutput& output : study.outputs) {
     const std::string unit = unit_of(output.column);

@@ -6,15 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/output/history_column.hpp"
+
 namespace articular::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string unit_text(const std::string& column) {
-  const std::size_t open = column.rfind('[');
-  return open == std::string::npos ? "" : column.substr(open + 1, column.size() - open - 2);
-}
 
 /// NaN has no place in JSON.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -64,7 +61,7 @@ std::string left_out_text(const std::vector<Refinement>& kinds) {
 
 std::string error_text(double error, const TargetRecord& record) {
   if (record.wanted.is_share) return fmt::format("{:.2g} %", 100 * error / record.goal.scale);
-  return fmt::format("{:.2g} {}", error, unit_text(record.result.column));
+  return fmt::format("{:.2g} {}", error, sim::history_column(record.result.column).unit);
 }
 
 std::string duration_text(double seconds) {
@@ -75,7 +72,7 @@ std::string duration_text(double seconds) {
 }
 
 std::string target_text(const TargetRecord& record) {
-  const std::string unit = unit_text(record.result.column);
+  const std::string unit = sim::history_column(record.result.column).unit;
   std::string text =
       fmt::format("{}: {:.6g} ± {:.2g} {}", name_of(record.result), record.value, record.bar, unit);
   if (record.wanted.is_share)

@@ -10,6 +10,7 @@
 
 #include "sim/base/error.hpp"
 #include "sim/base/message_text.hpp"
+#include "sim/output/history_column.hpp"
 #include "sim/scenario/quantity.hpp"
 
 namespace articular::tools {
@@ -20,12 +21,9 @@ constexpr const char* kOption = "--target-error";
 /// A share of less than this part of the largest component would be one of round-off.
 constexpr double kNothing = 1e-6;
 
-std::string unit_of(const std::string& column) {
-  const std::size_t open = column.rfind('['), close = column.rfind(']');
-  return open == std::string::npos || close < open ? "" : column.substr(open + 1, close - open - 1);
-}
+std::string unit_of(const std::string& column) { return sim::history_column(column).unit; }
 
-std::string without_unit(const std::string& column) { return column.substr(0, column.find(" [")); }
+std::string without_unit(const std::string& column) { return sim::history_column(column).name; }
 
 std::string probe_of(const std::string& column) {
   const std::string name = without_unit(column);

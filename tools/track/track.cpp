@@ -60,7 +60,7 @@ class Tracker {
   Tracker(const Track& track, const TrackOptions& options)
       : track_(track),
         options_(options),
-        scenario_(sim::read_scenario(find_scenario(track.scenario), track.overrides)),
+        scenario_(sim::read_scenario(find_file_for("run", track.scenario), track.overrides)),
         model_(build()),
         unknowns_(unknowns_of(track, model_)),
         own_(own_excitations(model_, unknowns_)),

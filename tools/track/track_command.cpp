@@ -59,7 +59,7 @@ void write(const Track& track, const TrackResult& result, const fs::path& direct
 }
 
 int run_track(const TrackArguments& arguments) {
-  Track track = read_track(find_scenario(arguments.track));
+  Track track = read_track(find_file_for("track", arguments.track));
   track.overrides.insert(track.overrides.end(), arguments.overrides.begin(),
                          arguments.overrides.end());
   const fs::path directory =

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/output/history_column.hpp"
 #include "tools/study/csv_cell.hpp"
 
 namespace articular::tools {
@@ -19,9 +20,7 @@ constexpr double kDetermined = 0.9, kNotDetermined = 0.1;
 constexpr double kInexact = 1e-2;
 
 std::string unit_of(const TrackTarget& target) {
-  const std::string& column = target.columns.front();
-  const std::size_t at = column.rfind('[');
-  return column.substr(at + 1, column.size() - at - 2);
+  return sim::history_column(target.columns.front()).unit;
 }
 
 std::string words_for_share(double share) {

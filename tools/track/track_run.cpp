@@ -7,6 +7,7 @@
 
 #include "sim/base/error.hpp"
 #include "sim/base/message_text.hpp"
+#include "sim/output/history_column.hpp"
 #include "sim/scenario/name_pattern.hpp"
 #include "tools/process/interruption.hpp"
 
@@ -18,7 +19,7 @@ using Eigen::VectorXd;
 
 std::vector<std::size_t> columns_of(const TrackTarget& target,
                                     const std::vector<std::string>& known) {
-  const auto unit = [](const std::string& column) { return column.substr(column.rfind('[')); };
+  const auto unit = [](const std::string& column) { return sim::history_column(column).unit; };
   std::vector<std::size_t> indices;
   for (const std::string& name : target.columns) {
     const auto found = std::find(known.begin() + 1, known.end(), name);

@@ -35,6 +35,12 @@ INSTANTIATE_TEST_SUITE_P(
                       Committed{"TrackSchema", "--json-schema track", "track.schema.json"}),
     [](const auto& info) { return std::string(info.param.name); });
 
+TEST(Keys, OfAKeyWhoseValueIsATableAreShownWithIt) {
+  const std::string out = keys("body.material").out;
+  EXPECT_NE(out.find("\n  young_modulus\n"), std::string::npos) << out;
+  EXPECT_EQ(keys("body.material.element").out.find("young_modulus"), std::string::npos);
+}
+
 /// What the schema says of files, which are shell patterns.
 ProgramResult validate(const TemporaryFolder& folder, const std::string& schema,
                        const std::string& files) {

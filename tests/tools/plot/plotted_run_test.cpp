@@ -26,7 +26,8 @@ TEST(PlottedRun, HasTheColumnsAndWhatTheSummarySays) {
   folder.file("summary.json",
               R"({"outcome": "finished", "settings": {"analysis": "static", "duration_s": 2}})");
   const PlottedRun run = open_run(folder.path());
-  EXPECT_EQ(run.columns, (std::vector<HistoryColumn>{{"time", "s"}, {"a.x", "mm"}, {"b", "N"}}));
+  EXPECT_EQ(run.columns,
+            (std::vector<sim::HistoryColumn>{{"time", "s"}, {"a.x", "mm"}, {"b", "N"}}));
   EXPECT_EQ(run.outcome, "finished");
   EXPECT_TRUE(run.is_static);
   EXPECT_EQ(run.duration, 2);
@@ -104,7 +105,7 @@ TEST(ErrorBars, AreThoseOfLastValues) {
               "b [N],end,5,,,\"not estimated (mesh, failed)\",\n");
   const PlottedRun run = open_run(folder.path());
   ASSERT_EQ(run.bars.size(), 2U);
-  EXPECT_EQ(run.bars[0].column, (HistoryColumn{"a.x", "mm"}));
+  EXPECT_EQ(run.bars[0].column, (sim::HistoryColumn{"a.x", "mm"}));
   EXPECT_EQ(run.bars[0].bar, 0.25);
   EXPECT_FALSE(run.bars[1].bar);
   EXPECT_EQ(run.bars[1].verdict, "not estimated (mesh, failed)");

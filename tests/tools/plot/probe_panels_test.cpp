@@ -21,12 +21,6 @@ std::string refusal(const std::vector<std::string>& words) {
   return "";
 }
 
-TEST(HistoryColumn, IsNameAndUnit) {
-  EXPECT_EQ(history_column("incisor.position.z [mm]"), (HistoryColumn{"incisor.position.z", "mm"}));
-  EXPECT_EQ(history_column(" a [b].moment [N m]\r"), (HistoryColumn{"a [b].moment", "N m"}));
-  EXPECT_EQ(history_column("plain"), (HistoryColumn{"plain", ""}));
-}
-
 TEST(ChosenColumns, AreMeantByNamesFirstPartsAndPatterns) {
   EXPECT_EQ(chosen_columns(kNames, {"condyle.area"}), Numbers{6});
   EXPECT_EQ(chosen_columns(kNames, {"condyle"}), (Numbers{3, 4, 5, 6}));
@@ -50,7 +44,7 @@ TEST(ChosenColumns, AWordThatMeansNoneNamesTheNearest) {
 }
 
 TEST(ProbePanels, AVectorIsOneAndAScalarIsOne) {
-  const std::vector<HistoryColumn> columns = {
+  const std::vector<sim::HistoryColumn> columns = {
       {"a.force.x", "N"}, {"a.force.y", "N"}, {"a.force.z", "N"}, {"a.area", "mm^2"},
       {"b.x", "mm"},      {"b.y", "mm"},      {"b.z", "m"}};
   EXPECT_EQ(probe_panels(columns, {0, 1, 2, 3}, true),

@@ -105,6 +105,13 @@ TEST_F(Colours, OfAFieldAreTheSameBehindATranslucentBone) {
   EXPECT_LT(count(), 0.2 * behind) << "all but the legend is hidden by an opaque bone";
 }
 
+// It is drawn without its field, and then no part has one.
+TEST_F(Colours, ATranslucentTissueNeedsNoLegend) {
+  EXPECT_NE(print_of(options_).find("von_mises 0 to"), std::string::npos);
+  options_.opacity = {{"disc", 0.5}};
+  EXPECT_EQ(print_of(options_).find("von_mises 0 to"), std::string::npos);
+}
+
 // The pressure runs from 0 to 2 kPa between nodes: no pixel has a colour that the scale lacks, but
 // for edges and text, whose pixels are mixed with ink and paper.
 TEST_F(Colours, BetweenNodesAreThoseOfValuesNotMixturesOfColours) {

@@ -122,6 +122,21 @@ TEST_F(Shipped, AnInstalledProgramHasThemInShareOrElseInTheSourceTree) {
   EXPECT_EQ(result.out.find("mandible/opening"), std::string::npos);
 }
 
+TEST_F(Shipped, AFileThatAnotherSubcommandTakesIsToldWithIt) {
+  folder_.file("shipped/jaw/many.toml", "scenario = \"block.toml\"\npopulation = {}\n");
+  folder_.file("shipped/jaw/width.toml", "scenario = \"block.toml\"\n[[parameter]]\n");
+  for (const auto& [arguments, message] :
+       {std::pair("run jaw/block-study", "expected a scenario, found a study; `articular study"),
+        {"report jaw/many", "expected a scenario, found a population; `articular study"},
+        {"render jaw/width", "expected a scenario, found a fit; `articular fit"},
+        {"fit jaw/many", "expected a fit, found a population; `articular study"},
+        {"study jaw/block", "expected a study, found a scenario; `articular run"}}) {
+    const ProgramResult result = program(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+  }
+}
+
 TEST_F(Shipped, AMeshInPlaceOfAScenarioIsNamedWithWhatNamesIt) {
   folder_.file("work/bone.stl", kBlock);
   folder_.file("work/knee.feb", "<febio_spec/>");

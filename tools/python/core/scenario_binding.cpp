@@ -52,7 +52,7 @@ void set(ScenarioFile& scenario, const std::vector<std::string>& more) {
 
 ScenarioFile read(const std::filesystem::path& source, const std::vector<std::string>& overrides,
                   int threads) {
-  ScenarioFile scenario{.file = tools::find_scenario(source), .overrides = {}, .read = {}};
+  ScenarioFile scenario{.file = tools::find_file_for("run", source), .overrides = {}, .read = {}};
   set_threads(scenario, threads);
   set(scenario, overrides);
   return scenario;
