@@ -11,11 +11,11 @@ namespace articular::anatomy {
 namespace {
 
 /// Cartilage: middle, half width and half height of its outline.
-constexpr double kMiddleZ = 42, kHalfWidth = 18, kHalfHeight = 15;
+constexpr double kMiddleZ = 42, kHalfWidth = 20, kHalfHeight = 15.5;
 /// Facets: slopes far from the ridge, which is kRidge wide; rounded from top to bottom.
-constexpr double kLateralSlope = 0.4, kMedialSlope = 0.44, kRidge = 9, kSagittalRadius = 55;
+constexpr double kLateralSlope = 0.42, kMedialSlope = 0.44, kRidge = 9, kSagittalRadius = 55;
 /// Bone: widest at kWidestZ, from there up, down, to the sides and to the front.
-constexpr double kWidestZ = 41, kUp = 18, kDown = 26, kSide = 20.5, kFront = 18.5;
+constexpr double kWidestZ = 41, kUp = 18.4, kDown = 26, kSide = 21, kFront = 17.2;
 /// The bone's rim lies this far in front of the ridge.
 constexpr double kRim = 6.5;
 
@@ -84,7 +84,7 @@ Mesh cartilage_layer(const CellGrid& grid, double full) {
 /// A superellipsoid, pointed towards the apex and in front, which is cut behind by the surface that
 /// the cartilage grows on.
 double bone_distance(double full, const Vec3& p) {
-  constexpr double kAbove = 2.4, kBelow = 1.7, kForward = 1.5;  // exponents: 2 is an ellipse
+  constexpr double kAbove = 2.8, kBelow = 1.7, kForward = 1.5;  // exponents: 2 is an ellipse
   const double up = p.z() - kWidestZ, exponent = up > 0 ? kAbove : kBelow;
   const double across = std::pow(std::pow(std::abs(p.x()) / kSide, exponent) +
                                      std::pow(std::abs(up) / (up > 0 ? kUp : kDown), exponent),

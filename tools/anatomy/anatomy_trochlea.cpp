@@ -9,9 +9,9 @@ namespace articular::anatomy {
 namespace {
 
 /// Between these the valley, beyond them the condyles.
-constexpr double kLateralEdge = -16, kMedialEdge = 13;
+constexpr double kLateralEdge = -18, kMedialEdge = 15;
 /// The lateral ridge rises by kRise over the condyle, from kRiseBeginDeg to kRiseEndDeg.
-constexpr double kRise = 3.5, kRiseBeginDeg = -45, kRiseEndDeg = -75;
+constexpr double kRise = 3.2, kRiseBeginDeg = -45, kRiseEndDeg = -75;
 /// Half the width of the cartilage at its top and at its end.
 constexpr double kTopWidth = 21, kEndWidth = 27;
 /// In the middle it goes on to the notch.

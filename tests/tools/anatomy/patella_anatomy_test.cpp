@@ -19,12 +19,12 @@ const Anatomy& knee_with_patella() {
 
 TEST(Trochlea, GoesOnFromBothCondyles) {
   const double phi = kTrochleaEndDeg * kDegree;
-  for (const double x : {14.0, 18.0, 23.0, 26.5}) {
+  for (const double x : {15.5, 18.0, 23.0, 26.5}) {
     const CondylePlace place = condyle_place(medial_compartment(), trochlea_point(x, phi, 0));
     EXPECT_NEAR(place.distance, 0, 1e-9) << x;
     EXPECT_NEAR(place.phi, phi, 1e-9) << x;
   }
-  for (const double x : {-17.0, -23.0, -26.5})
+  for (const double x : {-18.5, -23.0, -26.5})
     EXPECT_NEAR(condyle_place(lateral_compartment(), trochlea_point(x, phi, 0)).distance, 0, 1e-9)
         << x;
 }
