@@ -11,26 +11,11 @@
 
 #include "sim/build/build_model.hpp"
 #include "sim/run/run.hpp"
+#include "tests/scenarios/coarse_knee.hpp"
 #include "tests/scenarios/scenario_results.hpp"
 #include "tests/tools/support/program.hpp"
-#include "tools/anatomy/anatomy.hpp"
-#include "tools/anatomy/anatomy_knee.hpp"
 
 namespace articular::knee_test {
-
-/// A scenario of scenarios/knee/ with elements of 4 mm.
-ScenarioResults coarse_knee(const std::string& file, const std::vector<std::string>& overrides) {
-  const TemporaryFolder folder;
-  anatomy::write_anatomy(anatomy::knee_anatomy({4, 2}), folder.path() / "anatomy");
-  sim::Scenario scenario = shipped_scenario("knee/" + file, overrides);
-  for (sim::Body& body : scenario.bodies) {
-    auto& mesh = std::get<sim::MeshFile>(body.geometry);
-    mesh.path = folder.path() / "anatomy" / mesh.path.filename();
-    for (sim::MeshFile& file : body.contact_meshes)
-      file.path = folder.path() / "anatomy" / file.path.filename();
-  }
-  return run_scenario(scenario);
-}
 
 const std::vector<std::string> kLigaments{"acl_anterior.force [N]",
                                           "acl_posterior.force [N]",

@@ -100,6 +100,8 @@ void add_knee(CLI::App& anatomy, int& exit_code) {
   knee->add_option("--cartilage", options->shape.cartilage,
                    "Factor of the thickness of cartilage (0.6 to 1.5)")
       ->capture_default_str();
+  knee->add_flag("--patella", options->shape.patella,
+                 "Adds the patella, the femur with its groove, and the cartilage of both");
   knee->add_option("--out", options->folder, "Folder for the files, made if it is not there")
       ->required()
       ->type_name("DIR");

@@ -5,17 +5,34 @@
 #include <stdexcept>
 
 #include "tools/anatomy/anatomy_knee_bones.hpp"
+#include "tools/anatomy/anatomy_patella.hpp"
+#include "tools/anatomy/anatomy_trochlea.hpp"
 
 namespace articular::anatomy {
 namespace {
 
 constexpr double kBoneGrid = 1.2;  // contouring grid
 
+/// Mean thickness of cartilage. Sources: scenarios/SOURCES.md.
+constexpr double kTrochlearThickness = 2.54, kPatellarThickness = 2.76;
+
 /// Thickness is that of the knee before it is scaled.
 Compartment with_cartilage(Compartment c, double factor) {
   c.femoral_thickness *= factor;
   c.tibial_thickness *= factor;
   return c;
+}
+
+void add_patella(const KneeResolution& resolution, double factor, const Compartment& medial,
+                 const Compartment& lateral, Anatomy& anatomy) {
+  const double trochlear = factor * kTrochlearThickness, patellar = factor * kPatellarThickness;
+  anatomy.meshes["femur_with_trochlea.vtp"] =
+      femur_with_trochlea_surface(kBoneGrid, medial, lateral, trochlear);
+  anatomy.meshes["trochlear_cartilage.vtu"] = trochlear_cartilage(trochlear, resolution);
+  anatomy.meshes["patella.vtp"] = patella_surface(kBoneGrid, patellar);
+  anatomy.meshes["patellar_cartilage.vtu"] = patellar_cartilage(patellar, resolution);
+  anatomy.landmarks.push_back({"apex of the patella", "patella", patella_apex()});
+  anatomy.landmarks.push_back({"base of the patella", "patella", patella_base()});
 }
 
 }  // namespace
@@ -43,6 +60,7 @@ Anatomy knee_anatomy(const KneeResolution& resolution, const KneeShape& shape) {
          "tibial_cartilage_" + side,
          {c->side * kCompartmentX, 0, plateau_height(*c, c->side * kCompartmentX, 0)}});
   }
+  if (shape.patella) add_patella(resolution, factor, medial, lateral, anatomy);
   scale(anatomy, shape.scale);
   return anatomy;
 }

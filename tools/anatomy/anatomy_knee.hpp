@@ -9,6 +9,8 @@ namespace articular::anatomy {
 struct KneeShape {
   double scale = 1;      // of everything but the thickness of cartilage
   double cartilage = 1;  // factor of the mean thickness of each cartilage
+  bool patella =
+      false;  // adds the patella, the trochlea, their cartilage, and a femur with a groove
 };
 
 /// A right knee in extension: bones, cartilage of both condyles and plateaus, menisci, and the

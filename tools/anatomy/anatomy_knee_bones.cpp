@@ -6,6 +6,7 @@
 
 #include "tools/anatomy/anatomy_knee_tissue.hpp"
 #include "tools/anatomy/anatomy_solids.hpp"
+#include "tools/anatomy/anatomy_trochlea.hpp"
 
 namespace articular::anatomy {
 namespace {
@@ -52,14 +53,15 @@ using Sides = std::array<Side, 2>;  // medial, lateral
 /// Distance to the surface that a condyle's cartilage grows on, and whether it is covered there.
 struct Covered {
   double distance;
-  bool covered;
+  bool covered;  // or nearly
+  bool on_cartilage;
 };
 Covered below_femoral_cartilage(const Side& side, const Vec3& p) {
   const Compartment& c = side.c;
   const CondylePlace place = condyle_place(c, p);
   const auto [u, v] = femoral_place(c, place.phi, place.alpha);
   return {place.distance + side.femoral_thickness * rim_taper(u, v),
-          std::max(std::abs(u), std::abs(v)) < kBeyond};
+          std::max(std::abs(u), std::abs(v)) < kBeyond, std::max(std::abs(u), std::abs(v)) < 1};
 }
 
 double condyle_distance(const Side& side, const Vec3& p) {
@@ -67,6 +69,15 @@ double condyle_distance(const Side& side, const Vec3& p) {
   const double half_width = (c.coronal_radius - 1) * std::sin(c.coronal_angle) + 2.5;
   const double wall = std::abs(p.x() - c.side * kCompartmentX) - half_width;
   return std::max({below_femoral_cartilage(side, p).distance, wall, p.z() - kCondyleTop});
+}
+
+/// The bone that carries the cartilage of the trochlea.
+double trochlea_distance(double thickness, const Vec3& p) {
+  constexpr double kDeep = 14, kOver = 1.1;
+  const TrochleaPlace place = trochlea_place(p);
+  const double beyond = std::max(std::abs(place.u), std::abs(place.v)) - kOver;
+  const double below = place.distance + thickness * rim_taper(place.u, place.v);
+  return std::max({below, 20 * beyond, -kDeep - place.distance});
 }
 
 double femur_distance(const Sides& sides, const Vec3& p) {
@@ -88,6 +99,19 @@ double femur_distance(const Sides& sides, const Vec3& p) {
     const bool beside = p.x() * side.c.side > kNotch && p.z() < kCondyleTop;
     if (below.covered && beside) bone = std::max(bone, below.distance);
   }
+  return bone;
+}
+
+/// The same with a trochlea. Nothing rises above what any cartilage grows on.
+double femur_with_trochlea_distance(const Sides& sides, double thickness, const Vec3& p) {
+  double bone = smooth_min(femur_distance(sides, p), trochlea_distance(thickness, p), 6);
+  for (const Side& side : sides) {
+    const Covered below = below_femoral_cartilage(side, p);
+    if (below.on_cartilage) bone = std::max(bone, below.distance);
+  }
+  const TrochleaPlace place = trochlea_place(p);
+  if (std::max(std::abs(place.u), std::abs(place.v)) < 1.05 && p.y() < 0)
+    bone = std::max(bone, place.distance + thickness * rim_taper(place.u, place.v));
   return bone;
 }
 
@@ -147,6 +171,14 @@ Mesh femur_surface(double h, const Compartment& medial, const Compartment& later
   const Sides sides{Side(medial), Side(lateral)};
   return contour([&](const Vec3& p) { return femur_distance(sides, p); }, {-46, -50, -8},
                  {46, 44, 123}, h);
+}
+
+Mesh femur_with_trochlea_surface(double h, const Compartment& medial, const Compartment& lateral,
+                                 double trochlear_thickness) {
+  const Sides sides{Side(medial), Side(lateral)};
+  const double full = trochlear_full_thickness(trochlear_thickness);
+  return contour([&](const Vec3& p) { return femur_with_trochlea_distance(sides, full, p); },
+                 {-46, -50, -8}, {46, 44, 123}, h);
 }
 
 Mesh tibia_surface(double h, const Compartment& medial, const Compartment& lateral) {

@@ -8,6 +8,9 @@ namespace articular::anatomy {
 
 /// @param h  spacing of the contoured grid
 Mesh femur_surface(double h, const Compartment& medial, const Compartment& lateral);
+/// The femur with a groove for the patella, whose cartilage is that thick on average.
+Mesh femur_with_trochlea_surface(double h, const Compartment& medial, const Compartment& lateral,
+                                 double trochlear_thickness);
 Mesh tibia_surface(double h, const Compartment& medial, const Compartment& lateral);
 
 }  // namespace articular::anatomy

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "tools/anatomy/anatomy_grid.hpp"
+#include "tools/anatomy/anatomy_layer.hpp"
 
 namespace articular::anatomy {
 namespace {
@@ -18,44 +18,6 @@ constexpr double kThinnest = 0.8;  // height of a meniscus's inner edge
 /// bone.
 constexpr double kHornRelief = 1, kHornRise = 0.3;
 constexpr double kClearance = 0.02;  // of a meniscus, beside what chords of elements need
-
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (Eigen::Index e = 0; e < mesh.tets.cols(); ++e) {
-    const Vec3 x0 = mesh.X_mm.col(mesh.tets(0, e));
-    sum += (mesh.X_mm.col(mesh.tets(1, e)) - x0)
-               .cross(mesh.X_mm.col(mesh.tets(2, e)) - x0)
-               .dot(mesh.X_mm.col(mesh.tets(3, e)) - x0) /
-           6;
-  }
-  return sum;
-}
-
-/// Of the grid's last layer of nodes.
-double top_area(const CellGrid& grid, const Mesh& mesh) {
-  double sum = 0;
-  for (int j = 0; j < grid.nv; ++j)
-    for (int i = 0; i < grid.nu; ++i) {
-      const auto corner = [&](int di, int dj) -> Vec3 {
-        return mesh.X_mm.col(grid.node(i + di, j + dj, grid.nw));
-      };
-      sum += 0.5 * (corner(1, 1) - corner(0, 0)).cross(corner(0, 1) - corner(1, 0)).norm();
-    }
-  return sum;
-}
-
-/// Thickness in the middle of a layer whose mean, volume by articular area, is the one given.
-/// @param layer  of a thickness, on the grid
-template <class Layer>
-double full_thickness(const CellGrid& grid, double mean, const Layer& layer) {
-  constexpr int kRounds = 20;
-  double full = mean;
-  for (int k = 0; k < kRounds; ++k) {
-    const Mesh mesh = layer(grid, full);
-    full *= mean / (volume(mesh) / top_area(grid, mesh));
-  }
-  return full;
-}
 
 Mesh femoral_layer(const Compartment& c, const CellGrid& grid, double full) {
   constexpr double kRound = 0.3;  // outline: 0 rectangle, 1 ellipse
@@ -78,9 +40,6 @@ Mesh tibial_layer(const Compartment& c, const CellGrid& grid, double full) {
     return {p.x(), p.y(), plateau_height(c, p.x(), p.y()) - (1 - w) * depth};
   });
 }
-
-/// Grids so fine that the thickness does not depend on them.
-constexpr CellGrid kFine{40, 80, 1};
 
 /// Ray from a compartment's middle to the outer rim of its meniscus. psi: 0 at the middle of the
 /// rim, < 0 in front.
@@ -173,13 +132,13 @@ CartilagePlace femoral_place(const Compartment& c, double phi, double alpha) {
 }
 
 double femoral_full_thickness(const Compartment& c) {
-  return full_thickness(kFine, c.femoral_thickness, [&](const CellGrid& grid, double full) {
+  return full_thickness(c.femoral_thickness, [&](const CellGrid& grid, double full) {
     return femoral_layer(c, grid, full);
   });
 }
 
 double tibial_full_thickness(const Compartment& c) {
-  return full_thickness(kFine, c.tibial_thickness, [&](const CellGrid& grid, double full) {
+  return full_thickness(c.tibial_thickness, [&](const CellGrid& grid, double full) {
     return tibial_layer(c, grid, full);
   });
 }

@@ -1,0 +1,187 @@
+// The knees of scenarios/knee/ with a patella: extension.toml with coarse elements to 30 degrees,
+// squat.toml to 40.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/scenarios/coarse_knee.hpp"
+#include "tests/scenarios/scenario_results.hpp"
+
+namespace articular::extension_test {
+
+const std::array<std::string, 4> kQuadriceps{"rectus_femoris", "vastus_intermedius",
+                                             "vastus_lateralis", "vastus_medialis"};
+const std::array<std::string, 3> kTendon{"patellar_tendon_lateral", "patellar_tendon_central",
+                                         "patellar_tendon_medial"};
+
+const anatomy::Anatomy& coarse_anatomy() {
+  static const anatomy::Anatomy anatomy = anatomy::knee_anatomy({4, 2}, {.patella = true});
+  return anatomy;
+}
+
+/// To 30 degrees, all contact faces as the meshes have them, with both ends of each line at the
+/// patella as points.
+sim::Scenario short_extension() {
+  sim::Scenario scenario = shipped_scenario("knee/extension.toml", {"duration=7 s"});
+  for (sim::Body& body : scenario.bodies)
+    for (sim::MeshFile& file : body.contact_meshes) file.faces.reset();
+  const auto add_ends = [&](const std::string& name, const std::vector<sim::Anchor>& path) {
+    scenario.probes.push_back({name + "_from", sim::PointProbe{path.front()}});
+    scenario.probes.push_back({name + "_to", sim::PointProbe{path.back()}});
+  };
+  for (const sim::Muscle& muscle : scenario.muscles) add_ends(muscle.name, muscle.path);
+  for (const sim::Ligament& ligament : scenario.ligaments)
+    if (ligament.name.starts_with("patellar_tendon")) add_ends(ligament.name, ligament.path);
+  return scenario;
+}
+
+const ScenarioResults& right_knee() {
+  static const ScenarioResults results = knee_test::run_with(coarse_anatomy(), short_extension());
+  return results;
+}
+
+Vec3 vector_at(const ScenarioResults& results, const std::string& name, const std::string& unit,
+               double time) {
+  Vec3 v;
+  for (int i = 0; i < 3; ++i) v(i) = results.at(name + "." + "xyz"[i] + " [" + unit + "]", time);
+  return v;
+}
+
+struct PulledPoint {
+  Vec3 point, force;  // [mm], [N]
+};
+/// What a straight line puts on the patella, at its end there.
+PulledPoint pull_on_patella(const ScenarioResults& results, const std::string& line,
+                            bool begins_there, double time) {
+  const Vec3 from = vector_at(results, line + "_from.position", "mm", time),
+             to = vector_at(results, line + "_to.position", "mm", time);
+  EXPECT_NEAR((to - from).norm(), results.at(line + ".length [mm]", time), 1e-6) << line;
+  const double force = results.at(line + ".force [N]", time);
+  const Vec3 along = force * (to - from).normalized();
+  return begins_there ? PulledPoint{from, along} : PulledPoint{to, -along};
+}
+
+TEST(KneeExtension, ForcesAndMomentsOnThePatellaBalance) {
+  const ScenarioResults& knee = right_knee();
+  EXPECT_EQ(knee.summary().at("outcome"), "finished");
+  for (const double time : {1.0, 4.0, 7.0}) {
+    const Vec3 center = vector_at(knee, "patellofemoral.center", "mm", time);
+    Vec3 force = vector_at(knee, "patellofemoral.force", "N", time);
+    Vec3 moment = 1e3 * vector_at(knee, "patellofemoral.moment", "N m", time);  // [N mm]
+    EXPECT_GT(force.norm(), 20);
+    double pull = 0;
+    const auto add = [&](const PulledPoint& pulled) {
+      force += pulled.force;
+      moment += (pulled.point - center).cross(pulled.force);
+      pull += pulled.force.norm();
+    };
+    for (const std::string& line : kQuadriceps) add(pull_on_patella(knee, line, false, time));
+    EXPECT_NEAR(pull, 400, 1e-6);  // all four at full activation
+    for (const std::string& line : kTendon) add(pull_on_patella(knee, line, true, time));
+    EXPECT_LT(force.norm(), 1e-3 * pull) << time;
+    EXPECT_LT(moment.norm(), 1e-3 * pull * 20) << time;  // arms of about 20 mm
+  }
+}
+
+double tendon_ratio(const ScenarioResults& knee, double time) {
+  double tendon = 0, quadriceps = 0;
+  for (const std::string& line : kTendon) tendon += knee.at(line + ".force [N]", time);
+  for (const std::string& line : kQuadriceps) quadriceps += knee.at(line + ".force [N]", time);
+  return tendon / quadriceps;
+}
+
+// Buff et al. 1988: the quadriceps pulls with 0.86 of the tendon's force at 10 degrees, and with
+// more and more from there.
+TEST(KneeExtension, TheTendonPullsAboutAsTheQuadricepsNearExtensionAndLessWithFlexion) {
+  EXPECT_NEAR(tendon_ratio(right_knee(), 3), 1 / 0.86, 0.2);
+  for (double time = 2; time < 7; ++time)
+    EXPECT_GT(tendon_ratio(right_knee(), time), tendon_ratio(right_knee(), time + 1)) << time;
+}
+
+TEST(KneeExtension, ThePatellaStaysInItsGrooveAndFlexesLessThanTheKnee) {
+  const ScenarioResults& knee = right_knee();
+  EXPECT_NEAR(knee.last("knee.flexion [deg]"), 30, 1e-6);
+  EXPECT_GT(knee.last("patella.flexion [deg]"), 10);
+  EXPECT_LT(knee.last("patella.flexion [deg]"), 30);
+  for (double time = 1; time <= 7; ++time) {
+    EXPECT_LT(std::abs(knee.at("patella.lateral [mm]", time)), 5) << time;
+    EXPECT_LT(std::abs(knee.at("patella.internal_rotation [deg]", time)), 10) << time;
+  }
+}
+
+// What the tibia is held with is what the tendon turns it with: 31 to 47 mm times the quadriceps'
+// force in living knees (PMC4662057), from 50 to 10 degrees.
+TEST(KneeExtension, TheQuadricepsExtendsTheKneeWithAMomentArmOfAFewCentimetres) {
+  const double arm = 1e3 * std::abs(right_knee().at("tibia.moment.x [N m]", 7)) / 400;  // [mm]
+  EXPECT_GT(arm, 25);
+  EXPECT_LT(arm, 55);
+}
+
+// The ground's force passes farther and farther behind the knee; the quadriceps of the file leaves
+// the tibia's hold next to nothing of its moment, which is 7 N m at 30 and 15 at 40 degrees.
+TEST(KneeSquat, TheQuadricepsBalancesTheGround) {
+  const ScenarioResults knee = run_scenario("knee/squat.toml", {"duration=9 s"});
+  EXPECT_EQ(knee.summary().at("outcome"), "finished");
+  double before = 0;
+  for (const double time : {7.0, 9.0}) {
+    EXPECT_LT(std::abs(knee.at("tibia.moment.x [N m]", time)), 0.3) << time;
+    const double force = vector_at(knee, "patellofemoral.force", "N", time).norm();
+    EXPECT_GT(force, before + 100) << time;
+    before = force;
+    // Ground and tendon press the joint together.
+    EXPECT_GT(vector_at(knee, "tibiofemoral.force", "N", time).norm(), 350) << time;
+  }
+}
+
+anatomy::Anatomy mirrored(anatomy::Anatomy anatomy) {
+  for (auto& [name, mesh] : anatomy.meshes) {
+    mesh.X_mm.row(0) *= -1;
+    if (mesh.tets.cols() > 0) mesh.tets.row(0).swap(mesh.tets.row(1));
+    if (mesh.triangles.cols() > 0) mesh.triangles.row(0).swap(mesh.triangles.row(1));
+  }
+  return anatomy;
+}
+
+void mirror(std::vector<sim::Anchor>& path) {
+  for (sim::Anchor& anchor : path) anchor.point.x() *= -1;
+}
+
+void mirror(sim::JointSide& side) {
+  side.origin.x() *= -1;
+  side.lateral.x() *= -1;
+}
+
+sim::Scenario mirrored(sim::Scenario scenario) {
+  for (sim::Muscle& muscle : scenario.muscles) mirror(muscle.path);
+  for (sim::Ligament& ligament : scenario.ligaments) mirror(ligament.path);
+  for (sim::Probe& probe : scenario.probes) {
+    if (auto* joint = std::get_if<sim::JointProbe>(&probe.what)) {
+      joint->is_right = !joint->is_right;
+      mirror(joint->proximal);
+      mirror(joint->distal);
+    }
+    if (auto* point = std::get_if<sim::PointProbe>(&probe.what)) point->anchor.point.x() *= -1;
+  }
+  return scenario;
+}
+
+TEST(KneeExtension, ALeftKneeIsTheMirrorImage) {
+  const ScenarioResults left =
+      knee_test::run_with(mirrored(coarse_anatomy()), mirrored(short_extension()));
+  const ScenarioResults& right = right_knee();
+  EXPECT_EQ(left.summary().at("outcome"), "finished");
+  for (const char* const column :
+       {"knee.internal_rotation [deg]", "knee.abduction [deg]", "patella.lateral [mm]",
+        "patella.internal_rotation [deg]", "patella.flexion [deg]"})
+    EXPECT_NEAR(left.last(column), right.last(column), 1e-3) << column;
+  for (const std::string& line : kTendon)
+    EXPECT_NEAR(left.last(line + ".force [N]"), right.last(line + ".force [N]"), 0.01) << line;
+  EXPECT_NEAR(left.last("patellofemoral.force.x [N]"), -right.last("patellofemoral.force.x [N]"),
+              0.01);
+}
+
+}  // namespace articular::extension_test
