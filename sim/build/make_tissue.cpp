@@ -37,10 +37,13 @@ std::vector<int> nodes_in(const Region& region, int body, const Model& model,
 }
 
 FibreDirections fibres_of_array(const std::string& name, const Body& body, const MeshData& mesh) {
-  for (const auto& [array, directions] : mesh.cell_vectors)
-    if (array == name)
-      return fem::normalized_fibres(
-          rotation_matrix(std::get<MeshFile>(body.geometry).placement.rotation) * directions);
+  const Mat3 turn = rotation_matrix(std::get<MeshFile>(body.geometry).placement.rotation);
+  for (const auto& [array, directions] : mesh.cell_vectors) {
+    if (array != name) continue;
+    return body.material->fibres->density == Fibres::Density::Conserved
+               ? FibreDirections(turn * directions)
+               : fem::normalized_fibres(turn * directions);
+  }
   std::string names;
   for (const auto& [array, directions] : mesh.cell_vectors)
     names += (names.empty() ? "" : ", ") + array;
@@ -64,7 +67,9 @@ FibreDirections make_fibres(const Body& body, int index, const MeshData& mesh,
   if (from.empty() || to.empty())
     throw std::invalid_argument(
         fmt::format("the region {} holds no node", from.empty() ? "`from`" : "`to`"));
-  return fem::harmonic_fibres(mesh.X, mesh.tets, from, to);
+  return fibres.density == Fibres::Density::Conserved
+             ? fem::conserved_fibres(mesh.X, mesh.tets, from, to)
+             : fem::harmonic_fibres(mesh.X, mesh.tets, from, to);
 }
 
 TissueElements make_elements(const TissueMaterial& material, const MeshData& mesh,
@@ -73,6 +78,10 @@ TissueElements make_elements(const TissueMaterial& material, const MeshData& mes
     return TissueElements(fem::SmoothedElasticity(mesh.X, mesh.tets, *material.law, {}, fibres));
   return TissueElements(
       fem::Elasticity(mesh.X, mesh.tets, *material.law, fibres, {.pool = std::move(pool)}));
+}
+
+double densest(const FibreDirections& fibres) {
+  return fibres.cols() > 0 ? fibres.colwise().norm().maxCoeff() : 0;
 }
 
 /// See st_venant_kirchhoff.hpp.
@@ -101,6 +110,7 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
     Tissue tissue{.body = index,
                   .elements = make_elements(material, mesh, fibres, model.pool),
                   .dashpots = {},
+                  .fibre_drag = {},
                   .relaxation = {},
                   .lumped_mass = fem::lumped_mass(mesh.X, mesh.tets, *body.density),
                   .mass_damping = material.mass_damping,
@@ -109,6 +119,7 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
                   .fibres = fibres,
                   .bulk_modulus = fem::bulk_modulus(*material.law),
                   .shear_modulus = fem::shear_modulus(*material.law),
+                  .active_stress = fem::active_stress(*material.law) * densest(fibres),
                   .law_ends = end_of(*material.law),
                   .bears_turning = !std::holds_alternative<fem::Linear>(*material.law),
                   .start_velocity = body.velocity};
@@ -119,6 +130,10 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
                                                      tissue.shear_modulus, tissue.bulk_modulus),
                               tissue.elements.make_plain_matrix());
     }
+    const std::optional<fem::MuscleFibre> fibre = fem::muscle_fibre(*material.law);
+    if (fibre && fibre->has_drag() && !model.is_static)
+      tissue.fibre_drag.emplace(mesh.X, mesh.tets, fibres, *fibre,
+                                tissue.elements.make_plain_matrix());
     if (!material.relaxation.empty())
       tissue.relaxation.emplace(material.relaxation, *material.law,
                                 tissue.elements.distortion_points(mesh.X),
