@@ -130,7 +130,7 @@ TEST(Ledger, FibresLoseWhatTheirForceVelocityTakes) {
     return std::abs(run.state.energy.tissue_loss - expected);
   };
   EXPECT_LT(error(2.5e-4), 1e-3 * expected);
-  EXPECT_NEAR(measured_order(error, 1e-3), 2, 0.3);
+  EXPECT_GT(measured_order(error, 1e-3), 1.8);
 }
 
 // With all calcium there f = 1 − exp(−b (λ − λ0)): ∫ f dλ/λ is an exponential integral.
