@@ -16,6 +16,7 @@
 #include "fem/material/point_law.hpp"
 #include "fem/material/viscosity.hpp"
 #include "fem/mesh/fibre_field.hpp"
+#include "fem/mesh/rest_shape.hpp"
 #include "sim/build/region.hpp"
 
 namespace articular::sim {
@@ -80,8 +81,15 @@ TissueElements make_elements(const TissueMaterial& material, const MeshData& mes
       fem::Elasticity(mesh.X, mesh.tets, *material.law, fibres, {.pool = std::move(pool)}));
 }
 
-double densest(const FibreDirections& fibres) {
-  return fibres.cols() > 0 ? fibres.colwise().norm().maxCoeff() : 0;
+/// As it is around a fibre, on average: of fibres that lie evenly 1.
+double density_around_fibres(const FibreDirections& fibres, const MeshData& mesh) {
+  double fibre = 0, around = 0;
+  for (Eigen::Index e = 0; e < fibres.cols(); ++e) {
+    const double density = fibres.col(e).norm(), volume = fem::checked_volume(mesh.X, mesh.tets, e);
+    fibre += volume * density;
+    around += volume * density * density;
+  }
+  return fibre > 0 ? around / fibre : 0;
 }
 
 /// See st_venant_kirchhoff.hpp.
@@ -107,22 +115,23 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
                                                          mesh_name(body), error.what()));
   }
   try {
-    Tissue tissue{.body = index,
-                  .elements = make_elements(material, mesh, fibres, model.pool),
-                  .dashpots = {},
-                  .fibre_drag = {},
-                  .relaxation = {},
-                  .lumped_mass = fem::lumped_mass(mesh.X, mesh.tets, *body.density),
-                  .mass_damping = material.mass_damping,
-                  .nodes = {},
-                  .X = mesh.X,
-                  .fibres = fibres,
-                  .bulk_modulus = fem::bulk_modulus(*material.law),
-                  .shear_modulus = fem::shear_modulus(*material.law),
-                  .active_stress = fem::active_stress(*material.law) * densest(fibres),
-                  .law_ends = end_of(*material.law),
-                  .bears_turning = !std::holds_alternative<fem::Linear>(*material.law),
-                  .start_velocity = body.velocity};
+    Tissue tissue{
+        .body = index,
+        .elements = make_elements(material, mesh, fibres, model.pool),
+        .dashpots = {},
+        .fibre_drag = {},
+        .relaxation = {},
+        .lumped_mass = fem::lumped_mass(mesh.X, mesh.tets, *body.density),
+        .mass_damping = material.mass_damping,
+        .nodes = {},
+        .X = mesh.X,
+        .fibres = fibres,
+        .bulk_modulus = fem::bulk_modulus(*material.law),
+        .shear_modulus = fem::shear_modulus(*material.law),
+        .active_stress = fem::active_stress(*material.law) * density_around_fibres(fibres, mesh),
+        .law_ends = end_of(*material.law),
+        .bears_turning = !std::holds_alternative<fem::Linear>(*material.law),
+        .start_velocity = body.velocity};
     tissue.nodes.resize(static_cast<std::size_t>(mesh.X.cols()));
     if (material.stiffness_damping > 0) {
       tissue.dashpots.emplace(mesh.X, mesh.tets,
