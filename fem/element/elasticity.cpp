@@ -221,7 +221,7 @@ Eigen::VectorXd Elasticity::fibre_stretch(const Positions& x) const {
   Eigen::VectorXd result(num_elements());
   for_each_element(x, 0, [&](const PointLaw&, int place, const Mat3& F) {
     const int e = elements_.element(place);
-    result[e] = (F * fibres_.col(e)).norm();
+    result[e] = (F * fibres_.col(e)).norm() / fibres_.col(e).norm();
   });
   return result;
 }

@@ -31,8 +31,8 @@ struct AssemblyOptions {
 class Elasticity {
  public:
   /// @throws std::invalid_argument naming the element where its rest volume is not positive
-  ///         (inverted or flat), or an index that is out of range, or a fibre that is not a unit
-  ///         vector; and where a material with fibres has not got one an element
+  ///         (inverted or flat), or an index that is out of range, or a fibre that is 0 or
+  ///         not finite; and where a material with fibres has not got one an element
   Elasticity(const Positions& X, const Tetrahedra& tets, AnyMaterial material,
              FibreDirections fibres = {}, AssemblyOptions options = {});
 
@@ -68,7 +68,7 @@ class Elasticity {
   Eigen::MatrixXd cauchy_stress(const Positions& x, double activation = 0) const;
   Eigen::VectorXd volume_ratio(const Positions& x) const;                                  // J
   Eigen::VectorXd strain_energy_density(const Positions& x, double activation = 0) const;  // [J/m³]
-  Eigen::VectorXd fibre_stretch(const Positions& x) const;  // |F a₀|, where there are fibres
+  Eigen::VectorXd fibre_stretch(const Positions& x) const;  // where there are fibres
 
  private:
   template <class Function>
@@ -83,7 +83,7 @@ class Elasticity {
   int num_nodes_ = 0;
   Tetrahedra tets_;
   std::shared_ptr<const AnyMaterial> material_;
-  FibreDirections fibres_;  // one unit vector an element, or none
+  FibreDirections fibres_;  // one an element, or none
   AssemblyOptions options_;
   std::vector<double> volume_;  // [m³]
   ElementBatches elements_;

@@ -422,7 +422,7 @@ Eigen::VectorXd SmoothedElasticity::fibre_stretch(const Positions& x) const {
   assert(fibres_.cols() == num_elements());
   Eigen::VectorXd result(num_elements());
   for_each_element(x, 0, [&](const PointLaw&, int e, const Mat3& F) {
-    result[e] = (F * fibres_.col(e)).norm();
+    result[e] = (F * fibres_.col(e)).norm() / fibres_.col(e).norm();
   });
   return result;
 }

@@ -54,9 +54,8 @@ class SmoothedElasticity {
                      const Smoothing& smoothing = {}, FibreDirections fibres = {},
                      InstructionSet instruction_set = best_instruction_set());
   /// @param material_of_element  index into `materials`, one an element
-  /// @param fibres               one unit vector an element where a material has fibres. A domain
-  ///                             has the mean of its elements' directions: the eigenvector of the
-  ///                             mean of a ⊗ a
+  /// @param fibres               one an element where a material has fibres. A domain has the mean
+  ///                             of its elements (mean_fibres)
   SmoothedElasticity(const Positions& X, const Tetrahedra& tets, std::vector<AnyMaterial> materials,
                      std::vector<int> material_of_element, const Smoothing& smoothing = {},
                      FibreDirections fibres = {},
@@ -115,7 +114,7 @@ class SmoothedElasticity {
   /// pressures' mean. cauchy_stress: 6 x M (xx yy zz xy yz xz) [Pa].
   Eigen::MatrixXd cauchy_stress(const Positions& x, double activation = 0) const;
   Eigen::VectorXd volume_ratio(const Positions& x) const;   // J
-  Eigen::VectorXd fibre_stretch(const Positions& x) const;  // |F a₀|, where there are fibres
+  Eigen::VectorXd fibre_stretch(const Positions& x) const;  // where there are fibres
   /// [J/m³]; sums to energy(x, activation)
   Eigen::VectorXd strain_energy_density(const Positions& x, double activation = 0) const;
 

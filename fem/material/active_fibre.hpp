@@ -27,6 +27,7 @@ class ActiveFibre {
   /// @throws std::invalid_argument when the stress is negative
   explicit ActiveFibre(const Constants& c);
 
+  double max_stress() const { return c_.stress; }  // [Pa]
   double energy(double stretch, double activation) const;
   double tension(double stretch, double activation) const;
   double stiffness(double stretch, double activation) const;

@@ -1,6 +1,5 @@
 #include "fem/material/any_material.hpp"
 
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -10,8 +9,6 @@ namespace articular::fem {
 
 void check_fibres(const AnyMaterial& material, const FibreDirections& fibres,
                   const Tetrahedra& tets) {
-  // Directions of a file are normalised where they are read; a product of rotations stays as close.
-  constexpr double kUnit = 1e-9;  // [-]
   const bool fibred = std::visit([]<class M>(const M&) { return Fibred<M>; }, material);
   std::ostringstream message;
   if ((fibred || fibres.cols() > 0) && fibres.cols() != tets.cols()) {
@@ -20,11 +17,34 @@ void check_fibres(const AnyMaterial& material, const FibreDirections& fibres,
     throw std::invalid_argument(message.str());
   }
   for (Eigen::Index e = 0; e < fibres.cols(); ++e) {
-    if (std::abs(fibres.col(e).norm() - 1) <= kUnit) continue;  // false for NaN
+    if (fibres.col(e).norm() > 0 && fibres.col(e).allFinite()) continue;
     message << "direction of the fibres of " << name_of(tets, e) << " is ("
-            << fibres.col(e).transpose() << "), must be a unit vector";
+            << fibres.col(e).transpose() << "), must be finite and not 0";
     throw std::invalid_argument(message.str());
   }
+}
+
+double active_stress(const AnyMaterial& material) {
+  return std::visit(
+      []<class M>(const M& m) {
+        if constexpr (requires { m.active_stress(); }) {
+          return m.active_stress();
+        } else {
+          return 0.0;
+        }
+      },
+      material);
+}
+std::optional<MuscleFibre> muscle_fibre(const AnyMaterial& material) {
+  return std::visit(
+      []<class M>(const M& m) -> std::optional<MuscleFibre> {
+        if constexpr (requires { m.fibre(); }) {
+          return m.fibre();
+        } else {
+          return std::nullopt;
+        }
+      },
+      material);
 }
 
 }  // namespace articular::fem

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "fem/material/blemker_muscle.hpp"
@@ -31,8 +32,13 @@ struct AnyMaterial : AnyLaw {
   using AnyLaw::AnyLaw;
 };
 
-/// @throws std::invalid_argument where a material with fibres has none, or one is no unit vector
+/// @throws std::invalid_argument where a material with fibres has none, or one is 0 or not finite
 void check_fibres(const AnyMaterial& material, const FibreDirections& fibres,
                   const Tetrahedra& tets);
+
+/// The largest active stress of its fibres [Pa]; 0 of laws that do not pull.
+double active_stress(const AnyMaterial& material);
+/// The fibres of a muscle law; none of others.
+std::optional<MuscleFibre> muscle_fibre(const AnyMaterial& material);
 
 }  // namespace articular::fem

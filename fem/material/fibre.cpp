@@ -100,6 +100,7 @@ MuscleFibre::MuscleFibre(const Constants& c) : c_(c) {
               kLargestExponent);
   checked_not_negative(c.tendon_ratio, "tendon ratio", "(no unit)");
   check_below(c.tendon_ratio, "tendon ratio", 1);
+  if (c.max_velocity) checked_positive(*c.max_velocity, "largest speed of shortening", "1/s");
   end_slope_ = c.p1 * c.p2 * std::exp(c.p2 * (c.toe_end - 1));
 }
 
@@ -107,21 +108,35 @@ double MuscleFibre::relative_length(double stretch) const {
   return (stretch / c_.optimal_stretch - c_.tendon_ratio) / (1 - c_.tendon_ratio);
 }
 
+double MuscleFibre::active_length(double n) const {
+  return c_.descending_limb ? n : std::fmin(n, 1);
+}
+
 double MuscleFibre::energy(double stretch, double activation) const {
   const double n = relative_length(stretch);
+  const double on_curve = active_length(n);
   return c_.max_stress * (1 - c_.tendon_ratio) *
-         (passive_integral(n) + activation * active_integral(n));
+         (passive_integral(n) + activation * (active_integral(on_curve) + (n - on_curve)));
 }
 
 double MuscleFibre::tension(double stretch, double activation) const {
   const double n = relative_length(stretch);
-  return c_.max_stress / c_.optimal_stretch * (passive(n) + activation * active(n));
+  return c_.max_stress / c_.optimal_stretch * (passive(n) + activation * active(active_length(n)));
 }
 
 double MuscleFibre::stiffness(double stretch, double activation) const {
   const double n = relative_length(stretch), per_stretch = 1 / c_.optimal_stretch;
   return c_.max_stress * per_stretch * per_stretch / (1 - c_.tendon_ratio) *
-         (passive_slope(n) + activation * active_slope(n));
+         (passive_slope(n) + activation * active_slope(active_length(n)));
+}
+
+ValueSlope MuscleFibre::drag(double stretch, double rate, double activation) const {
+  if (!c_.max_velocity) return {};
+  const double per_rate = 1 / (c_.optimal_stretch * (1 - c_.tendon_ratio) * *c_.max_velocity);
+  const ValueSlope factor = force_velocity(per_rate * rate);
+  const double pull = c_.max_stress / c_.optimal_stretch * activation *
+                      active(active_length(relative_length(stretch)));
+  return {pull * (factor.value - 1), pull * factor.slope * per_rate};
 }
 
 double MuscleFibre::active(double n) {

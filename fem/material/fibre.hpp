@@ -25,7 +25,7 @@ concept FibreLaw = requires(const L& law, double stretch, double activation) {
 /// A material whose elements each have a direction of fibres, and which may pull along it.
 template <class M>
 concept Fibred = requires(const M& m, const Vec3& a0, double activation) {
-  /// The law of an element. @param a0  unit vector at rest; @param activation  in [0, 1]
+  /// The law of an element. @param a0  see FibreDirections; @param activation  in [0, 1]
   { m.along(a0, activation) } -> Split;
 };
 
@@ -40,26 +40,33 @@ decltype(auto) element_law(const M& material, [[maybe_unused]] const FibreDirect
   }
 }
 
-/// Ψ_d = Ψ_ground + W: a ground substance with fibres along a0 [Weiss 1996]. Defined for J > 0.
+/// Ψ_d = Ψ_ground + ρ W: a ground substance with fibres along a0 [Weiss 1996], ρ of them where the
+/// law has one. Defined for J > 0.
 template <Hyperelastic Ground, FibreLaw Law>
 class Reinforced {
  public:
-  /// @param a0  unit vector at rest
+  /// @param a0  along the fibres at rest; of length ρ
   Reinforced(const Ground& ground, const Law& law, const Vec3& a0, double activation)
-      : ground_(ground), law_(law), a0_(a0), activation_(activation) {}
+      : ground_(ground),
+        law_(law),
+        density_(a0.norm()),
+        a0_(a0 / density_),
+        activation_(activation) {}
 
   double shear_modulus() const { return ground_.shear_modulus(); }  // [Pa]
 
   double energy_density(const Mat3& F) const {
-    return ground_.energy_density(F) + law_.energy(stretch(F), activation_);
+    return ground_.energy_density(F) + density_ * law_.energy(stretch(F), activation_);
   }
   Mat3 first_piola(const Mat3& F) const {
-    return ground_.first_piola(F) + law_.tension(stretch(F), activation_) * stretch_gradient(F);
+    return ground_.first_piola(F) +
+           density_ * law_.tension(stretch(F), activation_) * stretch_gradient(F);
   }
   Mat9 tangent(const Mat3& F) const {
     const Jet stretch = stretch_jet(F);
-    return ground_.tangent(F) + composed(stretch, 0, law_.tension(stretch.value, activation_),
-                                         law_.stiffness(stretch.value, activation_))
+    return ground_.tangent(F) + composed(stretch, 0,
+                                         density_ * law_.tension(stretch.value, activation_),
+                                         density_ * law_.stiffness(stretch.value, activation_))
                                     .hessian;
   }
 
@@ -77,7 +84,8 @@ class Reinforced {
 
   Ground ground_;
   Law law_;
-  Vec3 a0_;
+  double density_;     // ρ [-]
+  Vec3 a0_;            // unit vector
   double activation_;  // [-]
 };
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "fem/material/fibre.hpp"
+#include "fem/material/force_velocity.hpp"
 
 namespace articular::fem {
 
@@ -16,11 +19,21 @@ namespace articular::fem {
 ///   f_p = 0 up to n = 1, P1 (exp(P2 (n − 1)) − 1) up to n*, its tangent line beyond
 ///   f_a = 9 (n − 0.4)² from 0.4 to 0.6, 1 − 4 (1 − n)² to 1.4, 9 (n − 1.6)² to 1.6, 0 elsewhere
 ///
+/// Beyond n = 1 a fibre that pulls less the longer it is is unstable where nothing else holds it:
+/// one part shortens and draws the other out. Muscle is stretched and does not [Rassier 1999].
+/// Without a descending limb f_a stays 1 beyond n = 1.
+///
+/// With a largest speed of shortening v, in optimal lengths per second, the active part is
+/// a f_a f_v of Hill's curve (force_velocity.hpp), of the rate ṅ/v. The energy and the tension
+/// below are those of f_v = 1; drag() is the rest, which no energy has.
+///
 /// As published f_a has corners at 0.6 and 1.4 (slopes 3.6 and 3.2), so that the stiffness jumps.
 /// The energy of the active part is counted from n = 0.4: never negative, not 0 at rest.
 ///
 /// [Blemker 2005] Blemker, Pinsky, Delp. A 3D model of muscle reveals the causes of nonuniform
 ///                strains in the biceps brachii. J. Biomech. 38.
+/// [Rassier 1999] Rassier, MacIntosh, Herzog. Length dependence of active force production in
+///                skeletal muscle. J. Appl. Physiol. 86.
 class MuscleFibre {
  public:
   static constexpr bool kFeelsVolume = true;  // the paper has λ̄
@@ -31,6 +44,8 @@ class MuscleFibre {
     double toe_end = 1.4;  // n* [-], > 1; times optimal_stretch it is the λ* of [Blemker 2005]
     double optimal_stretch = 1;  // λ_ofl [-], >= 1: no passive tension at rest
     double tendon_ratio = 0;     // r [-], from 0 to below 1
+    bool descending_limb = true;
+    std::optional<double> max_velocity = {};  // v [1/s], > 0; none: any speed costs no force
   };
   /// @throws std::invalid_argument naming a constant that is out of range
   explicit MuscleFibre(const Constants& c);
@@ -38,6 +53,12 @@ class MuscleFibre {
   double energy(double stretch, double activation) const;
   double tension(double stretch, double activation) const;
   double stiffness(double stretch, double activation) const;
+
+  bool has_drag() const { return c_.max_velocity.has_value(); }
+  /// What dW/dλ lacks at a rate λ̇ [1/s], σ_max/λ_ofl a f_a (f_v − 1) [Pa], and its slope by λ̇.
+  ValueSlope drag(double stretch, double rate, double activation) const;
+
+  double max_stress() const { return c_.max_stress; }  // [Pa]
 
   /// f_a, its slope and its integral from 0
   static double active(double n);
@@ -49,6 +70,7 @@ class MuscleFibre {
   double passive(double n) const;
   double passive_slope(double n) const;
   double passive_integral(double n) const;
+  double active_length(double n) const;  // where on the curve fibres of length n are
 
   Constants c_;
   double end_slope_;  // of f_p at n* [-]

@@ -12,7 +12,7 @@ struct AnyMaterial;  // any_material.hpp
 /// over elements.
 class PointLaw {
  public:
-  /// @param fibres      one unit vector an element or domain; empty for materials without
+  /// @param fibres      one an element or domain; empty for materials without
   /// @param e           index into them
   /// @param activation  in [0, 1]
   PointLaw(const AnyMaterial& material, const FibreDirections& fibres, Eigen::Index e,

@@ -32,6 +32,7 @@ class TransverselyIsotropic {
         active_(active),
         kappa_(checked_positive(kappa, "bulk modulus", "Pa")) {}
 
+  double active_stress() const { return active_.max_stress(); }     // [Pa]
   double bulk_modulus() const { return kappa_; }                    // [Pa]
   double shear_modulus() const { return ground_.shear_modulus(); }  // [Pa]
 

@@ -85,14 +85,20 @@ EdgeDomains make_edge_domains(const Tetrahedra& tets, std::span<const Mat3> inve
 FibreDirections mean_fibres(const EdgeDomains& domains, std::span<const double> volume,
                             const FibreDirections& fibres) {
   std::vector<Mat3> sum(static_cast<std::size_t>(domains.size()), Mat3::Zero());
+  std::vector<double> whole(sum.size(), 0);
   for (std::size_t e = 0; e < volume.size(); ++e) {
     const Vec3 a = fibres.col(static_cast<Eigen::Index>(e));
-    for (std::size_t i = 0; i < 6; ++i)
-      sum[domains.of_element[6 * e + i]] += volume[e] * a * a.transpose();
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto k = static_cast<std::size_t>(domains.of_element[6 * e + i]);
+      sum[k] += volume[e] / a.norm() * a * a.transpose();
+      whole[k] += volume[e];
+    }
   }
   FibreDirections mean(3, domains.size());
   for (int k = 0; k < domains.size(); ++k) {
-    mean.col(k) = Eigen::SelfAdjointEigenSolver<Mat3>(sum[k]).eigenvectors().col(2);
+    const auto i = static_cast<std::size_t>(k);  // the trace sums the lengths
+    mean.col(k) = sum[i].trace() / whole[i] *
+                  Eigen::SelfAdjointEigenSolver<Mat3>(sum[i]).eigenvectors().col(2);
   }
   return mean;
 }

@@ -40,7 +40,7 @@ EdgeDomains make_edge_domains(const Tetrahedra& tets, std::span<const Mat3> inve
                               std::span<const int> material_of_element, int num_materials);
 
 /// The mean direction of the fibres of each domain's elements, whose sense does not matter: the
-/// eigenvector to the largest eigenvalue of Σ_e V_e/6 a_e ⊗ a_e.
+/// eigenvector to the largest eigenvalue of Σ_e V_e/6 a_e ⊗ a_e/|a_e|, as long as their mean.
 FibreDirections mean_fibres(const EdgeDomains& domains, std::span<const double> volume,
                             const FibreDirections& fibres);
 

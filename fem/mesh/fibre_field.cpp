@@ -181,11 +181,14 @@ Eigen::VectorXd harmonic_potential(const Positions& X, const Tetrahedra& tets,
   return potential;
 }
 
-FibreDirections harmonic_fibres(const Positions& X, const Tetrahedra& tets,
-                                std::span<const int> from, std::span<const int> to) {
+namespace {
+
+/// ∇φ of each element [1/m].
+Eigen::Matrix3Xd harmonic_gradient(const Positions& X, const Tetrahedra& tets,
+                                   std::span<const int> from, std::span<const int> to) {
   const Eigen::VectorXd potential = harmonic_potential(X, tets, from, to);
   const double extent = (X.rowwise().maxCoeff() - X.rowwise().minCoeff()).maxCoeff();
-  FibreDirections fibres(3, tets.cols());
+  Eigen::Matrix3Xd gradients(3, tets.cols());
   for (Eigen::Index e = 0; e < tets.cols(); ++e) {
     Eigen::Vector4d potential_e;
     for (int a = 0; a < 4; ++a) potential_e[a] = potential[tets(a, e)];
@@ -195,9 +198,28 @@ FibreDirections harmonic_fibres(const Positions& X, const Tetrahedra& tets,
              tets.col(e).transpose(), "): it is ", gradient.norm(), " 1/m, must be above ",
              kVanishing / extent, " 1/m");
     }
-    fibres.col(e) = gradient.normalized();
+    gradients.col(e) = gradient;
   }
-  return fibres;
+  return gradients;
+}
+
+}  // namespace
+
+FibreDirections harmonic_fibres(const Positions& X, const Tetrahedra& tets,
+                                std::span<const int> from, std::span<const int> to) {
+  return harmonic_gradient(X, tets, from, to).colwise().normalized();
+}
+
+FibreDirections conserved_fibres(const Positions& X, const Tetrahedra& tets,
+                                 std::span<const int> from, std::span<const int> to) {
+  const Eigen::Matrix3Xd gradients = harmonic_gradient(X, tets, from, to);
+  double volume = 0, flux = 0;
+  for (Eigen::Index e = 0; e < tets.cols(); ++e) {
+    const double volume_e = shape(X, tets, e).volume;
+    volume += volume_e;
+    flux += volume_e * gradients.col(e).norm();
+  }
+  return gradients * (volume / flux);
 }
 
 }  // namespace articular::fem

@@ -4,7 +4,7 @@
 
 #include "fem/base/types.hpp"
 
-/// Directions of fibres at rest, one a tetrahedron.
+/// Fibres at rest, one a tetrahedron.
 namespace articular::fem {
 
 /// The same direction everywhere. @throws std::invalid_argument unless it is finite and not 0
@@ -35,5 +35,11 @@ Eigen::VectorXd harmonic_potential(const Positions& X, const Tetrahedra& tets,
 ///             Laplacian vector field simulation. PLoS ONE 8(10).
 FibreDirections harmonic_fibres(const Positions& X, const Tetrahedra& tets,
                                 std::span<const int> from, std::span<const int> to);
+
+/// The same fibres, as dense as that field's flux; by volume their mean density is 1. What flows in
+/// at one end flows out at the other: where tissue narrows, all its fibres are still there, and a
+/// pull that is the same in each of them is in balance along them.
+FibreDirections conserved_fibres(const Positions& X, const Tetrahedra& tets,
+                                 std::span<const int> from, std::span<const int> to);
 
 }  // namespace articular::fem

@@ -129,10 +129,15 @@ void Dynamics::find_elastic_forces(const double* y, const Conditions& conditions
                                        f);
     ++evaluations_[Term::ElasticForce];
     if (tissue.muscle >= 0) ++evaluations_[Term::FibreMuscle];
-    if (tissue.dashpots || tissue.mass_damping > 0) ++evaluations_[Term::TissueDamping];
+    if (tissue.dashpots || tissue.fibre_drag || tissue.mass_damping > 0)
+      ++evaluations_[Term::TissueDamping];
     if (tissue.dashpots) {
       velocities_of(configuration, tissue.nodes, v_);
       tissue.dashpots->add_force(now.x, v_, f);
+    }
+    if (tissue.fibre_drag) {
+      velocities_of(configuration, tissue.nodes, v_);
+      tissue.fibre_drag->add_force(now.x, v_, activation_of(tissue, configuration), f);
     }
     if (tissue.relaxation) {
       ++evaluations_[Term::Relaxation];

@@ -77,10 +77,12 @@ NewtonMatrix::NewtonMatrix(const Model& model)
   build_pattern();
 }
 
-/// Dashpots and relaxation need a matrix of the tissue, and so do nodes whose rigid body is an
-/// unknown, which the tissue pushes by levers.
+/// Dashpots, fibres with a drag and relaxation need a matrix of the tissue, and so do nodes whose
+/// rigid body is an unknown, which the tissue pushes by levers.
 bool NewtonMatrix::adds_directly(const Tissue& tissue) const {
-  if (tissue.elements.smoothed() != nullptr || tissue.dashpots || tissue.relaxation) return false;
+  if (tissue.elements.smoothed() != nullptr || tissue.dashpots || tissue.fibre_drag ||
+      tissue.relaxation)
+    return false;
   return std::none_of(tissue.nodes.begin(), tissue.nodes.end(), [this](const NodeRef& node) {
     return node.rigid >= 0 && node.rigid < model_.layout.num_rigid;
   });
@@ -236,13 +238,18 @@ void NewtonMatrix::add_tissue(std::size_t t, const Moment& now, const SystemScal
     return;
   }
   const bool smoothed = tissue.elements.smoothed() != nullptr;
-  if (smoothed && !tissue.dashpots) return;
+  if (smoothed && !tissue.dashpots && !tissue.fibre_drag) return;
   TissueMatrix& matrix = smoothed ? work.plain : work.own;
   matrix.K.set_zero();
   if (!smoothed)
     tissue.elements.add_stiffness(now.tissues[t].x, {}, activation, tangent, scale.stiffness,
                                   matrix.K);
   if (tissue.dashpots) tissue.dashpots->add_damping(now.tissues[t].x, scale.damping, matrix.K);
+  if (tissue.fibre_drag) {
+    Positions v;
+    velocities_of(now.configuration, tissue.nodes, v);
+    tissue.fibre_drag->add_damping(now.tissues[t].x, v, activation, scale.damping, matrix.K);
+  }
   if (!smoothed) add_relaxation(t, now, scale, tangent);
   add(matrix, tissue, now.configuration, A);
 }

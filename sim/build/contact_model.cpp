@@ -68,7 +68,8 @@ Side side_of(const Model& model, const BodyModel& body) {
   if (side.is_tissue) {
     const Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
     const double most = model.is_static ? kMostPunchesAtRest : kMostPunches;
-    side.modulus = punch_modulus(tissue);
+    // Muscle presses on what it bends around by its tension, whatever its ground substance is.
+    side.modulus = punch_modulus(tissue) + tissue.active_stress;
     side.softening = std::max(1.0, constrained_modulus(tissue) / (most * side.modulus));
   }
   side.compliance = side.softening * body.collider->mean_compliance;

@@ -16,6 +16,7 @@
 #include "fem/material/point_law.hpp"
 #include "fem/material/viscosity.hpp"
 #include "fem/mesh/fibre_field.hpp"
+#include "fem/mesh/rest_shape.hpp"
 #include "sim/build/region.hpp"
 
 namespace articular::sim {
@@ -37,10 +38,13 @@ std::vector<int> nodes_in(const Region& region, int body, const Model& model,
 }
 
 FibreDirections fibres_of_array(const std::string& name, const Body& body, const MeshData& mesh) {
-  for (const auto& [array, directions] : mesh.cell_vectors)
-    if (array == name)
-      return fem::normalized_fibres(
-          rotation_matrix(std::get<MeshFile>(body.geometry).placement.rotation) * directions);
+  const Mat3 turn = rotation_matrix(std::get<MeshFile>(body.geometry).placement.rotation);
+  for (const auto& [array, directions] : mesh.cell_vectors) {
+    if (array != name) continue;
+    return body.material->fibres->density == Fibres::Density::Conserved
+               ? FibreDirections(turn * directions)
+               : fem::normalized_fibres(turn * directions);
+  }
   std::string names;
   for (const auto& [array, directions] : mesh.cell_vectors)
     names += (names.empty() ? "" : ", ") + array;
@@ -64,7 +68,9 @@ FibreDirections make_fibres(const Body& body, int index, const MeshData& mesh,
   if (from.empty() || to.empty())
     throw std::invalid_argument(
         fmt::format("the region {} holds no node", from.empty() ? "`from`" : "`to`"));
-  return fem::harmonic_fibres(mesh.X, mesh.tets, from, to);
+  return fibres.density == Fibres::Density::Conserved
+             ? fem::conserved_fibres(mesh.X, mesh.tets, from, to)
+             : fem::harmonic_fibres(mesh.X, mesh.tets, from, to);
 }
 
 TissueElements make_elements(const TissueMaterial& material, const MeshData& mesh,
@@ -73,6 +79,17 @@ TissueElements make_elements(const TissueMaterial& material, const MeshData& mes
     return TissueElements(fem::SmoothedElasticity(mesh.X, mesh.tets, *material.law, {}, fibres));
   return TissueElements(
       fem::Elasticity(mesh.X, mesh.tets, *material.law, fibres, {.pool = std::move(pool)}));
+}
+
+/// As it is around a fibre, on average: of fibres that lie evenly 1.
+double density_around_fibres(const FibreDirections& fibres, const MeshData& mesh) {
+  double fibre = 0, around = 0;
+  for (Eigen::Index e = 0; e < fibres.cols(); ++e) {
+    const double density = fibres.col(e).norm(), volume = fem::checked_volume(mesh.X, mesh.tets, e);
+    fibre += volume * density;
+    around += volume * density * density;
+  }
+  return fibre > 0 ? around / fibre : 0;
 }
 
 /// See st_venant_kirchhoff.hpp.
@@ -98,20 +115,23 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
                                                          mesh_name(body), error.what()));
   }
   try {
-    Tissue tissue{.body = index,
-                  .elements = make_elements(material, mesh, fibres, model.pool),
-                  .dashpots = {},
-                  .relaxation = {},
-                  .lumped_mass = fem::lumped_mass(mesh.X, mesh.tets, *body.density),
-                  .mass_damping = material.mass_damping,
-                  .nodes = {},
-                  .X = mesh.X,
-                  .fibres = fibres,
-                  .bulk_modulus = fem::bulk_modulus(*material.law),
-                  .shear_modulus = fem::shear_modulus(*material.law),
-                  .law_ends = end_of(*material.law),
-                  .bears_turning = !std::holds_alternative<fem::Linear>(*material.law),
-                  .start_velocity = body.velocity};
+    Tissue tissue{
+        .body = index,
+        .elements = make_elements(material, mesh, fibres, model.pool),
+        .dashpots = {},
+        .fibre_drag = {},
+        .relaxation = {},
+        .lumped_mass = fem::lumped_mass(mesh.X, mesh.tets, *body.density),
+        .mass_damping = material.mass_damping,
+        .nodes = {},
+        .X = mesh.X,
+        .fibres = fibres,
+        .bulk_modulus = fem::bulk_modulus(*material.law),
+        .shear_modulus = fem::shear_modulus(*material.law),
+        .active_stress = fem::active_stress(*material.law) * density_around_fibres(fibres, mesh),
+        .law_ends = end_of(*material.law),
+        .bears_turning = !std::holds_alternative<fem::Linear>(*material.law),
+        .start_velocity = body.velocity};
     tissue.nodes.resize(static_cast<std::size_t>(mesh.X.cols()));
     if (material.stiffness_damping > 0) {
       tissue.dashpots.emplace(mesh.X, mesh.tets,
@@ -119,6 +139,10 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
                                                      tissue.shear_modulus, tissue.bulk_modulus),
                               tissue.elements.make_plain_matrix());
     }
+    const std::optional<fem::MuscleFibre> fibre = fem::muscle_fibre(*material.law);
+    if (fibre && fibre->has_drag() && !model.is_static)
+      tissue.fibre_drag.emplace(mesh.X, mesh.tets, fibres, *fibre,
+                                tissue.elements.make_plain_matrix());
     if (!material.relaxation.empty())
       tissue.relaxation.emplace(material.relaxation, *material.law,
                                 tissue.elements.distortion_points(mesh.X),

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "fem/material/force_velocity.hpp"
+
 namespace articular::sim {
 
-/// A function's value and derivative.
-struct ValueSlope {
-  double value = 0, slope = 0;
-};
+using fem::ValueSlope;
+
+/// Of the lengthening rate in vmax, as fibres of tissue have it.
+using fem::force_velocity;
 
 /// Active force–length factor of Peck: ½(1 + cos 2πn) for 0.5 < n < 1.5, else 0, with
 /// n = (l − r l_opt) / (l_opt (1 − r)): the tendon of length r l_opt does not stretch.
@@ -18,10 +20,5 @@ ValueSlope passive_force_length(double length, double optimal_length, double max
 
 /// Energy behind the passive factor: ∫ p dl [m].
 double passive_energy_length(double length, double optimal_length, double max_ratio);
-
-/// Force–velocity factor of the normalised lengthening rate w = l̇ / (vmax l_opt): shortening (w <
-/// 0) Hill's hyperbola (1 + w)/(1 − 4w) with a/F0 = b/vmax = 1/4, 0 beyond w = −1; lengthening
-/// rises to 1.4 with the same slope at w = 0. Slope with respect to w.
-ValueSlope force_velocity(double w);
 
 }  // namespace articular::sim

@@ -11,6 +11,7 @@
 
 #include "collision/mesh/surface.hpp"
 #include "fem/element/dashpots.hpp"
+#include "fem/element/fibre_drag.hpp"
 #include "fem/element/relaxation.hpp"
 #include "fem/solver/solver_choice.hpp"
 #include "parallel/thread_pool.hpp"
@@ -104,6 +105,7 @@ struct Tissue {
   int body = 0;
   TissueElements elements;
   std::optional<fem::Dashpots> dashpots;
+  std::optional<fem::FibreDrag> fibre_drag;
   std::optional<fem::Relaxation> relaxation;
   int first_internal_variable = 0;  // of the relaxation, among Layout::internal variables()
   Eigen::VectorXd lumped_mass;      // [kg], one a node
@@ -113,6 +115,7 @@ struct Tissue {
   FibreDirections fibres;           // one an element, or none
   int muscle = -1;                  // index into Model::muscles: what activates the fibres
   double bulk_modulus = 0, shear_modulus = 0;  // at small strain [Pa]
+  double active_stress = 0;                    // the largest that its fibres pull with [Pa]
   std::string_view law_ends = {};              // where its law has an end, in words; mostly nowhere
   bool bears_turning = true;                   // or its law takes a rotation for a strain
   Vec3 start_velocity = Vec3::Zero();          // [m/s]

@@ -100,9 +100,12 @@ struct FibresBetween {
   Region from, to;
 };
 
-/// The directions of a tissue's fibres at the start. A vector: the same everywhere, of length 1.
+/// A tissue's fibres at the start. A vector: the same direction everywhere, of length 1.
 struct Fibres {
   std::variant<Vec3, FibreArray, FibresBetween> along;
+  /// How many there are in an area: the same everywhere, or the same ones from end to end, as the
+  /// lengths of an array's vectors and the flux of a harmonic field say.
+  enum class Density { Even, Conserved } density = Density::Even;
   Location where = {};
 };
 

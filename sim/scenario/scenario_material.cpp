@@ -89,7 +89,13 @@ const KeyTable& fibres_keys() {
         {form::Table{region_keys}},
         kNone,
         "along the gradient of a harmonic field, from this region"},
-       {"to", {form::Table{region_keys}}, kNone, "to this one"}}};
+       {"to", {form::Table{region_keys}}, kNone, "to this one"},
+       {"density",
+        {form::Choice{
+            {{"even", Fibres::Density::Even}, {"conserved", Fibres::Density::Conserved}}}},
+        standard("even"),
+        "the law's stress everywhere; or the same fibres from end to end: times the length of the "
+        "array's vectors, or the flux of the field, whose mean is 1"}}};
   return kTable;
 }
 
@@ -191,10 +197,21 @@ std::vector<Key> constants_of(Law law) {
                      "stretch of greatest active force"),
           number_key("tendon_ratio", kFraction, standard(0.0),
                      "part of the fibres' line that is tendon and does not stretch, below 1"),
+          {"descending_limb",
+           {form::Boolean{}},
+           standard(true),
+           "`false`: fibres beyond their optimal length pull as hard as at it"},
+          {"max_velocity",
+           {form::Quantity{kRate, kPositive}},
+           kNone,
+           "largest speed of shortening in optimal lengths per second; none: force does not "
+           "depend on speed"},
           stress_key("shear_along", kPositive, standard("500 Pa"),
                      "shear modulus along the fibres"),
           stress_key("shear_across", kPositive, standard("500 Pa"), "shear modulus across them"),
           stress_key("c10", kNotNegative, standard("0 Pa"), "of I1 − 3"),
+          stress_key("active_c10", kNotNegative, standard("0 Pa"),
+                     "what full activation adds to it"),
           stress_key("bulk_modulus", kPositive, standard("10 MPa"), "κ, bulk modulus"),
           volumetric_key("logarithmic"),
           fibres_key()};
@@ -293,12 +310,16 @@ std::vector<fem::OgdenTerm> read_ogden_terms(const Node& node) {
 }
 
 fem::MuscleFibre read_muscle_fibre(const TableReader& table) {
+  std::optional<double> max_velocity;
+  table.read("max_velocity", max_velocity);
   return fem::MuscleFibre({.max_stress = stress(table, "max_stress"),
                            .p1 = number(table, "p1"),
                            .p2 = number(table, "p2"),
                            .toe_end = number(table, "toe_end"),
                            .optimal_stretch = number(table, "optimal_stretch"),
-                           .tendon_ratio = number(table, "tendon_ratio")});
+                           .tendon_ratio = number(table, "tendon_ratio"),
+                           .descending_limb = table.get<bool>("descending_limb"),
+                           .max_velocity = max_velocity});
 }
 
 /// Laws with a volumetric energy κ/2 Θ².
@@ -325,6 +346,7 @@ fem::AnyMaterial read_split_law(const TableReader& table, Law law) {
                                        {.G1 = stress(table, "shear_along"),
                                         .G2 = stress(table, "shear_across"),
                                         .c10 = stress(table, "c10"),
+                                        .active_c10 = stress(table, "active_c10"),
                                         .kappa = stress(table, "bulk_modulus")});
     }
     default: {
@@ -373,11 +395,16 @@ Fibres read_fibres(const Node& node) {
   if (table.find("from") != nullptr || table.find("to") != nullptr) {
     table.refuse({"direction", "array"}, "the fibres run between two regions");
     fibres.along = FibresBetween{region(table.at("from")), region(table.at("to"))};
+    table.read("density", fibres.density);
     return fibres;
   }
   table.exactly_one({"direction", "array"});
   table.read("direction", fibres.along, read_direction);
   table.read("array", fibres.along, [](const Node& n) { return FibreArray{read_text(n)}; });
+  if (std::holds_alternative<FibreArray>(fibres.along))
+    table.read("density", fibres.density);
+  else
+    table.refuse({"density"}, "fibres of one direction are alike everywhere");
   return fibres;
 }
 

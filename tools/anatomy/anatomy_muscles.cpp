@@ -281,7 +281,7 @@ Mesh muscle_mesh(const MuscleShape& shape, double h) {
   }
   clear_bones(shape, surface, grid, mesh);
   const MuscleEnds ends = muscle_ends(shape, h);
-  mesh.fibres = fem::harmonic_fibres(mesh.X_mm, mesh.tets, ends.origin, ends.insertion);
+  mesh.fibres = fem::conserved_fibres(mesh.X_mm, mesh.tets, ends.origin, ends.insertion);
   return mesh;
 }
 

@@ -43,8 +43,8 @@ std::vector<MuscleShape> closing_muscles();
 /// Nodes that lie on the bone of an end: nearer than kAttachedWithin, all others farther than that.
 constexpr double kAttachedWithin = 1.0;
 
-/// A muscle as tetrahedra of about the size h, with fibres along the harmonic field between its
-/// ends.
+/// A muscle as tetrahedra of about the size h, with the same fibres from end to end along the
+/// harmonic field: the length of their directions is how densely they lie, 1 on average.
 /// @throws std::invalid_argument for h outside [3, 6] mm
 Mesh muscle_mesh(const MuscleShape& shape, double h);
 

@@ -184,18 +184,17 @@ std::string refusal(const FibreDirections& fibres, const AnyMaterial& material) 
   return "";
 }
 
-TEST(Elasticity, RefusesFibresThatAreMissingOrNoUnitVectors) {
+TEST(Elasticity, RefusesFibresThatAreMissingOrHaveNoDirection) {
   const AnyMaterial muscle = BlemkerMuscle<>(MuscleFibre({}), {}), plain = NeoHookean(1e4, 0.4);
   FibreDirections fibres = Vec3(0, 1, 0).replicate(1, 6);
   EXPECT_EQ(refusal(fibres, muscle), "");
   EXPECT_EQ(refusal({}, plain), "");
   EXPECT_NE(refusal({}, muscle).find("0 directions of fibres for 6"), std::string::npos);
   EXPECT_NE(refusal(fibres.leftCols(4), plain).find("4 directions"), std::string::npos);
-  for (const Vec3& bad :
-       {Vec3(0, 2, 0), Vec3(0, 0, 0), Vec3(0, 1, std::numeric_limits<double>::quiet_NaN())}) {
+  for (const Vec3& bad : {Vec3(0, 0, 0), Vec3(0, 1, std::numeric_limits<double>::quiet_NaN())}) {
     fibres.col(3) = bad;
     EXPECT_NE(refusal(fibres, muscle).find("tetrahedron 3 (nodes"), std::string::npos);
-    EXPECT_NE(refusal(fibres, muscle).find("must be a unit vector"), std::string::npos);
+    EXPECT_NE(refusal(fibres, muscle).find("must be finite and not 0"), std::string::npos);
   }
 }
 

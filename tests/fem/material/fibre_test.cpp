@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 #include "fem/material/any_material.hpp"
 #include "fem/material/blemker_muscle.hpp"
@@ -131,6 +132,16 @@ TEST(MuscleFibre, PassiveTensionIsExponentialAndThenLinear) {
 }
 
 // Half of the line is tendon: what the line stretches by, the fibres stretch by twice.
+TEST(MuscleFibre, WithoutADescendingLimbPullsAsHardBeyondItsOptimum) {
+  const MuscleFibre published({}), level({.descending_limb = false});
+  const auto pull = [](const MuscleFibre& fibre, double stretch) {
+    return fibre.tension(stretch, 1) - fibre.tension(stretch, 0);
+  };
+  for (const double stretch : {0.5, 0.8, 1.0})
+    EXPECT_EQ(pull(level, stretch), pull(published, stretch));
+  for (const double stretch : {1.1, 1.5, 2.0}) EXPECT_NEAR(pull(level, stretch), 0.3e6, 1e-6);
+}
+
 TEST(MuscleFibre, TendonLeavesItsShareOfTheStretchToTheFibres) {
   const MuscleFibre bare({.max_stress = 1}), half({.max_stress = 1, .tendon_ratio = 0.5});
   for (const double strain : {-0.25, -0.1, 0.0, 0.15, 0.3}) {
@@ -165,6 +176,7 @@ TEST(FibreLaw, EnergyTensionAndStiffnessBelongTogether) {
   expect_consistent(MuscleFibre({}), 0.3e6);
   expect_consistent(MuscleFibre({.optimal_stretch = 1.1}), 0.3e6);
   expect_consistent(MuscleFibre({.optimal_stretch = 1.1, .tendon_ratio = 0.5}), 0.3e6);
+  expect_consistent(MuscleFibre({.tendon_ratio = 0.3, .descending_limb = false}), 0.3e6);
 }
 
 Mat3 along_fibre(double stretch) {
@@ -266,6 +278,41 @@ TEST(ActiveStress, PullsAlongTheFibresAlone) {
   }
 }
 
+// Muscle that contracts is stiffer to shear: by 2 c10 of the activation along the fibres.
+TEST(BlemkerMuscle, ActivationStiffensTheGroundSubstance) {
+  const BlemkerMuscle<> law(MuscleFibre({}), {.c10 = 1e4, .active_c10 = 3e4});
+  const Mat3 shear = kAcross * kFibre.cross(kAcross).transpose();  // across, no fibre feels it
+  const auto modulus = [&](double activation) {
+    constexpr double kStep = 1e-5;
+    const auto at = law.along(kFibre, activation);
+    return (at.first_piola(Mat3::Identity() + kStep * shear) -
+            at.first_piola(Mat3::Identity() - kStep * shear))
+               .cwiseProduct(shear)
+               .sum() /
+           (2 * kStep);
+  };
+  EXPECT_NEAR(modulus(0.5) - modulus(0), 2 * 0.5 * 3e4, 1e-3 * 3e4);
+}
+
+// Twice as many fibres pull twice as hard, and the ground stays what it is.
+TEST(FibreDensity, MultipliesWhatFibresPull) {
+  const Mat3 F = Vec3(1.2, 0.9, 0.95).asDiagonal();
+  const BlemkerMuscle<> law(MuscleFibre({.optimal_stretch = 1.05}), {.c10 = 1e4});
+  const auto difference = [&](double density) {
+    const auto dense = law.along(density * kFibre, 0.6), single = law.along(kFibre, 0.6);
+    return std::tuple(dense.energy_density(F) - single.energy_density(F),
+                      Mat3(dense.first_piola(F) - single.first_piola(F)),
+                      Mat9(dense.tangent(F) - single.tangent(F)));
+  };
+  const auto [energy, stress, tangent] = difference(2);
+  const auto [energy3, stress3, tangent3] = difference(3);
+  EXPECT_GT(energy, 0);
+  EXPECT_NEAR(energy3, 2 * energy, kRoundOff * energy3);
+  EXPECT_LT((stress3 - 2 * stress).norm(), kRoundOff * stress3.norm());
+  EXPECT_LT((tangent3 - 2 * tangent).norm(), kRoundOff * tangent3.norm());
+  EXPECT_GT(stress.norm(), 1e4);
+}
+
 // Swelling alone does not draw the fibres of collagen, as published.
 TEST(TransverselyIsotropic, PassiveFibresDoNotFeelTheVolume) {
   const auto law = TransverselyIsotropic<>(2e4, 0, cruciate_fibre(), 1e6).along(kFibre, 0);
@@ -341,6 +388,7 @@ TEST(Materials, RefuseBadConstantsAndSayWhy) {
   expect_refusal([] { (void)MuscleFibre({.optimal_stretch = 0.9}); }, {"0.9", "at least 1"});
   expect_refusal([] { (void)MuscleFibre({.tendon_ratio = -0.1}); }, {"tendon ratio", "-0.1"});
   expect_refusal([] { (void)MuscleFibre({.tendon_ratio = 1}); }, {"tendon ratio", "below 1"});
+  expect_refusal([] { (void)MuscleFibre({.max_velocity = 0}); }, {"speed of shortening", "0"});
   expect_refusal([] { (void)BlemkerMuscle<>(MuscleFibre({}), {.G1 = 0}); }, {"G1", "0 Pa"});
   expect_refusal([] { (void)BlemkerMuscle<>(MuscleFibre({}), {.G2 = -1}); }, {"G2", "-1 Pa"});
   expect_refusal([] { (void)BlemkerMuscle<>(MuscleFibre({}), {.c10 = -1}); }, {"c10", "-1 Pa"});

@@ -43,4 +43,19 @@ TEST(EdgeDomains, MeanOfFibresThatRunAlikeIsTheirDirection) {
   for (const auto& fibre : mean.colwise()) EXPECT_NEAR(std::abs(fibre.dot(along)), 1, 1e-14);
 }
 
+TEST(EdgeDomains, MeanOfFibresIsAsLongAsTheyAreOnAverage) {
+  const Domains given;
+  const Vec3 along = Vec3(1, -2, 3).normalized();
+  FibreDirections fibres = along.replicate(1, given.mesh.tets.cols());
+  for (Eigen::Index e = 0; e < fibres.cols(); ++e)
+    fibres.col(e) *= 1 + 0.1 * static_cast<double>(e);
+  const FibreDirections mean = mean_fibres(given.domains, given.volume, fibres);
+  double of_domains = 0, of_elements = 0;
+  for (int k = 0; k < given.domains.size(); ++k)
+    of_domains += given.domains.volume[k] * mean.col(k).norm();
+  for (Eigen::Index e = 0; e < fibres.cols(); ++e)
+    of_elements += given.volume[static_cast<std::size_t>(e)] * fibres.col(e).norm();
+  EXPECT_NEAR(of_domains / of_elements, 1, 1e-12);
+}
+
 }  // namespace articular::fem::edge_domains_test

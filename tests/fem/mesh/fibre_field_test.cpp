@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -38,6 +39,55 @@ TEST(HarmonicFibres, RunStraightThroughABar) {
   EXPECT_LT((potential - mesh.X.row(0).transpose() / 0.06).cwiseAbs().maxCoeff(), 1e-12);
   const FibreDirections back = harmonic_fibres(mesh.X, mesh.tets, to, from);
   EXPECT_LT((fibres + back).norm(), 1e-9);
+}
+
+TEST(ConservedFibres, OfABarAreThoseOfTheHarmonicField) {
+  const TetMesh mesh = box_mesh({6, 3, 3}, Vec3(0.06, 0.02, 0.01), 0.15);
+  const auto from = nodes_where(mesh.X, [](const Vec3& X) { return X.x() < 1e-9; });
+  const auto to = nodes_where(mesh.X, [](const Vec3& X) { return X.x() > 0.06 - 1e-9; });
+  const FibreDirections fibres = conserved_fibres(mesh.X, mesh.tets, from, to);
+  EXPECT_LT((fibres.colwise() - Vec3(1, 0, 0)).colwise().norm().maxCoeff(), 1e-10);
+}
+
+Vec3 gradient_of(const Eigen::VectorXd& values, const TetMesh& mesh, Eigen::Index e) {
+  Mat3 edges;
+  Vec3 rise;
+  for (int a = 0; a < 3; ++a) {
+    edges.row(a) = mesh.X.col(mesh.tets(a + 1, e)) - mesh.X.col(mesh.tets(0, e));
+    rise[a] = values[mesh.tets(a + 1, e)] - values[mesh.tets(0, e)];
+  }
+  return edges.inverse() * rise;
+}
+
+// A wedge that narrows to a third: what passes through it is the same everywhere, which linear
+// elements hold exactly against any of their fields that is 0 at one end and 1 at the other.
+TEST(ConservedFibres, AreDenserWhereTissueNarrows) {
+  TetMesh mesh = box_mesh({12, 4, 2}, Vec3(0.06, 0.02, 0.01));
+  for (auto X : mesh.X.colwise()) X.y() = (X.y() - 0.01) * (1 - X.x() / 0.09);
+  const auto from = nodes_where(mesh.X, [](const Vec3& X) { return X.x() < 1e-9; });
+  const auto to = nodes_where(mesh.X, [](const Vec3& X) { return X.x() > 0.06 - 1e-9; });
+  const FibreDirections fibres = conserved_fibres(mesh.X, mesh.tets, from, to);
+  const Eigen::VectorXd potential = harmonic_potential(mesh.X, mesh.tets, from, to);
+  double volume = 0, whole = 0, along_x = 0, along_phi = 0, wide = 0, narrow = 0, wide_volume = 0,
+         narrow_volume = 0;
+  for (Eigen::Index e = 0; e < mesh.tets.cols(); ++e) {
+    const Eigen::Vector4i tet = mesh.tets.col(e);
+    const Vec3 x0 = mesh.X.col(tet[0]);
+    const double V =
+        (mesh.X.col(tet[1]) - x0).cross(mesh.X.col(tet[2]) - x0).dot(mesh.X.col(tet[3]) - x0) / 6;
+    const double density = fibres.col(e).norm();
+    volume += V;
+    whole += V * density;
+    along_x += V * fibres(0, e) / 0.06;
+    along_phi += V * fibres.col(e).dot(gradient_of(potential, mesh, e));
+    const double x = mesh.X.row(0)(tet).mean();
+    (x < 0.01 ? wide : narrow) += x < 0.01 || x > 0.05 ? V * density : 0;
+    (x < 0.01 ? wide_volume : narrow_volume) += x < 0.01 || x > 0.05 ? V : 0;
+  }
+  EXPECT_NEAR(whole / volume, 1, 1e-12);
+  EXPECT_NEAR(along_phi / along_x, 1, 1e-10);
+  // Widths at 5 and 55 mm, 1 - 5/90 and 1 - 55/90.
+  EXPECT_NEAR((narrow / narrow_volume) / (wide / wide_volume), 85.0 / 35, 0.03 * 85 / 35);
 }
 
 /// A box in curved coordinates.

@@ -60,7 +60,7 @@ void add_isochoric(const std::string& suffix, std::vector<LawExample>& laws) {
       1e7, {.shape_only = false, .one_shear_modulus = false});
   add("BlemkerMuscleWithTendon",
       BlemkerMuscle<Theta>(MuscleFibre({.optimal_stretch = 1.05, .tendon_ratio = 0.4}),
-                           {.G1 = 500, .G2 = 800, .c10 = 200}),
+                           {.G1 = 500, .G2 = 800, .c10 = 200, .active_c10 = 600}),
       1e7, {.shape_only = false, .one_shear_modulus = false});
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fem/material/any_material.hpp"
 #include "sim/build/build_model.hpp"
 #include "sim/model/tissue.hpp"
 #include "tests/sim/support/contact_scene.hpp"
@@ -12,13 +13,16 @@ namespace articular::sim::contact_model_test {
 constexpr double kYoung = 20e3;  // [Pa]
 
 /// A block under a plate of bone, which gives way a millionth as much.
-Model block_under_plate(double nu, bool is_static) {
+Model block_under_plate(const TissueMaterial& material, bool is_static) {
   Scenario s = contact_scene(1e-3);
   if (is_static) s.analysis = Scenario::Analysis::Static;
   s.bodies = {box_body("block", Body::Kind::Tissue, Vec3::Constant(0.1), Vec3::Zero(), {4, 4, 4}),
               box_body("plate", Body::Kind::Fixed, {0.2, 0.2, 0.02}, {0, 0, 0.06}, {3, 3, 1})};
-  s.bodies[0].material = neo_hookean(kYoung, nu);
+  s.bodies[0].material = material;
   return build_model(s);
+}
+Model block_under_plate(double nu, bool is_static) {
+  return block_under_plate(neo_hookean(kYoung, nu), is_static);
 }
 
 double stiffness(double nu, bool is_static) {
@@ -42,6 +46,21 @@ TEST(ContactModel, StiffnessGoesByTheColumnOfACompressibleTissueAndByThePunchOth
     EXPECT_NEAR(stiffness(nu, false) / (base * column(nu)), 1, 1e-4) << nu;
   for (const double nu : {0.42, 0.45, 0.49, 0.4999})
     EXPECT_NEAR(stiffness(nu, false) / (base * punch(nu)), 1, 1e-4) << nu;
+}
+
+// By its tension it presses on what it bends around, whatever its ground substance is. Bone gives
+// way by some 1e-4 as much.
+TEST(ContactModel, StiffnessOfMuscleGoesByItsActiveStressToo) {
+  const auto model = [](double max_stress) {
+    TissueMaterial material =
+        material_of(fem::BlemkerMuscle<>(fem::MuscleFibre({.max_stress = max_stress}), {}));
+    material.fibres = Fibres{.along = Vec3::UnitZ()};
+    return block_under_plate(material, false);
+  };
+  const Model weak = model(1e5), strong = model(4e5);
+  const double ground = punch_modulus(weak.tissues[0]);
+  EXPECT_NEAR(strong.contacts[0].mean_stiffness / weak.contacts[0].mean_stiffness,
+              (ground + 4e5) / (ground + 1e5), 1e-3);
 }
 
 TEST(ContactModel, StaticsAllowsTenTimesThePunch) {

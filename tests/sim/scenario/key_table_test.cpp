@@ -285,7 +285,7 @@ std::string tissues() {
            kappa + relaxation},
       {"muscle",
        R"(max_stress = "1 kPa", p1 = 0.1, p2 = 5, toe_end = 1.3, optimal_stretch = 1.1, )"
-       R"(tendon_ratio = 0.4, shear_along = "1 kPa", shear_across = "1 kPa", c10 = "1 kPa", )"
+       R"(tendon_ratio = 0.4, max_velocity = "8 1/s", descending_limb = false, active_c10 = "1 kPa", shear_along = "1 kPa", shear_across = "1 kPa", c10 = "1 kPa", )"
        R"(fibres = { direction = [0, 0, 1] }, )" +
            kappa + relaxation}};
   std::string text;
@@ -307,7 +307,7 @@ name = "muscle"
 kind = "tissue"
 mesh = { file = "muscle.vtu" }
 density = "1 g/cm^3"
-material = { law = "muscle", fibres = { array = "fibres" } }
+material = { law = "muscle", fibres = { array = "fibres", density = "conserved" } }
 )";
 
 /// A value of an example, and what a table says of it.
@@ -608,6 +608,7 @@ TEST_F(KeyTables, DefaultsOfLawsAreThePublishedConstants) {
   EXPECT_EQ(standard_of(muscle, "shear_along"), ground.G1);
   EXPECT_EQ(standard_of(muscle, "shear_across"), ground.G2);
   EXPECT_EQ(standard_of(muscle, "c10"), ground.c10);
+  EXPECT_EQ(standard_of(muscle, "active_c10"), ground.active_c10);
   EXPECT_EQ(standard_of(muscle, "bulk_modulus"), ground.kappa);
   const auto& length = std::get<form::Table>(
       keys_of_law("transversely-isotropic").find("force_length")->type.variant);

@@ -110,6 +110,29 @@ TEST(Ledger, WorkOfFibresInTissueIsTheIntegralOverTheirActivation) {
       [&](double s) { return constants.max_stress * fem::MuscleFibre::active_integral(s); });
 }
 
+// At once active fibres of a constant activation, which lengthen: what is lost is the integral of
+// what they pull more for that.
+TEST(Ledger, FibresLoseWhatTheirForceVelocityTakes) {
+  const fem::MuscleFibre fibre({.max_velocity = 4});
+  TissueMaterial material = material_of(fem::BlemkerMuscle<>(fibre, {}));
+  material.fibres = Fibres{.along = Vec3::UnitZ()};
+  const double expected = integral(kDuration, [&](double t) {
+    return kVolume * fibre.drag(stretch(t), stretch_rate(t), 0.5).value * stretch_rate(t);
+  });
+  const auto error = [&](double h) {
+    Scenario s = drawn_block(h, material);
+    Muscle muscle;
+    muscle.name = muscle.tissue = "block";
+    muscle.excitation = {{0}, {0.5}};
+    s.muscles = {muscle};
+    Simulation run(s);
+    run.advance(kDuration);
+    return std::abs(run.state.energy.tissue_loss - expected);
+  };
+  EXPECT_LT(error(2.5e-4), 1e-3 * expected);
+  EXPECT_GT(measured_order(error, 1e-3), 1.8);
+}
+
 // With all calcium there f = 1 − exp(−b (λ − λ0)): ∫ f dλ/λ is an exponential integral.
 TEST(Ledger, WorkOfFibresWithAForceLengthIsTheIntegralOverTheirActivation) {
   const double T = 1e5, b = 4.75 * 1.85, zero = 1.58 / 1.85;

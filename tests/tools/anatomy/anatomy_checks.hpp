@@ -42,15 +42,18 @@ inline double least_relative_volume(const Mesh& mesh) {
   return least;
 }
 
+inline double volume_of(const Mesh& mesh, Eigen::Index e) {  // of a tetrahedron
+  const Eigen::Vector4i tet = mesh.tets.col(e);
+  const Vec3 x0 = mesh.X_mm.col(tet(0));
+  return (mesh.X_mm.col(tet(1)) - x0)
+             .cross(mesh.X_mm.col(tet(2)) - x0)
+             .dot(mesh.X_mm.col(tet(3)) - x0) /
+         6;
+}
+
 inline double volume_of(const Mesh& mesh) {
   double sum = 0;
-  for (const auto& tet : mesh.tets.colwise()) {
-    const Vec3 x0 = mesh.X_mm.col(tet(0));
-    sum += (mesh.X_mm.col(tet(1)) - x0)
-               .cross(mesh.X_mm.col(tet(2)) - x0)
-               .dot(mesh.X_mm.col(tet(3)) - x0) /
-           6;
-  }
+  for (Eigen::Index e = 0; e < mesh.tets.cols(); ++e) sum += volume_of(mesh, e);
   return sum;
 }
 

@@ -1,0 +1,88 @@
+#include "fem/element/fibre_drag.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fem/element/elasticity.hpp"
+#include "fem/material/any_material.hpp"
+#include "tests/fem/support/box_mesh.hpp"
+#include "tests/fem/support/dense.hpp"
+#include "tests/fem/support/random_matrices.hpp"
+
+namespace articular::fem::fibre_drag_test {
+
+const Vec3 kSize(0.04, 0.02, 0.01);  // [m]
+const MuscleFibre kFibre(
+    {.max_stress = 2e5, .optimal_stretch = 1.1, .tendon_ratio = 0.3, .max_velocity = 8});
+
+struct Block {
+  TetMesh mesh = box_mesh({3, 2, 2}, kSize, 0.15);
+  BlockMatrix matrix;
+  FibreDrag drag;
+
+  explicit Block(const Vec3& fibre)
+      : matrix(Elasticity(mesh.X, mesh.tets, Linear(1e4, 0.3)).make_matrix()),
+        drag(mesh.X, mesh.tets, fibre.replicate(1, mesh.tets.cols()), kFibre, matrix) {}
+
+  Positions force(const Positions& x, const Positions& v, double activation) const {
+    Positions f = Positions::Zero(3, x.cols());
+    drag.add_force(x, v, activation, f);
+    return f;
+  }
+};
+
+// Where all of it lengthens or shortens alike, a face across the fibres pulls with its area times
+// what one fibre has: Hill's curve at the rate of the fibres without their tendon.
+TEST(FibreDrag, PullsOnAFaceWithItsAreaTimesHillsCurve) {
+  constexpr double kDensity = 1.5, kActivation = 0.6, kStretch = 1.05;
+  const Block block(kDensity * Vec3::UnitX());
+  for (const double rate : {-9.0, -2.0, -0.5, 0.0, 0.5, 4.0}) {
+    const Positions x = Vec3(kStretch, 1, 1).asDiagonal() * block.mesh.X,
+                    v = Vec3(rate, 0, 0).asDiagonal() * block.mesh.X;
+    const Positions f = block.force(x, v, kActivation);
+    double pull = 0;
+    for (Eigen::Index a = 0; a < f.cols(); ++a)
+      if (block.mesh.X(0, a) > kSize.x() - 1e-9) pull += f(0, a);
+    const double w = rate / (1.1 * 0.7 * 8), n = (kStretch / 1.1 - 0.3) / 0.7;
+    const double hill = w <= -1 ? 0 : w < 0 ? (1 + w) / (1 - 4 * w) : 1 + 5 * w / (1 + 12.5 * w);
+    const double expected = kDensity * kSize.y() * kSize.z() * kActivation * 2e5 / 1.1 *
+                            MuscleFibre::active(n) * (hill - 1);
+    EXPECT_NEAR(pull, expected, 1e-9 * std::max(1.0, std::abs(expected))) << rate;
+  }
+}
+
+struct Moving {
+  Block block{Vec3(2, -1, 2) / 3};
+  Random random;
+  Positions x = block.mesh.X + 3e-4 * random.matrix<Positions>(3, block.mesh.X.cols()),
+            v = 0.02 * random.matrix<Positions>(3, block.mesh.X.cols()),
+            u = random.matrix<Positions>(3, block.mesh.X.cols());
+};
+
+// By central differences: their error is of the square of the step.
+TEST(FibreDrag, DampingIsTheSlopeOfTheForce) {
+  Moving m;
+  constexpr double kStep = 1e-6, kScale = 3;
+  const Positions slope =
+      (m.block.force(m.x, m.v + kStep * m.u, 0.7) - m.block.force(m.x, m.v - kStep * m.u, 0.7)) /
+      (2 * kStep);
+  Positions product = Positions::Zero(3, m.x.cols());
+  m.block.drag.add_product(m.x, m.v, 0.7, m.u, product);
+  EXPECT_LT((product - slope).norm(), 1e-6 * slope.norm());
+  m.block.drag.add_damping(m.x, m.v, 0.7, kScale, m.block.matrix);
+  const Eigen::VectorXd by_matrix = dense(m.block.matrix) * m.u.reshaped();
+  EXPECT_LT((by_matrix - kScale * product.reshaped()).norm(), 1e-12 * by_matrix.norm());
+}
+
+TEST(FibreDrag, PowerIsItsForceTimesTheVelocity) {
+  const Moving m;
+  const double expected = m.block.force(m.x, m.v, 0.7).cwiseProduct(m.v).sum();
+  EXPECT_GT(expected, 0);
+  EXPECT_NEAR(m.block.drag.power(m.x, m.v, 0.7), expected, 1e-12 * expected);
+}
+
+TEST(FibreDrag, RestsWhereNothingIsActive) {
+  const Moving m;
+  EXPECT_EQ(m.block.force(m.x, m.v, 0).norm(), 0);
+}
+
+}  // namespace articular::fem::fibre_drag_test
