@@ -32,11 +32,13 @@ Dynamics::Dynamics(const Model& model)
 }
 
 void Dynamics::set_candidates(std::span<const CandidateList> candidates) {
+  assembled_.reset();
   candidates_ = candidates;
   matrix_.set_candidates(candidates);
 }
 
 void Dynamics::forget() {
+  assembled_.reset();
   matrix_.forget();
   contact_.forget();
 }
@@ -80,6 +82,7 @@ void Dynamics::place(const DrivenPlaces& driven) {
 }
 
 const Moment& Dynamics::evaluate(const double* y, double t, const Conditions& conditions) {
+  assembled_.reset();
   Configuration& configuration = moment_.configuration;
   read_state(model_, y, t, configuration);
   if (conditions.driven != nullptr) place(*conditions.driven);
@@ -323,8 +326,11 @@ void Dynamics::take_pressures(const PredictedPressures& pressures) {
 
 NewtonEquations Dynamics::assemble(const SystemScale& scale, fem::Tangent tangent,
                                    const PredictedPressures& pressures) {
+  const std::pair wanted(scale, tangent);
+  if (pressures.prediction == nullptr && assembled_ == wanted) return matrix_.equations();
   const Stopwatch watch(times_.assembly);
   take_pressures(pressures);
+  assembled_ = wanted;
   return matrix_.assemble(moment_, scale, tangent);
 }
 
@@ -332,6 +338,7 @@ NewtonEquations Dynamics::assemble_again(const GroupChanges& changes, const Syst
                                          fem::Tangent tangent,
                                          const PredictedPressures& pressures) {
   const Stopwatch watch(times_.assembly);
+  assembled_.reset();
   take_pressures(pressures);
   if (matrix_.add(changes, scale.stiffness)) return matrix_.equations();
   return matrix_.assemble(moment_, scale, tangent);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sim/assembly/newton_matrix.hpp"
@@ -56,7 +58,10 @@ class Dynamics {
   /// Of the last evaluate().
   const Moment& now() const { return moment_; }
   /// Whose multipliers and duals count from the next evaluate() on.
-  ContactResponse& contact() { return contact_; }
+  ContactResponse& contact() {
+    assembled_.reset();
+    return contact_;
+  }
   /// See contact_summaries().
   std::vector<ContactSummary> contacts() const;
   /// Of one contact of the model.
@@ -67,7 +72,7 @@ class Dynamics {
   /// r = M b for block velocities b.
   void multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const;
 
-  /// Mass, damping and stiffness of now().
+  /// Mass, damping and stiffness of now(). Asked again for the same, it does nothing.
   /// @param pressures  what now() has from then on, if any
   NewtonEquations assemble(const SystemScale& scale, fem::Tangent tangent,
                            const PredictedPressures& pressures = {});
@@ -100,6 +105,8 @@ class Dynamics {
   std::span<const CandidateList> candidates_;
   WrapHistory wraps_;
   Positions v_;  // at the nodes of a tissue
+  /// What the matrix was assembled for, as long as nothing has changed since.
+  std::optional<std::pair<SystemScale, fem::Tangent>> assembled_;
   DynamicsTimes times_;
   mutable EvaluationCounts evaluations_;  // but those of the matrix and of contact
 };

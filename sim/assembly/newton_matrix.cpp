@@ -19,23 +19,6 @@ std::vector<int> free_block_of_node(const Tissue& tissue) {
   return blocks;
 }
 
-/// Where the blocks of a tissue's matrix go; -1: a rigid body is involved.
-std::vector<int> slots_of_free_nodes(const fem::BlockMatrix& K, const Tissue& tissue,
-                                     const fem::BlockMatrix& A) {
-  std::vector<int> slots(static_cast<std::size_t>(K.num_nonzero_blocks()), -1);
-  for (int i = 0; i < K.num_blocks(); ++i) {
-    const NodeRef& row = tissue.nodes[static_cast<std::size_t>(i)];
-    for (int s = K.row_begin()[static_cast<std::size_t>(i)];
-         s < K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
-      const int j = K.column()[static_cast<std::size_t>(s)];
-      const NodeRef& column = tissue.nodes[static_cast<std::size_t>(j)];
-      if (row.rigid < 0 && column.rigid < 0)
-        slots[static_cast<std::size_t>(s)] = A.slot(row.block, column.block);
-    }
-  }
-  return slots;
-}
-
 /// Where the blocks of one matrix are in another whose pattern holds them all.
 std::vector<int> slots_in(const fem::BlockMatrix& A, const fem::BlockMatrix& part) {
   std::vector<int> slots;
@@ -149,10 +132,30 @@ void NewtonMatrix::build_pattern() {
     if (adds_directly(tissue)) {
       work.direct = tissue.elements.slots_in(common, free_block_of_node(tissue));
     } else if (tissue.elements.smoothed() != nullptr) {
-      work.own.slot = slots_of_free_nodes(work.own.K, tissue, A_);
-      work.plain.slot = slots_of_free_nodes(work.plain.K, tissue, plain_);
+      find_slots(tissue, A_, work.own);
+      find_slots(tissue, plain_, work.plain);
     } else {
-      work.own.slot = slots_of_free_nodes(work.own.K, tissue, common);
+      find_slots(tissue, common, work.own);
+    }
+  }
+}
+
+void NewtonMatrix::find_slots(const Tissue& tissue, const fem::BlockMatrix& A,
+                              TissueMatrix& matrix) const {
+  const fem::BlockMatrix& K = matrix.K;
+  matrix.slot.assign(static_cast<std::size_t>(K.num_nonzero_blocks()), -1);
+  matrix.carried.clear();
+  for (int i = 0; i < K.num_blocks(); ++i) {
+    const NodeRef& row = tissue.nodes[static_cast<std::size_t>(i)];
+    for (int s = K.row_begin()[static_cast<std::size_t>(i)];
+         s < K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
+      const int j = K.column()[static_cast<std::size_t>(s)];
+      const NodeRef& column = tissue.nodes[static_cast<std::size_t>(j)];
+      const NodePairSlots to = slots_of(model_, row, column, A);
+      if (row.rigid < 0 && column.rigid < 0)
+        matrix.slot[static_cast<std::size_t>(s)] = to.own;
+      else if (to.own >= 0)
+        matrix.carried.push_back({s, i, j, to});
     }
   }
 }
@@ -199,19 +202,12 @@ void NewtonMatrix::set_pressure_gradient(std::size_t t, const Moment& now) {
 
 void NewtonMatrix::add(const TissueMatrix& from, const Tissue& tissue, const Configuration& now,
                        fem::BlockMatrix& A) const {
-  const fem::BlockMatrix& K = from.K;
-  for (int i = 0; i < K.num_blocks(); ++i)
-    for (int s = K.row_begin()[static_cast<std::size_t>(i)];
-         s < K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {
-      const int slot = from.slot[static_cast<std::size_t>(s)];
-      if (slot >= 0) {
-        A.block(slot) += K.block(s);
-        continue;
-      }
-      const int j = K.column()[static_cast<std::size_t>(s)];
-      add_stiffness(model_, now, tissue.nodes[static_cast<std::size_t>(i)],
-                    tissue.nodes[static_cast<std::size_t>(j)], K.block(s), A);
-    }
+  for (std::size_t s = 0; s < from.slot.size(); ++s)
+    if (from.slot[s] >= 0) A.block(from.slot[s]) += from.K.block(static_cast<int>(s));
+  for (const CarriedBlock& block : from.carried)
+    add_stiffness(now, tissue.nodes[static_cast<std::size_t>(block.i)],
+                  tissue.nodes[static_cast<std::size_t>(block.j)], block.to,
+                  from.K.block(block.slot), A);
 }
 
 void NewtonMatrix::add_relaxation(std::size_t t, const Moment& now, const SystemScale& scale,

@@ -50,10 +50,17 @@ class NewtonMatrix {
   }
 
  private:
+  /// A block of a tissue's matrix with a node that moves with an unknown rigid body.
+  struct CarriedBlock {
+    int slot = 0;  // in that matrix
+    int i = 0, j = 0;
+    NodePairSlots to;
+  };
   /// A tissue's own matrix, and where its blocks go.
   struct TissueMatrix {
     fem::BlockMatrix K;
-    std::vector<int> slot;  // of each block of K; -1: a rigid body is involved
+    std::vector<int> slot;  // of each block of K; -1: not of two free nodes
+    std::vector<CarriedBlock> carried;
   };
   struct TissueWork {
     std::optional<fem::StiffnessSlots> direct;  // tissues that need no matrix of their own
@@ -65,6 +72,7 @@ class NewtonMatrix {
   Stencils base_stencils(bool smoothing) const;
   void couple_contacts(const Moment& now);
   void build_pattern();
+  void find_slots(const Tissue& tissue, const fem::BlockMatrix& A, TissueMatrix& matrix) const;
   void make_pressure_gradient(std::size_t t);
   void set_pressure_gradient(std::size_t t, const Moment& now);
   /// A += K by the blocks of the tissue.

@@ -1,6 +1,16 @@
 #include "sim/contact/contact_pair_state.hpp"
 
+#include <algorithm>
+
 namespace articular::sim {
+
+double group_energy(const ContactPairState& pair_state, int group) {
+  if (!(pair_state.pressure[group] > 0)) return 0;
+  const double damping =
+      pair_state.drag.empty() ? 0 : pair_state.drag[static_cast<std::size_t>(group)].pressure;
+  return 0.5 * (pair_state.pressure[group] - damping) * std::max(0.0, pair_state.depth[group]) *
+         pair_state.measure[group];
+}
 
 ContactSides sides_of(const Model& model, const ContactModel& pair) {
   const Collider& a = *model.bodies[static_cast<std::size_t>(pair.a)].collider;
@@ -58,6 +68,18 @@ PatchSum energy_sum(const ContactPairState& pair_state, const ContactPairState::
     sum.m[i] -= p[i] * p[i] / (2 * pair_state.stiffness(group)) * pair_state.measure_slope(group);
   }
   return sum;
+}
+
+double stored_energy(const ContactPairState& pair_state, const Eigen::Matrix3Xi& groups) {
+  double energy = 0;
+  if (!(pair_state.point_stiffness > 0)) {
+    for (const int group : pair_state.groups) energy += group_energy(pair_state, group);
+    return energy;
+  }
+  for (const ContactPairState::Patch& entry : pair_state.patches())
+    if (carries(pair_state, entry.triangle, groups))
+      energy += value(entry.patch, point_energy(entry.patch, pair_state.point_stiffness));
+  return energy;
 }
 
 namespace {

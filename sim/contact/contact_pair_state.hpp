@@ -61,6 +61,9 @@ struct ContactPairState {
   Positions friction_dual;      // g by smoothing group, see contact_friction.hpp; empty: none
 };
 
+/// What a pair stores around a group where depths are averaged [J].
+double group_energy(const ContactPairState& pair_state, int group);
+
 /// The side whose triangles look for faces, and the side whose faces they meet.
 struct ContactSides {
   const Collider& triangles;
@@ -92,6 +95,9 @@ PatchSum energy_sum(const ContactPairState& pair_state, const ContactPairState::
 /// The same with the pressure of damping.
 PatchSum pressure_sum(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
                       const Eigen::Matrix3Xi& groups);
+
+/// What a pair stores in all [J].
+double stored_energy(const ContactPairState& pair_state, const Eigen::Matrix3Xi& groups);
 
 /// Forces on a patch's six nodes [N].
 Vec18 forces_on_nodes(const ContactPairState& pair_state, const ContactPairState::Patch& entry,

@@ -232,6 +232,24 @@ ContactDepths ContactResponse::point_depths() const {
   return deepest;
 }
 
+ContactDepths ContactResponse::node_depths() const {
+  ContactDepths deepest;
+  for (const ContactPairState* pair_state : near_) {
+    double depth = 0;
+    for (const int group : pair_state->groups)
+      if (pair_state->pressure[group] > 0) depth = std::max(depth, pair_state->depth[group]);
+    deepest.add(pair_state->contact, depth);
+  }
+  return deepest;
+}
+
+double ContactResponse::stored_energy() const {
+  double energy = 0;
+  for (const ContactPairState* pair_state : near_)
+    energy += sim::stored_energy(*pair_state, sides_of(model_, *pair_state).triangles.groups);
+  return energy;
+}
+
 double ContactResponse::largest_force() const {
   double largest = 0;
   for (const ContactPairState* pair_state : near_)

@@ -103,6 +103,9 @@ class ContactResponse {
   /// How far any point of one body is behind a face of the other [m], whether or not the mean
   /// around a node is.
   ContactDepths point_depths() const;
+  /// Of each contact, the largest mean depth around a node that presses [m].
+  ContactDepths node_depths() const;
+  double stored_energy() const;  // [J]
   /// On one node [N]: what a residual is small against.
   double largest_force() const;
   /// By body [N]: the sizes of the forces from others, one a pair and side, of the last

@@ -1,6 +1,7 @@
 #include "sim/contact/contact_stencils.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace articular::sim {
@@ -19,10 +20,24 @@ void find_blocks(const Model& model, const Collider& collider, int face, std::ve
   sort_unique(blocks);
 }
 
+bool has(const fem::BlockMatrix& A, int row, std::span<const int> columns) {
+  const auto known =
+      A.column().subspan(static_cast<std::size_t>(A.row_begin()[static_cast<std::size_t>(row)]),
+                         static_cast<std::size_t>(A.row_begin()[static_cast<std::size_t>(row) + 1] -
+                                                  A.row_begin()[static_cast<std::size_t>(row)]));
+  return std::includes(known.begin(), known.end(), columns.begin(), columns.end());
+}
+
+/// @param columns  in ascending order
 bool lacks(const fem::BlockMatrix& A, std::span<const int> rows, std::span<const int> columns) {
-  return std::any_of(rows.begin(), rows.end(), [&](int i) {
-    return std::any_of(columns.begin(), columns.end(), [&](int j) { return A.slot(i, j) < 0; });
-  });
+  return std::any_of(rows.begin(), rows.end(), [&](int i) { return !has(A, i, columns); });
+}
+
+/// Any pair of these. @param blocks  in ascending order
+bool lacks(const fem::BlockMatrix& A, std::span<const int> blocks) {
+  for (std::size_t k = 0; k < blocks.size(); ++k)  // the pattern is symmetric
+    if (!has(A, blocks[k], blocks.subspan(k))) return true;
+  return false;
 }
 
 /// Pointwise, a candidate couples the triangle with the face; each is coupled in itself as part of
@@ -64,14 +79,18 @@ bool lacks_average(const Model& model, const ContactPairState& pair_state,
     return blocks[static_cast<std::size_t>(a)];
   };
   for (const int a : pair_state.groups) of_group(a).clear();
-  for (const ContactPairState::Patch& entry : pair_state.patches())
+  int last = -1;  // the patches of a triangle lie side by side
+  for (const ContactPairState::Patch& entry : pair_state.patches()) {
+    const auto nodes = nodes_of(side.triangles, side.faces, entry.triangle, entry.face);
+    const std::size_t first = std::exchange(last, entry.triangle) == entry.triangle ? 3 : 0;
     for (const int a : side.triangles.groups.col(entry.triangle))
       if (pair_state.pressure[a] > 0 || pair_state.presses_in_matrix(a))
-        for (const NodeRef* node : nodes_of(side.triangles, side.faces, entry.triangle, entry.face))
-          append_blocks(model, *node, of_group(a));
+        for (std::size_t k = first; k < nodes.size(); ++k)
+          append_blocks(model, *nodes[k], of_group(a));
+  }
   return std::any_of(pair_state.groups.begin(), pair_state.groups.end(), [&](int a) {
     sort_unique(of_group(a));
-    return lacks(A, of_group(a), of_group(a));
+    return lacks(A, of_group(a));
   });
 }
 
@@ -87,7 +106,7 @@ void append_missing_averages(const Model& model, const CandidateList& list,
   for (std::vector<int>& blocks : blocks_of_group) {
     if (blocks.empty()) continue;
     sort_unique(blocks);
-    if (!lacks(A, blocks, blocks)) continue;
+    if (!lacks(A, blocks)) continue;
     stencils.blocks.insert(stencils.blocks.end(), blocks.begin(), blocks.end());
     stencils.close();
   }

@@ -62,13 +62,8 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
       if (!(pair_state.pressure[group] > 0)) continue;
       if (!(area[i] > 0)) continue;
       sum.area += area[i] * share;
-      if (!(pair_state.point_stiffness > 0)) {  // of the group's energy its part by area
-        const double damping =
-            pair_state.drag.empty() ? 0 : pair_state.drag[static_cast<std::size_t>(group)].pressure;
-        sum.energy += 0.5 * (pair_state.pressure[group] - damping) *
-                      std::max(0.0, pair_state.depth[group]) * pair_state.measure[group] * area[i] /
-                      pair_state.area[group];
-      }
+      if (!(pair_state.point_stiffness > 0))  // of the group's energy its part by area
+        sum.energy += group_energy(pair_state, group) * area[i] / pair_state.area[group];
       if (pair_state.depth[group] > sum.max_depth) {
         sum.max_depth = pair_state.depth[group];
         sum.deepest = x.col(i);

@@ -58,6 +58,7 @@ struct ResolvedOverlap {
 struct OverlapResolution {
   std::vector<ResolvedOverlap> overlaps;
   int solutions = 0;          // equilibria
+  int iterations = 0;         // Newton's, in all of them
   double largest_motion = 0;  // [m] of a node
 };
 

@@ -17,22 +17,36 @@ void append_blocks(const Model& model, const NodeRef& node, std::vector<int>& bl
   if (node.rigid >= 0) blocks.push_back(node.block + 1);
 }
 
+NodePairSlots slots_of(const Model& model, const NodeRef& i, const NodeRef& j,
+                       const fem::BlockMatrix& A) {
+  NodePairSlots slots;
+  if (!is_unknown(model, i) || !is_unknown(model, j)) return slots;
+  slots.own = A.slot(i.block, j.block);
+  if (j.rigid >= 0) slots.to_turn_j = A.slot(i.block, j.block + 1);
+  if (i.rigid >= 0) slots.to_turn_i = A.slot(i.block + 1, j.block);
+  if (i.rigid >= 0 && j.rigid >= 0) slots.to_turn_both = A.slot(i.block + 1, j.block + 1);
+  return slots;
+}
+
+void add_stiffness(const Configuration& configuration, const NodeRef& i, const NodeRef& j,
+                   const NodePairSlots& slots, const Mat3& stiffness, fem::BlockMatrix& A) {
+  if (slots.own < 0) return;
+  // A rigid body's point moves by δp − [r]× δθ, and its force turns the rigid body by [r]× f.
+  A.block(slots.own) += stiffness;
+  Mat3 turned = Mat3::Zero();
+  if (slots.to_turn_j >= 0) {
+    turned = -stiffness * skew(configuration.lever(j));
+    A.block(slots.to_turn_j) += turned;
+  }
+  if (slots.to_turn_i < 0) return;
+  const Mat3 lever = skew(configuration.lever(i));
+  A.block(slots.to_turn_i) += lever * stiffness;
+  if (slots.to_turn_both >= 0) A.block(slots.to_turn_both) += lever * turned;
+}
+
 void add_stiffness(const Model& model, const Configuration& configuration, const NodeRef& i,
                    const NodeRef& j, const Mat3& stiffness, fem::BlockMatrix& A) {
-  if (!is_unknown(model, i) || !is_unknown(model, j)) return;
-  const auto add = [&A](int row, int column, const Mat3& K) { A.block(A.slot(row, column)) += K; };
-  // A rigid body's point moves by δp − [r]× δθ, and its force turns the rigid body by [r]× f.
-  add(i.block, j.block, stiffness);
-  Mat3 turned = Mat3::Zero();
-  if (j.rigid >= 0) {
-    turned = -stiffness * skew(configuration.lever(j));
-    add(i.block, j.block + 1, turned);
-  }
-  if (i.rigid >= 0) {
-    const Mat3 lever = skew(configuration.lever(i));
-    add(i.block + 1, j.block, lever * stiffness);
-    if (j.rigid >= 0) add(i.block + 1, j.block + 1, lever * turned);
-  }
+  add_stiffness(configuration, i, j, slots_of(model, i, j, A), stiffness, A);
 }
 
 namespace {

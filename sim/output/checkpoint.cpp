@@ -13,7 +13,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 11\n";
+constexpr char kMagic[] = "articular checkpoint 12\n";
 
 constexpr const char *kNewest = "state.bin", *kBefore = "previous.bin";
 
@@ -107,6 +107,7 @@ void each_of_checkpoint(AnyCheckpoint& checkpoint, const Visit& visit) {
   visit(state.counts);
   each_of_extrema(state.extrema, visit);
   visit(state.overlap_resolution.solutions);
+  visit(state.overlap_resolution.iterations);
   visit(state.overlap_resolution.largest_motion);
   for (auto* extent : {&checkpoint.history, &checkpoint.series, &checkpoint.convergence}) {
     visit(extent->bytes);

@@ -75,6 +75,7 @@ Json overlap_resolution(const Model& model, const OverlapResolution& resolution)
   }
   return {{"overlaps", overlaps},
           {"solutions", resolution.solutions},
+          {"newton_iterations", resolution.iterations},
           {"largest_motion_m", resolution.largest_motion}};
 }
 
@@ -132,6 +133,7 @@ std::string summary_json(const Scenario& scenario, const Model& model, const Sta
       {"energy", energy(state, stepper.stored_energy())},
       {"wall_time_s",
        {{"total", wall.total},
+        {"overlap_resolution", wall.overlap_resolution},
         {"collision_update", phases.collision_update},
         {"collision_traversal", phases.collision_traversal},
         {"collision_narrow", phases.collision_narrow},

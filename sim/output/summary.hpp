@@ -10,7 +10,7 @@
 namespace articular::sim {
 
 struct WallTimes {
-  double total = 0, output = 0;  // [s]
+  double total = 0, overlap_resolution = 0, output = 0;  // [s]
 };
 
 /// summary.json: settings, sizes, counts, wall time by phase, energy balance, memory, versions.

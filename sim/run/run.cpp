@@ -38,8 +38,7 @@ class Run {
     RunOutcome outcome = RunOutcome::Finished;
     std::string how = "finished";
     const auto finish = [&] {
-      WallTimes wall;
-      wall.output = output_seconds_;
+      WallTimes wall = times_;
       wall.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       write_and_sync();
       if (options_.warn)
@@ -97,11 +96,16 @@ class Run {
     refuse_more_than_fits(estimated_output(scenario_, model_), options_.directory);
     clear_results(options_.directory, scenario_name(), options_.overwrite);
     open_tables({}, {});
-    if (course_.set_apart() && options_.after_overlap_resolution)
+    if (set_apart() && options_.after_overlap_resolution)
       options_.after_overlap_resolution(state().overlap_resolution);
     history_.record(state(), stepper());
     output_frame();
     steer();
+  }
+
+  bool set_apart() {
+    const Stopwatch watch(times_.overlap_resolution);
+    return course_.set_apart();
   }
 
   void go_on(Checkpoint from) {
@@ -143,7 +147,7 @@ class Run {
     if (course_.frame_is_due()) output_frame();
     if (history_.num_pending_bytes() > kMostPendingBytes) write_tables();
     if (course_.checkpoint_is_due()) {
-      const Stopwatch watch(output_seconds_);
+      const Stopwatch watch(times_.output);
       write_checkpoint();
       course_.restart();
     }
@@ -151,7 +155,7 @@ class Run {
   }
 
   void output_frame() {
-    const Stopwatch watch(output_seconds_);
+    const Stopwatch watch(times_.output);
     if (scenario_.output.frames) {
       write_frame(model_, stepper(), scenario_.output.contact_surfaces, state().frames, state().t,
                   writer_);
@@ -193,7 +197,7 @@ class Run {
   std::string fingerprint_;
   std::vector<InputFile> inputs_;
   std::optional<AppendFile> history_file_, convergence_file_;
-  double output_seconds_ = 0;
+  WallTimes times_;  // but for the total
 };
 
 }  // namespace

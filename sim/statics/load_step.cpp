@@ -58,8 +58,7 @@ class LoadStep {
   /// The prediction, or, where a linear one is worse, where things were. What contact follows on a
   /// round surface is curved: there it is.
   void begin(Eigen::VectorXd& y) {
-    dynamics_.evaluate(y.data(), t_before_);
-    if (contacts_.find) contacts_.find(dynamics_.now().configuration, 0);
+    find_contacts(y, t_before_, 0);
     const std::optional<Eigen::VectorXd> predicted =
         predict_load_step(model_, dynamics_, equilibrium_, t_before_, t_, y);
     if (predicted && soft_residual(*predicted) < soft_residual(y)) y = *predicted;
@@ -75,10 +74,14 @@ class LoadStep {
 
   /// Finds contacts at y, for things that will move so far [m], and evaluates there.
   void look(const Eigen::VectorXd& y, double motion, const Conditions& conditions = {}) {
+    find_contacts(y, t_, motion);
     dynamics_.evaluate(y.data(), t_, conditions);
+  }
+
+  void find_contacts(const Eigen::VectorXd& y, double t, double motion) {
     if (!contacts_.find) return;
-    contacts_.find(dynamics_.now().configuration, motion);
-    dynamics_.evaluate(y.data(), t_, conditions);
+    read_state(model_, y.data(), t, where_);
+    contacts_.find(where_, motion);
   }
 
   bool is_exhausted() const { return iterations_ >= most_iterations_; }
@@ -159,6 +162,7 @@ class LoadStep {
   int most_iterations_;
   std::vector<ConvergenceRow>& convergence_;
   double reach_;
+  Configuration where_;  // contacts are looked for
   int solution_ = 0;
   int iterations_ = 0;  // of all solutions
 };

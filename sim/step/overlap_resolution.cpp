@@ -169,6 +169,7 @@ class OverlapResolver {
     const bool solved =
         equilibrium_.solve(trial, 0, equilibrium_.largest_acceleration() / motion, conditions());
     ++resolution_.solutions;
+    resolution_.iterations += static_cast<int>(equilibrium_.iterations().size());
     if (solved) dynamics_.evaluate(trial.data(), 0, conditions());
     if (!solved || !hooks_.covered()) return PseudoStep::Failed;
     y = trial;
@@ -186,8 +187,8 @@ class OverlapResolver {
 
   /// Finds contacts at y, for things that will move so far [m], and evaluates there.
   void look(const Eigen::VectorXd& y, double motion) {
-    dynamics_.evaluate(y.data(), 0, conditions());
-    hooks_.find(dynamics_.now().configuration, motion);
+    read_state(model_, y.data(), 0, where_);
+    hooks_.find(where_, motion);
     dynamics_.evaluate(y.data(), 0, conditions());
   }
 
@@ -237,6 +238,7 @@ class OverlapResolver {
   ContactSearch search_;
   Equilibrium equilibrium_;
   ContactHooks hooks_;
+  Configuration where_;  // contacts are looked for
   double margin_;
   std::int64_t rejected_ = 0;
   ContactDepths allowances_;

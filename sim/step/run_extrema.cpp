@@ -5,7 +5,6 @@
 
 #include "sim/assembly/energies.hpp"
 #include "sim/contact/contact_search.hpp"
-#include "sim/contact/contact_summary.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
@@ -47,14 +46,14 @@ void note_extrema(const Moment& now, State& state) {
     extrema.element = element;
     extrema.squeezed_at = state.t;
   }
-  for (const ContactSummary& contact : contact_summaries(model, now.contact, now.configuration)) {
-    if (!(contact.max_depth > 0)) continue;
-    state.max_penetration = std::max(state.max_penetration, contact.max_depth);
-    const ContactModel pair = model.contacts[contact.contact];
-    const double overlap = contact.max_depth / followed_depth(model, pair);
+  const ContactDepths depths = now.contact.node_depths();
+  for (const auto& [contact, depth] : depths.all()) {
+    if (!(depth > 0)) continue;
+    state.max_penetration = std::max(state.max_penetration, depth);
+    const double overlap = depth / followed_depth(model, model.contacts[contact]);
     if (!(overlap > extrema.overlap)) continue;
     extrema.overlap = overlap;
-    extrema.contact = contact.contact;
+    extrema.contact = contact;
     extrema.overlap_at = state.t;
   }
   const double kinetic = kinetic_energy(now);

@@ -462,7 +462,7 @@ StoredEnergy Stepper::stored_energy() const {
   energy.kinetic = kinetic_energy(dynamics_->now());
   energy.elastic = elastic_energy(dynamics_->now());
   energy.gravity = gravity_energy(dynamics_->now());
-  for (const ContactSummary& contact : dynamics_->contacts()) energy.contact += contact.energy;
+  energy.contact = dynamics_->now().contact.stored_energy();
   for (const LineState& line : dynamics_->now().lines) energy.lines += line.stored;
   return energy;
 }

@@ -84,6 +84,11 @@ class ImplicitRungeKutta final : public TimeIntegrator {
 
 int ImplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
   auto& self = *static_cast<ImplicitRungeKutta*>(data);
+  // ARKODE asks for it where a step begins too. A scheme of one implicit stage does not use it.
+  if (self.scheme_ == Integrator::Scheme::ImplicitEuler && t == self.conditions_.step_start) {
+    N_VConst(0, y_dot);
+    return 0;
+  }
   return sundials::evaluate_rate(self, self.dynamics_, self.conditions_, self.counts_, self.error_,
                                  t, y, y_dot);
 }

@@ -50,7 +50,7 @@ struct SunkBlock {
   }
   double energy(const Eigen::VectorXd& state) {
     response.evaluate(at(state), search.candidates(), {});
-    return contact_summaries(model, response, configuration)[0].energy;
+    return response.stored_energy();
   }
   Eigen::VectorXd forces(const Eigen::VectorXd& state) {
     response.evaluate(at(state), search.candidates(), {});
@@ -109,6 +109,23 @@ TEST(AveragedContact, CarriesAtTheNodesOfOneSideOnly) {
   const ContactSummary sum = contact_summaries(block.model, block.response, block.configuration)[0];
   EXPECT_NEAR(sum.area, kSide * kSide, 1e-12);
   EXPECT_GT(sum.max_depth, 0.03 * kSide);
+}
+
+// What steps need of all contacts, without a summary of each.
+TEST(ContactResponse, StoresWhatTheSummariesOfItsContactsAddUpTo) {
+  for (const auto response : {Scenario::Response::Averaged, Scenario::Response::Pointwise}) {
+    Scenario s = SunkBlock::scenario({0.1, 0.07, 0.96});
+    s.analysis = Scenario::Analysis::Dynamic;  // which has both
+    s.contact_response = response;
+    SunkBlock block(s, 0.005);
+    const double energy = block.energy(block.y);
+    const ContactSummary sum =
+        contact_summaries(block.model, block.response, block.configuration)[0];
+    EXPECT_GT(energy, 0);
+    EXPECT_NEAR(energy, sum.energy, 1e-12 * energy);
+    EXPECT_GT(sum.max_depth, 0);
+    EXPECT_EQ(block.response.node_depths().of(0), sum.max_depth);
+  }
 }
 
 /// The largest difference between the forces along a way and differences of the energy, of their

@@ -61,7 +61,7 @@ State some_state() {
   s.counts.narrow_tests = 11;
   s.counts.reported_pairs = 12;
   s.counts.deep_pairs = 13;
-  s.overlap_resolution = {{{1, 0.2, 0.3}, {2, 0.4, 0.5}}, 3, 0.6};
+  s.overlap_resolution = {{{1, 0.2, 0.3}, {2, 0.4, 0.5}}, 3, 7, 0.6};
   s.extrema = {0.1, 2, 3, 0.4, 0.5, 6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2};
   s.wraps = {{{0, 7, true, 0.25}, {1, 8, false, 0.75}}, {}, {{2, 9, true, 1.0 / 3}}};
   return s;
@@ -98,6 +98,7 @@ TEST(Checkpoint, KeepsEveryNumberOfAState) {
   EXPECT_EQ(numbers(read.extrema), numbers(given.extrema));
   const OverlapResolution &found = read.overlap_resolution, &told = given.overlap_resolution;
   EXPECT_EQ(found.solutions, told.solutions);
+  EXPECT_EQ(found.iterations, told.iterations);
   EXPECT_EQ(found.largest_motion, told.largest_motion);
   ASSERT_EQ(found.overlaps.size(), told.overlaps.size());
   for (std::size_t k = 0; k < told.overlaps.size(); ++k) {

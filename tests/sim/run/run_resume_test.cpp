@@ -370,6 +370,9 @@ TEST_F(RunTest, SettlingIsToldAndKeptByCheckpoints) {
   EXPECT_NEAR(whole["overlaps"][0]["before_m"], 0.9e-3, 1e-9);
   EXPECT_LT(whole["overlaps"][0]["after_m"], 0.05e-3);
   EXPECT_NEAR(whole["largest_motion_m"], 0.9e-3, 0.1e-3);
+  EXPECT_GE(whole["newton_iterations"], whole["solutions"]);
+  const auto times = nlohmann::json::parse(content(out("whole") / "summary.json"))["wall_time_s"];
+  EXPECT_GT(times["overlap_resolution"], 0);
   // The overlap that there was is no penetration of the run.
   EXPECT_LT(nlohmann::json::parse(content(out("whole") / "summary.json"))["max_penetration_m"],
             0.2e-3);
