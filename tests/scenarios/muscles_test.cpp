@@ -41,7 +41,7 @@ TEST(MasseterOfTissue, PullsBothBonesTogetherAlongTheLines) {
 
 double volume(const Tetrahedra& tets, const Positions& x) {  // [m³]
   double sum = 0;
-  for (const Eigen::Vector4i& tet : tets.colwise()) {
+  for (const auto& tet : tets.colwise()) {
     const Vec3 x0 = x.col(tet(0)), a = x.col(tet(1)) - x0, b = x.col(tet(2)) - x0,
                c = x.col(tet(3)) - x0;
     sum += a.cross(b).dot(c) / 6;
