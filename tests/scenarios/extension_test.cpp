@@ -46,9 +46,10 @@ const ScenarioResults& right_knee() {
 
 Vec3 vector_at(const ScenarioResults& results, const std::string& name, const std::string& unit,
                double time) {
-  Vec3 v;
-  for (int i = 0; i < 3; ++i) v(i) = results.at(name + "." + "xyz"[i] + " [" + unit + "]", time);
-  return v;
+  const auto at = [&](const char* axis) {
+    return results.at(name + axis + " [" + unit + "]", time);
+  };
+  return {at(".x"), at(".y"), at(".z")};
 }
 
 struct PulledPoint {
@@ -98,7 +99,7 @@ double tendon_ratio(const ScenarioResults& knee, double time) {
 // more and more from there.
 TEST(KneeExtension, TheTendonPullsAboutAsTheQuadricepsNearExtensionAndLessWithFlexion) {
   EXPECT_NEAR(tendon_ratio(right_knee(), 3), 1 / 0.86, 0.2);
-  for (double time = 2; time < 7; ++time)
+  for (const int time : {2, 3, 4, 5, 6})
     EXPECT_GT(tendon_ratio(right_knee(), time), tendon_ratio(right_knee(), time + 1)) << time;
 }
 
@@ -107,7 +108,7 @@ TEST(KneeExtension, ThePatellaStaysInItsGrooveAndFlexesLessThanTheKnee) {
   EXPECT_NEAR(knee.last("knee.flexion [deg]"), 30, 1e-6);
   EXPECT_GT(knee.last("patella.flexion [deg]"), 10);
   EXPECT_LT(knee.last("patella.flexion [deg]"), 30);
-  for (double time = 1; time <= 7; ++time) {
+  for (const int time : {1, 2, 3, 4, 5, 6, 7}) {
     EXPECT_LT(std::abs(knee.at("patella.lateral [mm]", time)), 5) << time;
     EXPECT_LT(std::abs(knee.at("patella.internal_rotation [deg]", time)), 10) << time;
   }

@@ -90,6 +90,7 @@ TEST_P(MuscleSize, EndsSitOnTheirBoneAndNothingElseIsNear) {
 TEST_P(MuscleSize, MusclesDoNotOverlap) {
   const std::vector<MuscleShape> shapes = closing_muscles();
   std::vector<Mesh> meshes;
+  meshes.reserve(shapes.size());
   for (const MuscleShape& shape : shapes) meshes.push_back(muscle_mesh(shape, GetParam()));
   for (std::size_t a = 0; a < meshes.size(); ++a) {
     SurfaceDistance to(meshes[a].X_mm, boundary(meshes[a].tets));
