@@ -35,6 +35,7 @@ double active_stress(const AnyMaterial& material) {
       },
       material);
 }
+
 std::optional<MuscleFibre> muscle_fibre(const AnyMaterial& material) {
   return std::visit(
       []<class M>(const M& m) -> std::optional<MuscleFibre> {

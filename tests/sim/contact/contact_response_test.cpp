@@ -111,13 +111,18 @@ TEST(AveragedContact, CarriesAtTheNodesOfOneSideOnly) {
   EXPECT_GT(sum.max_depth, 0.03 * kSide);
 }
 
+/// In time, as statics has one response only.
+Scenario in_time(Scenario::Response response) {
+  Scenario s = SunkBlock::scenario({0.1, 0.07, 0.96});
+  s.analysis = Scenario::Analysis::Dynamic;
+  s.contact_response = response;
+  return s;
+}
+
 // What steps need of all contacts, without a summary of each.
 TEST(ContactResponse, StoresWhatTheSummariesOfItsContactsAddUpTo) {
   for (const auto response : {Scenario::Response::Averaged, Scenario::Response::Pointwise}) {
-    Scenario s = SunkBlock::scenario({0.1, 0.07, 0.96});
-    s.analysis = Scenario::Analysis::Dynamic;  // which has both
-    s.contact_response = response;
-    SunkBlock block(s, 0.005);
+    SunkBlock block(in_time(response), 0.005);
     const double energy = block.energy(block.y);
     const ContactSummary sum =
         contact_summaries(block.model, block.response, block.configuration)[0];
@@ -193,10 +198,7 @@ TEST(AveragedContact, TheTangentIsTheDerivativeOfTheForces) {
 // Just those pairs of blocks are needed that the tangent has a stiffness between.
 TEST(ContactStencils, AreLackedWhereAForceCouplesWhatThePatternDoesNot) {
   for (const auto response : {Scenario::Response::Averaged, Scenario::Response::Pointwise}) {
-    Scenario s = SunkBlock::scenario({0.1, 0.07, 0.96});
-    s.analysis = Scenario::Analysis::Dynamic;  // which has both
-    s.contact_response = response;
-    SunkBlock block(s, 0.005);
+    SunkBlock block(in_time(response), 0.005);
     const fem::BlockMatrix K = tangent_of(block);
     std::vector<std::array<int, 2>> needed;
     for (int i = 0; i < K.num_blocks(); ++i)
