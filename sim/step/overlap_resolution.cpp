@@ -22,8 +22,12 @@ constexpr double kRoundOff = 1e-9;
 constexpr double kFlush = 1e-6;
 /// Solutions in pseudo-time for one step.
 constexpr int kMostEquilibria = 50;
-/// Of the largest force, what is left unbalanced where tissue is held between bodies.
-constexpr double kMostUnbalanced = 1e-3;
+/// Of the largest force, what is left unbalanced where tissue is held between bodies. In time it
+/// sets things in motion. Statics balance it with the loads, without which what only contact holds
+/// has hardly a stiffness, so that the last bit takes most iterations.
+double most_unbalanced(const Scenario& scenario) {
+  return scenario.analysis == Scenario::Analysis::Static ? 1e-2 : 1e-3;
+}
 
 /// Without velocities and activation: dampers and muscles rest.
 Eigen::VectorXd at_rest(const Model& model, const Eigen::VectorXd& y) {
@@ -78,12 +82,14 @@ void refuse_lost_bodies(const Model& model, const ContactDepths& seen) {
 
 class OverlapResolver {
  public:
-  OverlapResolver(const Model& model, const StepSettings& settings, const IterationWatch& watch)
+  /// @param model  of the scenario, perhaps with_pointwise_contact()
+  OverlapResolver(const Scenario& scenario, const Model& model, const IterationWatch& watch = {})
       : model_(model),
         dynamics_(model),
-        search_(model, settings),
-        equilibrium_(model, dynamics_, settings),
-        margin_(model.detection_margin) {
+        search_(model, step_settings(scenario)),
+        equilibrium_(model, dynamics_, step_settings(scenario)),
+        margin_(model.detection_margin),
+        most_unbalanced_(most_unbalanced(scenario)) {
     equilibrium_.set_watch(watch);
     hooks_ = contact_hooks(model, search_, dynamics_, margin_, rejected_);
   }
@@ -182,7 +188,7 @@ class OverlapResolver {
         std::all_of(contacts.begin(), contacts.end(), [this](const ContactSummary& contact) {
           return contact.max_point_depth <= kept_depth(model_, model_.contacts[contact.contact]);
         });
-    return apart || equilibrium_.is_balanced(kMostUnbalanced);
+    return apart || equilibrium_.is_balanced(most_unbalanced_);
   }
 
   /// Finds contacts at y, for things that will move so far [m], and evaluates there.
@@ -239,7 +245,7 @@ class OverlapResolver {
   Equilibrium equilibrium_;
   ContactHooks hooks_;
   Configuration where_;  // contacts are looked for
-  double margin_;
+  double margin_, most_unbalanced_;
   std::int64_t rejected_ = 0;
   ContactDepths allowances_;
   OverlapResolution resolution_;
@@ -250,20 +256,19 @@ class OverlapResolver {
 std::vector<OverlapAtStart> overlaps_at_start(const Scenario& scenario, const Model& model,
                                               const Eigen::VectorXd& y) {
   if (model.contacts.empty()) return {};
-  return OverlapResolver(model, step_settings(scenario), {}).at_start(y);
+  return OverlapResolver(scenario, model).at_start(y);
 }
 
 OverlapResolution resolve_overlaps(const Scenario& scenario, const Model& model, Eigen::VectorXd& y,
                                    const IterationWatch& watch) {
   if (model.contacts.empty() || y.size() == 0) return {};
-  const StepSettings settings = step_settings(scenario);
-  OverlapResolver resolver(model, settings, watch);
+  OverlapResolver resolver(scenario, model, watch);
   if (resolver.overlaps(y).empty()) return {};
   if (!model.contacts.any([](const ContactModel& contact) { return contact.averaged; }))
     return resolver.resolve(y);
   // Soft pointwise contact gets bodies out of each other more easily, and edges and corners too.
   const Model pointwise = with_pointwise_contact(model, scenario);
-  return OverlapResolver(pointwise, settings, watch).resolve(y);
+  return OverlapResolver(scenario, pointwise, watch).resolve(y);
 }
 
 }  // namespace articular::sim
