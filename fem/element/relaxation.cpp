@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/base/on_columns.hpp"
 #include "fem/material/any_material.hpp"
-#include "fem/material/isochoric.hpp"
 #include "fem/material/material.hpp"
 #include "fem/material/point_law.hpp"
 

@@ -63,11 +63,18 @@ class Reinforced {
            density_ * law_.tension(stretch(F), activation_) * stretch_gradient(F);
   }
   Mat9 tangent(const Mat3& F) const {
-    const Jet stretch = stretch_jet(F);
-    return ground_.tangent(F) + composed(stretch, 0,
-                                         density_ * law_.tension(stretch.value, activation_),
-                                         density_ * law_.stiffness(stretch.value, activation_))
-                                    .hessian;
+    const Invariants I(F, a0_);
+    InvariantSlopes energy;
+    add_slopes(I, energy);
+    return fem::tangent(I, energy);
+  }
+  /// @param I  of the same fibre
+  void add_slopes(const Invariants& I, InvariantSlopes& energy) const {
+    ground_.add_slopes(I, energy);
+    const IsochoricInvariant stretch =
+        Law::kFeelsVolume ? IsochoricInvariant(I, kI4, 0.5, 0) : isochoric_stretch(I);
+    energy.add(stretch.slopes, density_ * law_.tension(stretch.value, activation_),
+               density_ * law_.stiffness(stretch.value, activation_));
   }
 
  private:
@@ -77,9 +84,6 @@ class Reinforced {
   Mat3 stretch_gradient(const Mat3& F) const {
     return Law::kFeelsVolume ? fibre_stretch_gradient(F, a0_)
                              : isochoric_fibre_stretch_gradient(F, a0_);
-  }
-  Jet stretch_jet(const Mat3& F) const {
-    return Law::kFeelsVolume ? fibre_stretch_jet(F, a0_) : isochoric_fibre_stretch_jet(F, a0_);
   }
 
   Ground ground_;

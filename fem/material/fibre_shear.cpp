@@ -46,22 +46,40 @@ Mat3 FibreShear::first_piola(const Mat3& F) const {
          2 * c10_ * std::pow(J, -2.0 / 3) * (F - I1 / 3 * dJ_J);
 }
 
-Mat9 FibreShear::tangent(const Mat3& F) const {
-  const Jet I1 = first_invariant(F), I4 = fourth_invariant(F, a0_), I5 = fifth_invariant(F, a0_);
-  Jet numerator = product(I1, I4);
-  numerator.value -= I5.value;
-  numerator.gradient -= I5.gradient;
-  numerator.hessian -= I5.hessian;
-  const Jet cosh_B2 = times_power_of_volume(product(numerator, power(I4, -0.5, 0.5)), -1, F);
-  const auto [value, first, second] = squared_acosh(cosh_B2.value);
-  return G1_ * product(I5, power(I4, -2, 1)).hessian +
-         G2_ * composed(cosh_B2, value, first, second).hessian +
-         c10_ * first_isochoric_invariant(F).hessian;
+// y = cosh B2 = (I1 I4 − I5) s with s = 1/(2 J √I4).
+void FibreShear::add_slopes(const Invariants& I, InvariantSlopes& energy) const {
+  const double I1 = I[kI1], I4 = I[kI4], I5 = I[kI5], J = I[kJ];
+  InvariantSlopes along;
+  along.first[kI4] = -2 * I5 / (I4 * I4 * I4);
+  along.first[kI5] = 1 / (I4 * I4);
+  along.second(kI4, kI4) = 6 * I5 / (I4 * I4 * I4 * I4);
+  along.second(kI4, kI5) = along.second(kI5, kI4) = -2 / (I4 * I4 * I4);
+  energy.add(along, G1_, 0);
+
+  const double s = 0.5 / (J * std::sqrt(I4)), y = (I1 * I4 - I5) * s;
+  InvariantSlopes across;
+  auto& [first, second] = across;
+  first[kI1] = I4 * s;
+  first[kI4] = I1 * s - y / (2 * I4);
+  first[kI5] = -s;
+  first[kJ] = -y / J;
+  second(kI1, kI4) = s / 2;
+  second(kI4, kI4) = (0.75 * y / I4 - I1 * s) / I4;
+  second(kI4, kI5) = s / (2 * I4);
+  second(kJ, kJ) = 2 * y / (J * J);
+  for (const Invariant i : {kI1, kI4, kI5}) second(i, kJ) = -first[i] / J;
+  second.triangularView<Eigen::StrictlyLower>() = second.transpose();
+  const std::array<double, 3> B2_squared = squared_acosh(y);
+  energy.add(across, G2_ * B2_squared[1], G2_ * B2_squared[2]);
+
+  if (c10_ != 0) energy.add(first_isochoric_invariant(I).slopes, c10_, 0);
 }
 
-Jet FibreShear::power(const Jet& I, double p, double scale) {
-  const double value = scale * std::pow(I.value, p);
-  return composed(I, value, p * value / I.value, p * (p - 1) * value / (I.value * I.value));
+Mat9 FibreShear::tangent(const Mat3& F) const {
+  const Invariants I(F, a0_);
+  InvariantSlopes energy;
+  add_slopes(I, energy);
+  return fem::tangent(I, energy);
 }
 
 }  // namespace articular::fem

@@ -38,11 +38,10 @@ class FibreShear {
   double energy_density(const Mat3& F) const;
   Mat3 first_piola(const Mat3& F) const;
   Mat9 tangent(const Mat3& F) const;
+  /// @param I  of the same fibre
+  void add_slopes(const Invariants& I, InvariantSlopes& energy) const;
 
  private:
-  /// scale I^p
-  static Jet power(const Jet& I, double p, double scale);
-
   double G1_, G2_, c10_;  // [Pa]
   Vec3 a0_;
 };

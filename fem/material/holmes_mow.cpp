@@ -7,7 +7,7 @@
 
 #include "fem/base/cofactor.hpp"
 #include "fem/material/bounded_exponential.hpp"
-#include "fem/material/isochoric.hpp"
+#include "fem/material/invariants.hpp"
 
 namespace articular::fem {
 
@@ -47,12 +47,19 @@ Mat3 HolmesMow::first_piola(const Mat3& F) const {
 }
 
 Mat9 HolmesMow::tangent(const Mat3& F) const {
-  const double Q = exponent(F), slope = half_c_ * bounded_exponential::slope(Q);
-  const Vec9 dQ = exponent_gradient(F).reshaped(), d_log = LogVolumeChange::gradient(F).reshaped();
-  const double of_log = -2 * beta_ * slope - without_ * LogVolumeChange::value(F);
-  return slope * (2 * of_I1_ * Mat9::Identity() + of_I2_ * second_invariant(F).hessian) +
-         half_c_ * bounded_exponential::curvature(Q) * dQ * dQ.transpose() +
-         of_log * LogVolumeChange::hessian(F) - without_ * d_log * d_log.transpose();
+  const Invariants I(F);
+  const double J = I[kJ], log_J = std::log(J);
+  InvariantSlopes Q, energy;
+  Q.first[kI1] = of_I1_;
+  Q.first[kI2] = of_I2_;
+  Q.first[kJ] = -2 * beta_ / J;
+  Q.second(kJ, kJ) = 2 * beta_ / (J * J);
+  const double at = exponent(F);
+  energy.add(Q, half_c_ * bounded_exponential::slope(at),
+             half_c_ * bounded_exponential::curvature(at));
+  energy.first[kJ] -= without_ * log_J / J;
+  energy.second(kJ, kJ) -= without_ * (1 - log_J) / (J * J);
+  return fem::tangent(I, energy);
 }
 
 }  // namespace articular::fem

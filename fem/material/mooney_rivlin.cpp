@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fem/base/cofactor.hpp"
-#include "fem/material/isochoric.hpp"
+#include "fem/material/invariants.hpp"
 
 namespace articular::fem {
 
@@ -26,10 +26,16 @@ Mat3 IsochoricMooneyRivlin::first_piola(const Mat3& F) const {
   return P;
 }
 
+void IsochoricMooneyRivlin::add_slopes(const Invariants& I, InvariantSlopes& energy) const {
+  energy.add(first_isochoric_invariant(I).slopes, c10_, 0);
+  if (c01_ != 0) energy.add(second_isochoric_invariant(I).slopes, c01_, 0);
+}
+
 Mat9 IsochoricMooneyRivlin::tangent(const Mat3& F) const {
-  Mat9 result = c10_ * first_isochoric_invariant(F).hessian;
-  if (c01_ != 0) result += c01_ * second_isochoric_invariant(F).hessian;
-  return result;
+  const Invariants I(F);
+  InvariantSlopes energy;
+  add_slopes(I, energy);
+  return fem::tangent(I, energy);
 }
 
 }  // namespace articular::fem

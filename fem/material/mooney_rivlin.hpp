@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem/material/batch_law.hpp"
+#include "fem/material/invariants.hpp"
 #include "fem/material/split_material.hpp"
 
 namespace articular::fem {
@@ -22,6 +23,7 @@ class IsochoricMooneyRivlin {
   double energy_density(const Mat3& F) const;
   Mat3 first_piola(const Mat3& F) const;
   Mat9 tangent(const Mat3& F) const;
+  void add_slopes(const Invariants& I, InvariantSlopes& energy) const;
 
   SplitBatchLaw split_batch_law() const {
     return {.distortion = SplitBatchLaw::Distortion::Polynomial, .c = {c10_, 0, c01_}};

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <limits>
 
-#include "fem/material/isochoric.hpp"
+#include "fem/base/on_columns.hpp"
 
 namespace articular::fem {
 namespace {

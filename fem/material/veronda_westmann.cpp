@@ -5,7 +5,7 @@
 
 #include "fem/base/cofactor.hpp"
 #include "fem/material/bounded_exponential.hpp"
-#include "fem/material/isochoric.hpp"
+#include "fem/material/invariants.hpp"
 
 namespace articular::fem {
 
@@ -27,13 +27,14 @@ Mat3 IsochoricVerondaWestmann::first_piola(const Mat3& F) const {
 }
 
 Mat9 IsochoricVerondaWestmann::tangent(const Mat3& F) const {
-  const Jet I1 = first_isochoric_invariant(F);
-  const double x = c2_ * (I1.value - 3);
-  const double slope = bounded_exponential::slope(x);
-  const double curvature = bounded_exponential::curvature(x);
-  return c1_ * c2_ *
-         (composed(I1, 0, slope, c2_ * curvature).hessian -
-          0.5 * second_isochoric_invariant(F).hessian);
+  const Invariants I(F);
+  const IsochoricInvariant I1 = first_isochoric_invariant(I);
+  const double x = c2_ * (I1.value - 3), c = c1_ * c2_;
+  InvariantSlopes energy;
+  energy.add(I1.slopes, c * bounded_exponential::slope(x),
+             c * c2_ * bounded_exponential::curvature(x));
+  energy.add(second_isochoric_invariant(I).slopes, -0.5 * c, 0);
+  return fem::tangent(I, energy);
 }
 
 }  // namespace articular::fem

@@ -1,6 +1,6 @@
 #include "fem/material/viscosity.hpp"
 
-#include "fem/material/isochoric.hpp"
+#include "fem/base/on_columns.hpp"
 
 namespace articular::fem {
 

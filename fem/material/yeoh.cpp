@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fem/base/cofactor.hpp"
-#include "fem/material/isochoric.hpp"
+#include "fem/material/invariants.hpp"
 
 namespace articular::fem {
 
@@ -20,8 +20,11 @@ Mat3 IsochoricYeoh::first_piola(const Mat3& F) const {
 }
 
 Mat9 IsochoricYeoh::tangent(const Mat3& F) const {
-  const Jet I1 = first_isochoric_invariant(F);
-  return composed(I1, 0, c10_ + 2 * c20_ * (I1.value - 3), 2 * c20_).hessian;
+  const Invariants I(F);
+  const IsochoricInvariant I1 = first_isochoric_invariant(I);
+  InvariantSlopes energy;
+  energy.add(I1.slopes, c10_ + 2 * c20_ * (I1.value - 3), 2 * c20_);
+  return fem::tangent(I, energy);
 }
 
 }  // namespace articular::fem

@@ -9,6 +9,7 @@
 #include "fem/element/elasticity.hpp"
 #include "fem/material/any_material.hpp"
 #include "tests/fem/support/central_difference.hpp"
+#include "tests/fem/support/laws.hpp"
 
 // Stresses of homogeneous states against closed forms. States of J = 1 have an exact one with any
 // bulk modulus: the pressure that the volumetric energy does not give there drops out of the

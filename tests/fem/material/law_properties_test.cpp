@@ -162,11 +162,11 @@ TEST_P(LawTest, DistortionAndDilatationAddUpToTheLaw) {
   const double kappa = example.bulk_modulus;
   for (const Mat3& F : gradients()) {
     const Jet law = example.law(F, 0.7), theta = example.dilatation(F);
-    Jet sum = composed(theta, 0.5 * kappa * theta.value * theta.value, kappa * theta.value, kappa);
-    const Jet distortion = example.distortion(F, 0.7);
-    sum.value += distortion.value;
-    sum.gradient += distortion.gradient;
-    sum.hessian += distortion.hessian;
+    const Vec9 of_theta = theta.gradient.reshaped();
+    Jet sum = example.distortion(F, 0.7);
+    sum.value += 0.5 * kappa * theta.value * theta.value;
+    sum.gradient += kappa * theta.value * theta.gradient;
+    sum.hessian += kappa * (theta.value * theta.hessian + of_theta * of_theta.transpose());
     EXPECT_NEAR(law.value, sum.value, kIdentity * (kappa + std::abs(law.value)));
     EXPECT_LT((law.gradient - sum.gradient).norm(), kIdentity * (kappa + law.gradient.norm()));
     EXPECT_LT((law.hessian - sum.hessian).norm(), kIdentity * (kappa + law.hessian.norm()));

@@ -7,7 +7,6 @@
 
 #include "fem/element/elasticity.hpp"
 #include "fem/material/any_material.hpp"
-#include "fem/material/isochoric.hpp"
 
 /// One example of every law of the simulator, for the tests of properties that all have.
 namespace articular::fem {
@@ -22,6 +21,13 @@ struct Promise {
   bool inverted = false;          // has numbers for J <= 0
   double least_stretch = 0;       // no number where a principal stretch is this or less
   bool one_shear_modulus = true;  // at rest, in all directions
+};
+
+/// A function of F with its first two derivatives.
+struct Jet {
+  double value;
+  Mat3 gradient;  // ∂/∂F
+  Mat9 hessian;   // ∂²/∂vec(F)²
 };
 
 /// Ψ, P and ∂P/∂F at F and an activation. Erased types: what tests them compiles once.
