@@ -20,10 +20,10 @@
 #include <malloc.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -60,6 +60,23 @@ std::vector<std::string> words_of(const std::string& list) {
   return words;
 }
 
+double number_of(const std::string& option, const std::string& value) {
+  char* end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  if (value.empty() || *end != '\0' || !(number >= 0))
+    throw std::invalid_argument(option + ": expected a number of 0 or more, got `" + value + "`");
+  return number;
+}
+
+fem::SolverKind kind_of(const std::string& name, bool with_pressures) {
+  if (name == "cholesky")
+    return with_pressures ? fem::SolverKind::SaddlePoint : fem::SolverKind::Cholesky;
+  if (name == "conjugate-gradients") return fem::SolverKind::ConjugateGradients;
+  if (name == "multigrid") return fem::SolverKind::Multigrid;
+  throw std::invalid_argument(
+      "--solvers: expected cholesky, conjugate-gradients or multigrid, got `" + name + "`");
+}
+
 Arguments read_arguments(int argc, char** argv) {
   Arguments given;
   for (int i = 1; i < argc; ++i) {
@@ -77,14 +94,15 @@ Arguments read_arguments(int argc, char** argv) {
     else if (word == "--solvers")
       given.solvers = words_of(value);
     else if (word == "--steps")
-      given.steps = std::stoi(value);
+      given.steps = static_cast<int>(number_of(word, value));
     else if (word == "--runs")
-      given.runs = std::stoi(value);
+      given.runs = static_cast<int>(std::max(1.0, number_of(word, value)));
     else if (word == "--tolerance")
-      given.tolerance = std::stod(value);
+      given.tolerance = number_of(word, value);
     else
       throw std::invalid_argument("unknown option " + word);
   }
+  for (const std::string& name : given.solvers) kind_of(name, false);
   if (given.scenario.empty()) throw std::invalid_argument("a scenario is missing");
   return given;
 }
@@ -93,14 +111,6 @@ double peak_megabytes() {
   rusage usage;
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-fem::SolverKind kind_of(const std::string& name, bool with_pressures) {
-  if (name == "cholesky")
-    return with_pressures ? fem::SolverKind::SaddlePoint : fem::SolverKind::Cholesky;
-  if (name == "conjugate-gradients") return fem::SolverKind::ConjugateGradients;
-  if (name == "multigrid") return fem::SolverKind::Multigrid;
-  throw std::invalid_argument("unknown solver " + name);
 }
 
 ordered_json solve_by(fem::SolverKind kind, const FirstCorrection& correction,
