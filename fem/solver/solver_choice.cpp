@@ -27,6 +27,11 @@ constexpr int kStartFrom = 5;  // solutions
 // or there is none, contact may take multigrid a hundred iterations (the knee at 1000 N), and a
 // factorization never does.
 constexpr int kMostFactoredInContact = 2'500, kMostFactoredAtRest = 6'000;
+// Factors of layers of so few elements between bones that move, as in a knee, grow with n^1.4 only
+// (sim/RESULTS.md, one large knee). An iteration of Newton takes a third of the time with them that
+// it takes with multigrid at 11,000 blocks, and as long at 34,000.
+constexpr double kThin = 6;
+constexpr int kMostFactoredThin = 40'000;
 // Tissue that contact holds all over takes block Jacobi some hundred iterations, but for that of
 // higher Poisson's ratios. Along it they grow with the elements, as do the columns of a factor,
 // each of which costs the square of the blocks across: from such ratios on iterations cost less.
@@ -85,6 +90,12 @@ double near_in_contact(const SolverProblem& problem) {
   return !problem.in_time && problem.num_blocks < kFewAndFar ? 0 : kNearInContact;
 }
 
+int most_factored_in_contact(const SolverProblem& problem, bool short_steps) {
+  if (short_steps) return kMostFactoredInContact;
+  const bool is_thin = !problem.in_time && !is_held(problem) && problem.thickness <= kThin;
+  return is_thin ? kMostFactoredThin : kMostFactoredAtRest;
+}
+
 SolverChoice choose_with_contact(const SolverProblem& problem) {
   if (!problem.has_friction && is_held_within(near_in_contact(problem), problem)) {
     return {
@@ -98,9 +109,11 @@ SolverChoice choose_with_contact(const SolverProblem& problem) {
             "contact changes the matrix and holds the tissue all over: nothing needs to be set up"};
   }
   const bool short_steps = problem.in_time && problem.elements_a_step < kShortWay;
-  if (problem.num_blocks <= (short_steps ? kMostFactoredInContact : kMostFactoredAtRest)) {
+  if (problem.num_blocks <= most_factored_in_contact(problem, short_steps)) {
     return {problem.has_pressure ? SolverKind::SaddlePoint : SolverKind::Cholesky, 0,
-            "contact changes the matrix, and so few unknowns are soon factored"};
+            problem.num_blocks <= kMostFactoredAtRest
+                ? "contact changes the matrix, and so few unknowns are soon factored"
+                : "contact changes the matrix, and thin tissue is soon factored"};
   }
   if (short_steps) {
     return {SolverKind::ConjugateGradients, 0,

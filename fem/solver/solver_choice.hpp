@@ -19,7 +19,10 @@ struct SolverProblem {
   /// How far it is from a force to what holds the tissue, in elements, times how slender the way is
   /// [-]: what iterations without a coarse level grow with. A cube held at a side: cells along it.
   double reach = 10;
-  double along = 10;    // the longest side of the tissue, in elements [-]
+  double along = 10;  // the longest side of the tissue, in elements [-]
+  /// Twice the volume by the surface, of the thickest tissue, in elements [-]: those across a
+  /// layer, a third of those along a cube.
+  double thickness = 10;
   bool is_held = true;  // all tissue is tied to what does not move freely
 };
 

@@ -12,6 +12,9 @@
 namespace articular::sim {
 namespace {
 
+/// Thickness in elements of tissue whose surface is not known: no factor for that.
+constexpr double kThick = 100;
+
 double poisson_ratio(const Tissue& tissue) {
   const double kappa = tissue.bulk_modulus, mu = tissue.shear_modulus;
   return (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
@@ -46,6 +49,13 @@ double reach_of(const Tissue& tissue) {
   return farthest / element_size(tissue) * std::max(1.0, farthest * box[2] * box[1] / volume);
 }
 
+/// See fem::SolverProblem::thickness. A cell of six tetrahedra has two faces on a side.
+double thickness_of(const Collider& collider) {
+  constexpr double kTetsByFace = 1.5;  // of one layer
+  const auto tets = static_cast<double>(collider.tets.cols());
+  return tets / (kTetsByFace * static_cast<double>(collider.surface.faces.cols()));
+}
+
 fem::SolverProblem problem_of(const Scenario& scenario, const Model& model) {
   fem::SolverProblem problem;
   problem.num_blocks = model.layout.num_unknown_blocks();
@@ -55,9 +65,13 @@ fem::SolverProblem problem_of(const Scenario& scenario, const Model& model) {
   problem.in_time = !model.is_static;
   problem.reach = 0;
   problem.along = 1;
+  problem.thickness = 0;
   for (const Tissue& tissue : model.tissues) {
     problem.reach = std::max(problem.reach, reach_of(tissue));
     problem.along = std::max(problem.along, extent(tissue.X) / element_size(tissue));
+    const std::optional<Collider>& collider =
+        model.bodies[static_cast<std::size_t>(tissue.body)].collider;
+    problem.thickness = std::max(problem.thickness, collider ? thickness_of(*collider) : kThick);
     problem.is_held = problem.is_held && is_tied(tissue);
     problem.has_pressure |= tissue.elements.smoothed() != nullptr;
     problem.largest_nu = std::max(problem.largest_nu, poisson_ratio(tissue));

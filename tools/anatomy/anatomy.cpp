@@ -89,7 +89,7 @@ void add_knee(CLI::App& anatomy, int& exit_code) {
   };
   const auto options = std::make_shared<Options>();
   knee->add_option("--size", options->resolution.size_mm,
-                   "Element size of cartilage and menisci in mm, along the surfaces (0.8 to 4)")
+                   "Element size of cartilage and menisci in mm, along the surfaces (0.4 to 4)")
       ->capture_default_str();
   knee->add_option("--layers", options->resolution.layers,
                    "Elements through their thickness (2 to 6)")

@@ -117,9 +117,9 @@ FibreDirections rim_fibres(const Mesh& mesh, const CellGrid& grid) {
 }  // namespace
 
 void check_resolution(const KneeResolution& resolution) {
-  if (!(resolution.size_mm >= 0.8 && resolution.size_mm <= 4))
+  if (!(resolution.size_mm >= 0.4 && resolution.size_mm <= 4))
     throw std::invalid_argument(
-        fmt::format("--size: element size {} mm: expected 0.8 to 4 mm", resolution.size_mm));
+        fmt::format("--size: element size {} mm: expected 0.4 to 4 mm", resolution.size_mm));
   if (resolution.layers < 2 || resolution.layers > 6)
     throw std::invalid_argument(
         fmt::format("--layers: {} layers: expected 2 to 6", resolution.layers));

@@ -6,7 +6,7 @@
 namespace articular::anatomy {
 
 /// Element size along the surfaces, and layers through the thickness.
-/// @throws std::invalid_argument by check_resolution for sizes outside [0.8, 4] mm and layers
+/// @throws std::invalid_argument by check_resolution for sizes outside [0.4, 4] mm and layers
 /// outside [2, 6]
 struct KneeResolution {
   double size_mm = 2.5;

@@ -48,6 +48,26 @@ TEST(SolverChoice, ContactAsksForLittleSetUp) {
   EXPECT_EQ(choose_solver(problem).kind, SolverKind::SaddlePoint);
 }
 
+// Layers between bones that move, as in a knee: their factors grow little faster than they do.
+TEST(SolverChoice, ThinTissueInContactBetweenBonesIsFactoredAtRest) {
+  SolverProblem knee = tissue(34'000, 0.45);
+  knee.has_contact = knee.has_pressure = true;
+  knee.num_blocks += 4;  // bones
+  knee.thickness = 4;
+  EXPECT_EQ(choose_solver(knee).kind, SolverKind::SaddlePoint);
+  knee.has_pressure = false;
+  EXPECT_EQ(choose_solver(knee).kind, SolverKind::Cholesky);
+  knee.thickness = 8;  // that of cubes grows with its square
+  EXPECT_EQ(choose_solver(knee).kind, SolverKind::Multigrid);
+  knee.thickness = 4;
+  knee.num_blocks = 190'000;  // nor is there memory for it at any size
+  EXPECT_EQ(choose_solver(knee).kind, SolverKind::Multigrid);
+  knee.num_blocks = 34'004;
+  knee.in_time = true;
+  knee.elements_a_step = 100;
+  EXPECT_EQ(choose_solver(knee).kind, SolverKind::Multigrid);
+}
+
 // Iterations that pass on by an element each are nothing for a slender body, however few its
 // unknowns, but for steps in which waves get no farther.
 TEST(SolverChoice, SlenderBodiesAreNotIteratedOnElementByElement) {

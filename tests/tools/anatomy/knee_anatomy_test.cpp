@@ -258,7 +258,7 @@ TEST(KneeAnatomy, AnotherKneeHasItsOwnSizeAndItsOwnCartilage) {
 }
 
 TEST(KneeAnatomy, RefusesSizesAndLayersOutsideTheirRange) {
-  EXPECT_THROW(knee_anatomy({0.5, 2}), std::invalid_argument);
+  EXPECT_THROW(knee_anatomy({0.3, 2}), std::invalid_argument);
   EXPECT_THROW(knee_anatomy({5, 2}), std::invalid_argument);
   EXPECT_THROW(knee_anatomy({2, 1}), std::invalid_argument);
   EXPECT_THROW(knee_anatomy({std::nan(""), 2}), std::invalid_argument);
