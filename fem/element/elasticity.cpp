@@ -219,9 +219,8 @@ Eigen::VectorXd Elasticity::strain_energy_density(const Positions& x, double act
 Eigen::VectorXd Elasticity::fibre_stretch(const Positions& x) const {
   assert(fibres_.cols() == num_elements());
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, 0, [&](const PointLaw&, int place, const Mat3& F) {
-    const int e = elements_.element(place);
-    result[e] = (F * fibres_.col(e)).norm() / fibres_.col(e).norm();
+  for_each_element(x, 0, [&](const PointLaw& law, int place, const Mat3& F) {
+    result[elements_.element(place)] = law.fibre_stretch(F);
   });
   return result;
 }

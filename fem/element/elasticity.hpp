@@ -68,7 +68,8 @@ class Elasticity {
   Eigen::MatrixXd cauchy_stress(const Positions& x, double activation = 0) const;
   Eigen::VectorXd volume_ratio(const Positions& x) const;                                  // J
   Eigen::VectorXd strain_energy_density(const Positions& x, double activation = 0) const;  // [J/m³]
-  Eigen::VectorXd fibre_stretch(const Positions& x) const;  // where there are fibres
+  /// Where there are fibres; from their free length.
+  Eigen::VectorXd fibre_stretch(const Positions& x) const;
 
  private:
   template <class Function>

@@ -421,9 +421,8 @@ Eigen::VectorXd SmoothedElasticity::volume_ratio(const Positions& x) const {
 Eigen::VectorXd SmoothedElasticity::fibre_stretch(const Positions& x) const {
   assert(fibres_.cols() == num_elements());
   Eigen::VectorXd result(num_elements());
-  for_each_element(x, 0, [&](const PointLaw&, int e, const Mat3& F) {
-    result[e] = (F * fibres_.col(e)).norm() / fibres_.col(e).norm();
-  });
+  for_each_element(
+      x, 0, [&](const PointLaw& law, int e, const Mat3& F) { result[e] = law.fibre_stretch(F); });
   return result;
 }
 

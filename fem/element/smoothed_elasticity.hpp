@@ -113,8 +113,9 @@ class SmoothedElasticity {
   /// Per element, for output: means of the stress of the six edges' distortion, and the nodal
   /// pressures' mean. cauchy_stress: 6 x M (xx yy zz xy yz xz) [Pa].
   Eigen::MatrixXd cauchy_stress(const Positions& x, double activation = 0) const;
-  Eigen::VectorXd volume_ratio(const Positions& x) const;   // J
-  Eigen::VectorXd fibre_stretch(const Positions& x) const;  // where there are fibres
+  Eigen::VectorXd volume_ratio(const Positions& x) const;  // J
+  /// Where there are fibres; from their free length.
+  Eigen::VectorXd fibre_stretch(const Positions& x) const;
   /// [J/m³]; sums to energy(x, activation)
   Eigen::VectorXd strain_energy_density(const Positions& x, double activation = 0) const;
 

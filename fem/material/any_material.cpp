@@ -36,6 +36,18 @@ double active_stress(const AnyMaterial& material) {
       material);
 }
 
+double prestretch(const AnyMaterial& material) {
+  return std::visit(
+      []<class M>(const M& m) {
+        if constexpr (requires { m.prestretch(); }) {
+          return m.prestretch();
+        } else {
+          return 1.0;
+        }
+      },
+      material);
+}
+
 std::optional<MuscleFibre> muscle_fibre(const AnyMaterial& material) {
   return std::visit(
       []<class M>(const M& m) -> std::optional<MuscleFibre> {

@@ -38,6 +38,8 @@ void check_fibres(const AnyMaterial& material, const FibreDirections& fibres,
 
 /// The largest active stress of its fibres [Pa]; 0 of laws that do not pull.
 double active_stress(const AnyMaterial& material);
+/// The stretch of its fibres as drawn; 1 of laws that know of none.
+double prestretch(const AnyMaterial& material);
 /// The fibres of a muscle law; none of others.
 std::optional<MuscleFibre> muscle_fibre(const AnyMaterial& material);
 

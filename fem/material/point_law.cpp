@@ -47,6 +47,10 @@ Mat3 PointLaw::cauchy_stress(const Mat3& F) const {
   return with_law([&](const auto& law) { return cauchy(law, F); });
 }
 
+double PointLaw::fibre_stretch(const Mat3& F) const {
+  return prestretch(material_) * articular::fem::fibre_stretch(F, a0_.normalized());
+}
+
 double PointLaw::distortion_energy_density(const Mat3& F) const {
   return with_law([&](const auto& law) { return law.distortion().energy_density(F); });
 }

@@ -26,7 +26,10 @@ class PointLaw {
   Mat9 tangent(const Mat3& F, Tangent tangent) const;  // [Pa]
   Mat3 cauchy_stress(const Mat3& F) const;             // [Pa]
 
-  /// The same of the distortion, see Split.
+  /// Of the fibres from their free length, where there are any [-].
+  double fibre_stretch(const Mat3& F) const;
+
+  /// Energy, stress and tangent of the distortion, see Split.
   double distortion_energy_density(const Mat3& F) const;
   Mat3 distortion_first_piola(const Mat3& F) const;
   Mat9 distortion_tangent(const Mat3& F, Tangent tangent) const;

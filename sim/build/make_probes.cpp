@@ -105,6 +105,10 @@ struct Resolver {
     return ObservedAttachment{tissue, rigid};
   }
 
+  Observed operator()(const FibresProbe& fibres) const {
+    return ObservedStretch{body(fibres.tissue).tissue};
+  }
+
   Observed operator()(const ShareProbe& share) const {
     return ObservedShare{probes_called(share.part), probes_called(share.whole), share.direction};
   }

@@ -264,6 +264,10 @@ struct ObservedAttachment {
   int rigid = 0;   // index into Model::rigid_bodies
 };
 
+struct ObservedStretch {
+  int tissue = 0;  // index into Model::tissues; it has fibres
+};
+
 struct ObservedShare {
   std::vector<int> part, whole;   // indices into Model::probes
   Vec3 direction = Vec3::Zero();  // unit vector
@@ -277,7 +281,7 @@ struct ObservedJoint {
 using Observed = std::variant<ObservedPoint, ObservedAngle, ObservedContact, ObservedMuscle,
                               ObservedFibres, ObservedLigament, ObservedMomentArm, ObservedWrap,
                               ObservedEnergy, ObservedReaction, ObservedSupport, ObservedAttachment,
-                              ObservedShare, ObservedJoint>;
+                              ObservedStretch, ObservedShare, ObservedJoint>;
 
 struct ProbeModel {
   std::string name;

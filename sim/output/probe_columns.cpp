@@ -183,13 +183,27 @@ struct FibreReading {
   double stretch = 0;  // mean over the volume at rest
 };
 
-FibreReading measure(const ObservedFibres& fibres, const Now& now) {
-  const auto t = static_cast<std::size_t>(fibres.tissue);
+struct Stretch {
+  double mean = 0, largest = 0;  // over the volume at rest
+};
+
+Stretch measure(const ObservedStretch& observed, const Now& now) {
+  const auto t = static_cast<std::size_t>(observed.tissue);
   const TissueElements& elements = now.model.tissues[t].elements;
   const Eigen::Map<const Eigen::VectorXd> volume(
       elements.rest_volume().data(), static_cast<Eigen::Index>(elements.rest_volume().size()));
+  const Eigen::VectorXd stretch = elements.fibre_stretch(now.moment().tissues[t].x);
+  return {stretch.dot(volume) / volume.sum(), stretch.maxCoeff()};
+}
+
+void list(const Stretch& stretch, Columns& columns) {
+  columns.number("stretch", "-", stretch.mean);
+  columns.number("largest_stretch", "-", stretch.largest);
+}
+
+FibreReading measure(const ObservedFibres& fibres, const Now& now) {
   return {now.configuration().activation[fibres.muscle],
-          elements.fibre_stretch(now.moment().tissues[t].x).dot(volume) / volume.sum()};
+          measure(ObservedStretch{fibres.tissue}, now).mean};
 }
 
 void list(const FibreReading& fibres, Columns& columns) {

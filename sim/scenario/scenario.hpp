@@ -374,6 +374,11 @@ struct AttachmentProbe {
   std::string rigid;
 };
 
+/// How far the fibres of a tissue are drawn out.
+struct FibresProbe {
+  std::string tissue;
+};
+
 /// The forces of some probes divided by those of others, both along a direction.
 struct ShareProbe {
   std::vector<std::string> part, whole;  // names of probes with forces
@@ -389,7 +394,8 @@ struct JointProbe {
 struct Probe {
   std::string name;
   std::variant<PointProbe, AngleProbe, ContactProbe, LineProbe, MomentArmProbe, WrapProbe,
-               EnergyProbe, ReactionProbe, SupportProbe, AttachmentProbe, ShareProbe, JointProbe>
+               EnergyProbe, ReactionProbe, SupportProbe, AttachmentProbe, FibresProbe, ShareProbe,
+               JointProbe>
       what;
   Location where = {};
 };

@@ -115,6 +115,10 @@ constexpr Range kHolmesMowRatio{0, 1.0 / 3 + 1e-6, false,
                                 "must lie between 0 and 1/3 (others soften in tension)",
                                 "Poisson's ratio of the law \"holmes-mow\""};
 
+constexpr Range kPrestretchRange{0.5, 2, false,
+                                 "must lie between 0.5 and 2: fibres that are drawn out by 3 % "
+                                 "have 1.03"};
+
 Key stress_key(std::string_view name, const Range& range, Absence absence,
                std::string_view meaning) {
   return {name, {form::Quantity{kStress, range}}, absence, meaning};
@@ -176,6 +180,8 @@ std::vector<Key> constants_of(Law law) {
               stress_key("c5", kPositive, kRequired, "modulus of straight fibres"),
               number_key("toe_end", kMoreThanOne, kRequired,
                          "fibre stretch at which the curve becomes straight"),
+              number_key("prestretch", kPrestretchRange, standard(1.0),
+                         "length of the fibres at the start by their length in free tissue"),
               stress_key("active_stress", kNotNegative, standard("0 Pa"),
                          "force of fully activated fibres per area at rest, at any length"),
               {"force_length",
@@ -338,9 +344,9 @@ fem::AnyMaterial read_split_law(const TableReader& table, Law law) {
       return fem::VerondaWestmann<Theta>(stress(table, "c1"), number(table, "c2"),
                                          stress(table, "bulk_modulus"));
     case Law::TransverselyIsotropic:
-      return fem::TransverselyIsotropic<Theta>(stress(table, "c10"), stress(table, "c01"),
-                                               read_collagen(table), stress(table, "bulk_modulus"),
-                                               read_active_fibre(table));
+      return fem::TransverselyIsotropic<Theta>(
+          stress(table, "c10"), stress(table, "c01"), read_collagen(table),
+          stress(table, "bulk_modulus"), read_active_fibre(table), number(table, "prestretch"));
     case Law::Muscle: {
       return fem::BlemkerMuscle<Theta>(read_muscle_fibre(table),
                                        {.G1 = stress(table, "shear_along"),

@@ -156,6 +156,14 @@ Target read_attachment(const TableReader& table, const Context& context, const N
   return attachment;
 }
 
+Target read_fibres_probe(const TableReader& table, const Context& context, const Named&) {
+  const Node& node = table.at("body");
+  const Body& body = read_body_reference(node, context);
+  if (!body.material || !body.material->fibres)
+    fail(node, fmt::format("expected a tissue with fibres, body `{}` has none", body.name));
+  return FibresProbe{body.name};
+}
+
 Target read_share(const TableReader& table, const Context& context, const Named&) {
   ShareProbe share;
   share.part = read_probe_names(table.at("part"), context);
@@ -192,6 +200,7 @@ constexpr ProbeKind kProbeKinds[] = {
     {"energy", read_energy, true, "energies of the scene, work done and losses"},
     {"reaction", read_reaction, true, "force and moment on what holds a body or tissue"},
     {"attachment", read_attachment, true, "force and moment of a tissue on a bone at tied nodes"},
+    {"fibres", read_fibres_probe, true, "stretch of a tissue's fibres from their free length"},
     {"share", read_share, true, "forces of some probes by those of others"},
     {"joint", read_joint, false, "joint coordinates after Grood and Suntay (1983)"}};
 
@@ -202,6 +211,7 @@ std::vector<Key> own_keys(std::string_view kind) {
   const Key point{"point", {form::Vector{kLength}}, kRequired, "where it is at the start"};
   const KeyType names = {list_of({form::Text{"name of a probe with forces"}})};
   if (kind == "point") return {body, point};
+  if (kind == "fibres") return {body};
   if (kind == "angle")
     return {body, {"axis", {form::Direction{}}, standard({1, 0, 0}), "about which it turns"}};
   if (kind == "contact")

@@ -25,7 +25,8 @@ inline ScenarioResults run_with(const anatomy::Anatomy& anatomy, sim::Scenario s
 /// A scenario of scenarios/knee/ with elements of 4 mm.
 inline ScenarioResults coarse_knee(const std::string& file,
                                    const std::vector<std::string>& overrides) {
-  return run_with(anatomy::knee_anatomy({4, 2}), shipped_scenario("knee/" + file, overrides));
+  return run_with(anatomy::knee_anatomy({4, 2}, {.ligaments = true}),
+                  shipped_scenario("knee/" + file, overrides));
 }
 
 }  // namespace articular::knee_test

@@ -171,6 +171,31 @@ TEST(KneeLaxity, EachStructureIsPulledWhereItHoldsTheKnee) {
     for (const double time : {16, 17, 19, 21, 23, 25, 27}) EXPECT_EQ(force(line, time), 0) << line;
 }
 
+// ACL and superficial MCL as bodies of fibres in place of their lines: no element is inside out,
+// the ACL gets taut, and the knee gives way by about as much.
+TEST(KneeLaxity, LigamentsOfTissueHoldTheKneeAsTheirLinesDo) {
+  const std::vector<std::string> short_form = {"duration=2 s"};
+  std::vector<std::string> of_tissue = short_form;
+  for (const char* choice : {"choice.acl=tissue", "choice.mcl=tissue"})
+    of_tissue.emplace_back(choice);
+  const ScenarioResults lines = coarse_knee("laxity.toml", short_form),
+                        tissue = coarse_knee("laxity.toml", of_tissue);
+  EXPECT_TRUE(tissue.summary().at("warnings").empty()) << tissue.summary().at("warnings");
+  const auto drawer = [](const ScenarioResults& results) {
+    return results.at("knee.anterior [mm]", 2) - results.at("knee.anterior [mm]", 1);
+  };
+  EXPECT_NEAR(drawer(tissue), drawer(lines), 1.5);
+  EXPECT_GT(drawer(tissue), 0.5);
+  EXPECT_GT(tissue.at("acl_fibres.stretch [-]", 2), tissue.at("acl_fibres.stretch [-]", 1) + 0.01);
+  const auto force = [&](const std::string& probe, double time) {
+    Vec3 f;
+    for (int i = 0; i < 3; ++i) f[i] = tissue.at(probe + ".force." + "xyz"[i] + " [N]", time);
+    return f;
+  };
+  EXPECT_GT(force("acl", 2).norm(), 70);
+  EXPECT_LT(force("acl", 2).norm(), 150);
+}
+
 #ifdef ARTICULAR_MESHER
 TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
   if (std::getenv("ARTICULAR_DATA") == nullptr)

@@ -88,8 +88,10 @@ void add_knee(CLI::App& anatomy, int& exit_code) {
     std::filesystem::path folder;
   };
   const auto options = std::make_shared<Options>();
-  knee->add_option("--size", options->resolution.size_mm,
-                   "Element size of cartilage and menisci in mm, along the surfaces (0.4 to 4)")
+  knee->add_option(
+          "--size", options->resolution.size_mm,
+          "Element size of cartilage and menisci in mm, along the surfaces (0.4 to 4), and of "
+          "ligaments (1.5 to 4)")
       ->capture_default_str();
   knee->add_option("--layers", options->resolution.layers,
                    "Elements through their thickness (2 to 6)")
@@ -102,6 +104,9 @@ void add_knee(CLI::App& anatomy, int& exit_code) {
       ->capture_default_str();
   knee->add_flag("--patella", options->shape.patella,
                  "Adds the patella, the femur with its groove, and the cartilage of both");
+  knee->add_flag(
+      "--ligaments", options->shape.ligaments,
+      "Adds the ACL and the superficial MCL as tissue with fibres, and the bone they touch");
   knee->add_option("--out", options->folder, "Folder for the files, made if it is not there")
       ->required()
       ->type_name("DIR");

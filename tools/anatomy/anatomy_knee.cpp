@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "tools/anatomy/anatomy_knee_bones.hpp"
+#include "tools/anatomy/anatomy_ligaments.hpp"
 #include "tools/anatomy/anatomy_patella.hpp"
 #include "tools/anatomy/anatomy_trochlea.hpp"
 
@@ -35,6 +36,17 @@ void add_patella(const KneeResolution& resolution, double factor, const Compartm
   anatomy.landmarks.push_back({"base of the patella", "patella", patella_base()});
 }
 
+void add_ligaments(double size, const Compartment& medial, const Compartment& lateral,
+                   Anatomy& anatomy) {
+  constexpr double kSheetGrid = 1.5;  // a little coarser than what is looked at
+  for (const FibreBody& ligament : {medial_collateral(), anterior_cruciate()})
+    anatomy.meshes[ligament.name + ".vtu"] = ligament_mesh(ligament, medial, lateral, size);
+  anatomy.meshes["femur_medial_side.vtp"] = femoral_side_sheet(kSheetGrid, medial, lateral);
+  anatomy.meshes["femur_notch.vtp"] = notch_sheet(kSheetGrid, medial, lateral);
+  anatomy.meshes["tibia_eminence.vtp"] = eminence_sheet(kSheetGrid, medial, lateral);
+  anatomy.meshes["tibia_medial_side.vtp"] = tibial_side_sheet(kSheetGrid, medial, lateral);
+}
+
 }  // namespace
 
 Anatomy knee_anatomy(const KneeResolution& resolution, const KneeShape& shape) {
@@ -61,6 +73,7 @@ Anatomy knee_anatomy(const KneeResolution& resolution, const KneeShape& shape) {
          {c->side * kCompartmentX, 0, plateau_height(*c, c->side * kCompartmentX, 0)}});
   }
   if (shape.patella) add_patella(resolution, factor, medial, lateral, anatomy);
+  if (shape.ligaments) add_ligaments(resolution.size_mm, medial, lateral, anatomy);
   scale(anatomy, shape.scale);
   return anatomy;
 }

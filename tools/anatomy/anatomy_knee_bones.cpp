@@ -92,8 +92,15 @@ double femur_distance(const Sides& sides, const Vec3& p) {
     add_rods(sheet, {{-29, -1, 25, 8}, {29, -3, 27, 8}});
     return sheet;
   }();
+  // The notch: cruciate ligaments begin at its walls.
+  static const Sheet notch = [] {
+    Sheet sheet;
+    add_rods(sheet, {{0, -2, 17, 9}, {0, 22, 33, 9}});
+    return sheet;
+  }();
   double bone = smooth_min(loft_distance(shaft, p), distance(front, p), 6);
   for (const Side& side : sides) bone = smooth_min(bone, condyle_distance(side, p), 4);
+  bone = std::max(bone, -distance(notch, p));
   for (const Side& side : sides) {
     const Covered below = below_femoral_cartilage(side, p);
     const bool beside = p.x() * side.c.side > kNotch && p.z() < kCondyleTop;
@@ -167,10 +174,20 @@ double tibia_distance(const Sides& sides, const Vec3& p) {
 
 }  // namespace
 
+Distance femur_distance(const Compartment& medial, const Compartment& lateral) {
+  return [sides = Sides{Side(medial), Side(lateral)}](const Vec3& p) {
+    return femur_distance(sides, p);
+  };
+}
+
+Distance tibia_distance(const Compartment& medial, const Compartment& lateral) {
+  return [sides = Sides{Side(medial), Side(lateral)}](const Vec3& p) {
+    return tibia_distance(sides, p);
+  };
+}
+
 Mesh femur_surface(double h, const Compartment& medial, const Compartment& lateral) {
-  const Sides sides{Side(medial), Side(lateral)};
-  return contour([&](const Vec3& p) { return femur_distance(sides, p); }, {-46, -50, -8},
-                 {46, 44, 123}, h);
+  return contour(femur_distance(medial, lateral), {-46, -50, -8}, {46, 44, 123}, h);
 }
 
 Mesh femur_with_trochlea_surface(double h, const Compartment& medial, const Compartment& lateral,
@@ -182,9 +199,7 @@ Mesh femur_with_trochlea_surface(double h, const Compartment& medial, const Comp
 }
 
 Mesh tibia_surface(double h, const Compartment& medial, const Compartment& lateral) {
-  const Sides sides{Side(medial), Side(lateral)};
-  return contour([&](const Vec3& p) { return tibia_distance(sides, p); }, {-50, -36, -123},
-                 {44, 32, 12}, h);
+  return contour(tibia_distance(medial, lateral), {-50, -36, -123}, {44, 32, 12}, h);
 }
 
 }  // namespace articular::anatomy

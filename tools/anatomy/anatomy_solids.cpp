@@ -186,6 +186,34 @@ Mesh contour(const Distance& distance, const Vec3& low, const Vec3& high, double
   return zero_level(grid);
 }
 
+Mesh part_of(const Mesh& surface, const std::function<bool(const Vec3&, const Vec3&)>& keep) {
+  std::vector<int> number(static_cast<std::size_t>(surface.X_mm.cols()), -1);
+  std::vector<Vec3> nodes;
+  std::vector<Eigen::Vector3i> faces;
+  for (Eigen::Vector3i face : surface.triangles.colwise()) {
+    const Vec3 a = surface.X_mm.col(face(0)), b = surface.X_mm.col(face(1)),
+               c = surface.X_mm.col(face(2));
+    if (!keep(Vec3((a + b + c) / 3), Vec3((b - a).cross(c - a).normalized()))) continue;
+    for (int& node : face) {
+      int& kept = number[static_cast<std::size_t>(node)];
+      if (kept < 0) {
+        kept = static_cast<int>(nodes.size());
+        nodes.push_back(surface.X_mm.col(node));
+      }
+      node = kept;
+    }
+    faces.push_back(face);
+  }
+  Mesh part;
+  part.X_mm.resize(3, static_cast<Eigen::Index>(nodes.size()));
+  part.triangles.resize(3, static_cast<Eigen::Index>(faces.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    part.X_mm.col(static_cast<Eigen::Index>(i)) = nodes[i];
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    part.triangles.col(static_cast<Eigen::Index>(i)) = faces[i];
+  return part;
+}
+
 std::pair<double, Vec3> volume_and_center(const Mesh& surface) {
   double volume = 0;
   Vec3 moment = Vec3::Zero();

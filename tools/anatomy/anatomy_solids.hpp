@@ -49,6 +49,10 @@ Mesh contour_even(const Distance& distance, const Vec3& low, const Vec3& high, d
 /// The same of any distance.
 Mesh contour(const Distance& distance, const Vec3& low, const Vec3& high, double h);
 
+/// Faces of the surface that `keep` likes, by middle and outward normal; without the nodes of the
+/// others.
+Mesh part_of(const Mesh& surface, const std::function<bool(const Vec3&, const Vec3&)>& keep);
+
 /// Volume of a closed surface [mm^3] and its centre of volume.
 std::pair<double, Vec3> volume_and_center(const Mesh& surface);
 

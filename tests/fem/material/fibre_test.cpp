@@ -208,6 +208,21 @@ TEST(TransverselyIsotropic, StressAlongTheFibreAddsThatOfGroundAndFibre) {
   }
 }
 
+// Where it is drawn, prestretched tissue carries what free tissue carries at that stretch; and
+// drawn back by it, nothing.
+TEST(TransverselyIsotropic, PrestretchIsWhereTheCurveBegins) {
+  const ToeLinearFibre fibre = cruciate_fibre();
+  for (const double prestretch : {0.97, 1.03, 1.08}) {
+    const auto law =
+        TransverselyIsotropic<>(1.95e6, 0.5e6, fibre, 146e6, {}, prestretch).along(kFibre, 0);
+    for (const double length : {1 / prestretch, 0.98, 1.0, 1.05}) {
+      const double s = prestretch * length;
+      const double expected = 2 * (s * s - 1 / s) * (1.95e6 + 0.5e6 / s) + fibre.cauchy_stress(s);
+      EXPECT_NEAR(stress_along_fibre(law, length), expected, 1e-11 * 1e8);
+    }
+  }
+}
+
 // Just taut, a fibre adds c3 c4 to the stiffness along it; just slack, nothing.
 TEST(TransverselyIsotropic, SmallStrainModulusAlongTheFibreJumpsWhereItBecomesTaut) {
   const double c10 = 1.95e6, c3 = 0.0139e6, c4 = 116.22, strain = 1e-7;
@@ -379,6 +394,9 @@ TEST(Materials, RefuseBadConstantsAndSayWhy) {
                  {"toe", "above 1"});
   expect_refusal([] { (void)ToeLinearFibre({.c3 = 1, .c4 = 1e3, .c5 = 1, .toe_end = 1.1}); },
                  {"1100", "700"});
+  for (const double s : {3.0, 0.0, nan})
+    expect_refusal([s] { (void)TransverselyIsotropic<>(1, 0, cruciate_fibre(), 1, {}, s); },
+                   {"prestretch", "between 0.5 and 2"});
   expect_refusal([] { (void)ActiveFibre({.stress = -5}); }, {"active stress", "-5 Pa"});
   expect_refusal([] { (void)MuscleFibre({.max_stress = -1}); }, {"active stress", "-1 Pa"});
   expect_refusal([] { (void)MuscleFibre({.p1 = 0}); }, {"P1", "positive"});

@@ -51,6 +51,13 @@ void add_isochoric(const std::string& suffix, std::vector<LawExample>& laws) {
       TransverselyIsotropic<Theta>(1.95e6, 0.5e6, cruciate_fibre(), 146.41e6,
                                    ActiveFibre({.stress = 5e6})),
       1.5e8, {.shape_only = false});
+  add("Prestretched",
+      TransverselyIsotropic<Theta>(1.95e6, 0.5e6, cruciate_fibre(), 146.41e6,
+                                   ActiveFibre({.stress = 5e6}), 1.05),
+      1.5e8,
+      {.shape_only = false,
+       .one_shear_modulus = false,
+       .rest = prestretch_gradient(1 / 1.05, kFibre)});
   add("LengthDependent",
       TransverselyIsotropic<Theta>(2e3, 1e3, cardiac_fibre(), 1e5, cardiac_activity()), 1e6,
       {.shape_only = false});

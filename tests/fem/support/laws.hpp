@@ -21,6 +21,7 @@ struct Promise {
   bool inverted = false;          // has numbers for J <= 0
   double least_stretch = 0;       // no number where a principal stretch is this or less
   bool one_shear_modulus = true;  // at rest, in all directions
+  Mat3 rest = Mat3::Identity();   // the deformation gradient without stress
 };
 
 /// A function of F with its first two derivatives.

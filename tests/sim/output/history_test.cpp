@@ -10,6 +10,7 @@
 #include "sim/base/error.hpp"
 #include "tests/sim/support/probes.hpp"
 #include "tests/sim/support/scenario_file.hpp"
+#include "tests/sim/support/temporary_folder.hpp"
 
 namespace articular::sim::history_test {
 
@@ -142,6 +143,49 @@ TEST(AttachmentProbe, CountsContactOnTheTiedNodesToo) {
   EXPECT_LT((probes.vec3("wall.moment", "N m") - probes.vec3("tied.moment", "N m")).norm(),
             1e-12 * force * kSide);
   EXPECT_NEAR(probes("share.share [-]"), 1, 1e-5);
+}
+
+// Half of a bar is drawn out by 2, the other half by 1.1.
+TEST(FibresProbe, HasTheMeanOverTheVolumeAndTheLargestStretch) {
+  const TemporaryFolder folder;
+  const std::string text = R"(
+duration = "1 s"
+contact = false
+[[body]]
+name = "bar"
+kind = "tissue"
+geometry = { box = { size = "1 1 4 mm", cells = [1, 1, 2], center = "0 0 2 mm" } }
+density = "1 g/cm^3"
+material = { law = "transversely-isotropic", c10 = "1 kPa", c3 = "1 kPa", c4 = 1, c5 = "1 kPa", toe_end = 1.1, bulk_modulus = "10 kPa", prestretch = 1.1, fibres = { direction = [0, 0, 1] } }
+[[body]]
+name = "wall"
+kind = "fixed"
+[[body]]
+name = "plate"
+kind = "fixed"
+[[attach]]
+body = "bar"
+to = "wall"
+region = { box = ["-1 -1 -1 mm", "1 1 2.1 mm"] }
+[[attach]]
+body = "bar"
+to = "plate"
+region = { box = ["-1 -1 3.9 mm", "1 1 5 mm"] }
+[[load]]
+kind = "motion"
+body = "plate"
+time = ["0 s", "1 s"]
+translation = ["0 0 0 mm", "0 0 2 mm"]
+[[probe]]
+name = "fibres"
+kind = "fibres"
+body = "bar"
+)";
+  Simulation run(read_scenario(folder.file("bar.toml", text)));
+  run.advance(1);
+  const Probes probes(run);
+  EXPECT_NEAR(probes("fibres.stretch [-]"), 1.1 * 1.5, 1e-9);
+  EXPECT_NEAR(probes("fibres.largest_stretch [-]"), 1.1 * 2, 1e-9);
 }
 
 TEST(LineProbe, ALigamentHasItsForceAndItsStrainFromSlack) {

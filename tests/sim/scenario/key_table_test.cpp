@@ -244,6 +244,11 @@ kind = "attachment"
 bodies = ["tissue", "skull"]
 mirror = "x"
 [[probe]]
+name = "fibres"
+kind = "fibres"
+body = "of transversely-isotropic"
+mirror = "x"
+[[probe]]
 name = "share"
 kind = "share"
 part = ["body_left"]
@@ -278,7 +283,7 @@ std::string tissues() {
       {"ogden", R"(terms = [{ c = "1 kPa", m = 2 }], )" + kappa + relaxation},
       {"veronda-westmann", R"(c1 = "1 kPa", c2 = 1, )" + kappa + relaxation},
       {"transversely-isotropic",
-       R"(c10 = "1 kPa", c01 = "1 kPa", c3 = "1 kPa", c4 = 10, c5 = "1 kPa", toe_end = 1.1, )"
+       R"(c10 = "1 kPa", c01 = "1 kPa", c3 = "1 kPa", c4 = 10, c5 = "1 kPa", toe_end = 1.1, prestretch = 1.03, )"
        R"(active_stress = "1 kPa", force_length = { sarcomere_length = "1.8 um", )"
        R"(zero_length = "1.5 um", b = "4 1/um", calcium = 4, max_calcium = 5 }, )"
        R"(fibres = { from = {}, to = {} }, )" +

@@ -231,6 +231,10 @@ INSTANTIATE_TEST_SUITE_P(
                 law("transversely-isotropic", kCollagen + ", @force_length = {}"),
                 "material: `force_length` does not belong here: without `active_stress` there is "
                 "nothing that depends on it"},
+        Mistake{"PrestretchAsPercent",
+                law("transversely-isotropic", kCollagen + ", prestretch = @3"),
+                "`prestretch` must lie between 0.5 and 2: fibres that are drawn out by 3 % have "
+                "1.03, found 3"},
         Mistake{"ForceLengthUnit",
                 law("transversely-isotropic",
                     kCollagen + ", active_stress = \"1 kPa\", force_length = { b = @\"4 um\" }"),
@@ -432,6 +436,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"WrapProbeOfAStraightLine",
                 muscle("[[probe]]\nname = \"p\"\nkind = \"wrap\"\nline = @\"temporalis\"\n"),
                 "`line`: `temporalis` has no `wrap`"},
+        Mistake{"FibresProbeOfTissueWithout",
+                kStart + "[[probe]]\nname = \"p\"\nkind = \"fibres\"\nbody = @\"disc_left\"\n",
+                "`body`: expected a tissue with fibres, body `disc_left` has none"},
         Mistake{"RadiusOnBone",
                 path("[{ body = \"skull\", point = \"0 0 0 m\", radius = @\"1 mm\" }, { body = "
                      "\"mandible\", point = \"0 0 1 m\" }]"),

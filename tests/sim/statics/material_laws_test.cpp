@@ -11,6 +11,8 @@
 #include "fem/material/force_length.hpp"
 #include "fem/material/material.hpp"
 #include "sim/base/error.hpp"
+#include "tests/sim/support/contact_scene.hpp"
+#include "tests/sim/support/probes.hpp"
 #include "tests/sim/support/scene.hpp"
 #include "tests/sim/support/temporary_folder.hpp"
 
@@ -166,6 +168,82 @@ translation = ["0 0 0 mm", "0 0 @WAY mm"]
                 expected(s, other), 1e-9 * 135.7e3 * kArea)
         << s;
   }
+}
+
+/// A bar along z whose fibres are drawn out by `prestretch`. Planes hold it, of which the last, at
+/// its end, may be left out.
+Simulation prestretched_bar(double prestretch, bool held, const char* element) {
+  const std::string text = R"(
+duration = "1 s"
+analysis = "static"
+contact = false
+[[body]]
+name = "bar"
+kind = "tissue"
+geometry = { box = { size = "4 4 20 mm", cells = [2, 2, 5], center = "2 2 10 mm" } }
+density = "1 g/cm^3"
+material = { law = "transversely-isotropic", c10 = "1.44 MPa", c3 = "0.57 MPa", c4 = 48, c5 = "467.1 MPa", toe_end = 1.063, bulk_modulus = "100 GPa", prestretch = @PRESTRETCH, fibres = { direction = [0, 0, 1] }, element = "@ELEMENT" }
+[[support]]
+body = "bar"
+region = { box = ["-0.1 -0.1 -0.1 mm", "0.1 4.1 20.1 mm"] }
+freedoms = ["translation.x"]
+[[support]]
+body = "bar"
+region = { box = ["-0.1 -0.1 -0.1 mm", "4.1 0.1 20.1 mm"] }
+freedoms = ["translation.y"]
+[[support]]
+body = "bar"
+region = { box = ["-0.1 -0.1 -0.1 mm", "4.1 4.1 0.1 mm"] }
+freedoms = ["translation.z"]
+)";
+  const std::string end = R"(
+[[probe]]
+name = "fibres"
+kind = "fibres"
+body = "bar"
+[[support]]
+name = "end"
+body = "bar"
+region = { box = ["-0.1 -0.1 19.9 mm", "4.1 4.1 20.1 mm"] }
+freedoms = ["translation.z"]
+[[probe]]
+name = "end"
+kind = "reaction"
+support = "end"
+)";
+  const TemporaryFolder folder;
+  return Simulation(read_scenario(folder.file(
+      "bar.toml",
+      with(with(held ? text + end : text, "@PRESTRETCH", fmt::format("{:.17g}", prestretch)),
+           "@ELEMENT", element))));
+}
+
+// Held at its ends the bar stays as it is, and pulls by the stress of free tissue at that stretch:
+// σ = 2 c10 (s² − 1/s) + c3 (exp(c4 (s − 1)) − 1). It is incompressible to σ/κ < 1e-4,
+// which takes at most 1e-5 from λ̄ and so, at a slope of 300 MPa, 5e-4 from the stress.
+TEST(MaterialLaws, APrestretchedBarPullsAtItsEndsByTheClosedForm) {
+  for (const char* element : {"plain", "smoothed"})
+    for (const double s : {1.02, 1.05}) {
+      Simulation run = prestretched_bar(s, true, element);
+      run.advance(1);
+      const double stress = 2 * 1.44e6 * (s * s - 1 / s) + 0.57e6 * std::expm1(48 * (s - 1));
+      EXPECT_NEAR(Probes(run).vec3("end.force", "N").z(), -stress * 16e-6, 5e-4 * stress * 16e-6)
+          << element << s;
+      for (const char* column : {"fibres.stretch [-]", "fibres.largest_stretch [-]"})
+        EXPECT_NEAR(Probes(run)(column), s, 1e-4);
+    }
+}
+
+// With a free end it gets 1/s times as long and √s times as wide, without stress.
+TEST(MaterialLaws, APrestretchedBarThatIsCutFreeShortensToItsFreeLength) {
+  for (const char* element : {"plain", "smoothed"})
+    for (const double s : {0.97, 1.05}) {
+      Simulation run = prestretched_bar(s, false, element);
+      run.advance(1);
+      const Positions& X = run.model.tissues[0].X;
+      const Positions free = Vec3(std::sqrt(s), std::sqrt(s), 1 / s).asDiagonal() * X;
+      EXPECT_LT((nodes_of(run, 0) - free).norm(), 1e-6 * X.norm()) << element << s;
+    }
 }
 
 // The most that the law bears confined is H s (1 − s²)/2 at s = 1/√3: beyond it there is no

@@ -15,7 +15,7 @@ const Compartment* const kBoth[] = {&medial_compartment(), &lateral_compartment(
 std::string name_of(const Compartment& c) { return c.side > 0 ? "medial" : "lateral"; }
 
 const Anatomy& default_knee() {
-  static const Anatomy anatomy = knee_anatomy({}, {.patella = true});
+  static const Anatomy anatomy = knee_anatomy({}, {.patella = true, .ligaments = true});
   return anatomy;
 }
 

@@ -50,7 +50,7 @@ class MuscleSize : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Millimetres, MuscleSize, testing::Values(3.0, 4.0, 6.0));
 
 TEST_P(MuscleSize, TetrahedraArePositiveAndFibresHaveDensityOneOnAverage) {
-  for (const MuscleShape& shape : closing_muscles()) {
+  for (const FibreBody& shape : closing_muscles()) {
     SCOPED_TRACE(shape.name);
     const Mesh mesh = muscle_mesh(shape, GetParam());
     EXPECT_GT(least_relative_volume(mesh), 0.002);
@@ -66,10 +66,10 @@ TEST_P(MuscleSize, TetrahedraArePositiveAndFibresHaveDensityOneOnAverage) {
 TEST_P(MuscleSize, EndsSitOnTheirBoneAndNothingElseIsNear) {
   const std::map<std::string, Distance> bones = {{"skull", skull_distance()},
                                                  {"mandible", mandible_distance()}};
-  for (const MuscleShape& shape : closing_muscles()) {
+  for (const FibreBody& shape : closing_muscles()) {
     SCOPED_TRACE(shape.name);
     const Mesh mesh = muscle_mesh(shape, GetParam());
-    const MuscleEnds ends = muscle_ends(shape, GetParam());
+    const FibreEnds ends = fibre_body_ends(shape, GetParam());
     EXPECT_GE(ends.origin.size(), 9U);
     EXPECT_GE(ends.insertion.size(), 9U);
     for (const auto& [end, nodes] :
@@ -88,10 +88,10 @@ TEST_P(MuscleSize, EndsSitOnTheirBoneAndNothingElseIsNear) {
 }
 
 TEST_P(MuscleSize, MusclesDoNotOverlap) {
-  const std::vector<MuscleShape> shapes = closing_muscles();
+  const std::vector<FibreBody> shapes = closing_muscles();
   std::vector<Mesh> meshes;
   meshes.reserve(shapes.size());
-  for (const MuscleShape& shape : shapes) meshes.push_back(muscle_mesh(shape, GetParam()));
+  for (const FibreBody& shape : shapes) meshes.push_back(muscle_mesh(shape, GetParam()));
   for (std::size_t a = 0; a < meshes.size(); ++a) {
     SurfaceDistance to(meshes[a].X_mm, boundary(meshes[a].tets));
     for (std::size_t b = 0; b < meshes.size(); ++b) {
@@ -110,7 +110,7 @@ TEST_P(MuscleSize, MusclesDoNotOverlap) {
 TEST(MuscleBodies, VolumeIsThatOfTheFibres) {
   const std::map<std::string, std::pair<double, double>> wanted_cm3 = {{"masseter", {16.9, 0.10}},
                                                                        {"temporalis", {18, 0.05}}};
-  for (const MuscleShape& shape : closing_muscles()) {
+  for (const FibreBody& shape : closing_muscles()) {
     const auto [volume, tolerance] = wanted_cm3.at(shape.name);
     EXPECT_NEAR(volume_of(muscle_mesh(shape, kSize)) / 1e3, volume, tolerance * volume)
         << shape.name;
@@ -124,7 +124,7 @@ TEST(MuscleBodies, FibresRunAlongTheLines) {
   const std::map<std::string, std::vector<std::string>> lines = {
       {"masseter", {"lsm", "ldm"}}, {"temporalis", {"lat", "lmt", "lpt"}}};
   const std::vector<MuscleRow> rows = mandible_muscles();
-  for (const MuscleShape& shape : closing_muscles()) {
+  for (const FibreBody& shape : closing_muscles()) {
     Vec3 line = Vec3::Zero();
     for (const MuscleRow& row : rows)
       if (std::count(lines.at(shape.name).begin(), lines.at(shape.name).end(), row.id) > 0)
@@ -146,7 +146,7 @@ TEST(MuscleBodies, RightIsTheMirrorImageOfLeft) {
 }
 
 TEST(MuscleBodies, RefusesSizesOutsideItsRange) {
-  const MuscleShape shape = closing_muscles().front();
+  const FibreBody shape = closing_muscles().front();
   for (const double size : {2.5, 7.0, std::nan("")})
     EXPECT_THROW(muscle_mesh(shape, size), std::invalid_argument);
 }
