@@ -144,4 +144,34 @@ TEST_F(Browser, ShowsAScenarioBeforeAnyRun) {
   EXPECT_NE(readout.find("material.young_modulus: 50 kPa"), std::string::npos) << readout;
 }
 
+TEST_F(Browser, TellsPressuresOfAPopulationInMegapascal) {
+  folder_->file("press.toml", R"(
+title = "Presses"
+command = ["sh", "-c", "printf 'time [s],p [Pa],f [N]\\n0,{p}e6,{p}e6\\n' > history.csv"]
+[population]
+samples = 4
+[[parameter]]
+name = "p"
+distribution = "uniform"
+lowest = 1
+highest = 2
+[[output]]
+name = "pressure"
+column = "p [Pa]"
+[[output]]
+name = "force"
+column = "f [N]"
+)");
+  const ProgramResult study = run_program(*folder_, "study press.toml --quiet");
+  ASSERT_EQ(study.exit_code, 0) << study.err;
+  const nlohmann::json seen = open("out/press/population.html", {1280, 800});
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_EQ(seen["errors"], nlohmann::json::array());
+  EXPECT_EQ(seen["sections"], (nlohmann::json{"output-1", "output-2", "parameters", "program"}));
+  const std::string text = seen["text"];
+  EXPECT_NE(text.find(" MPa"), std::string::npos) << text;
+  EXPECT_EQ(text.find("e+6 Pa"), std::string::npos) << text;
+  EXPECT_NE(text.find("e+6 N"), std::string::npos) << text;
+}
+
 }  // namespace articular::tools::report_test

@@ -5,6 +5,28 @@ import { shortNumber } from './numbers.js';
 const LOW = '#0072b2', HIGH = '#d55e00';  // Okabe and Ito: people tell them apart who see colours otherwise
 
 const percent = (share) => `${shortNumber(100 * share)} %`;
+/** In a unit that keeps numbers short: MPa for 1.4e6 Pa. */
+function inShortUnit(output) {
+  const most = output.spread ? Math.max(...output.spread.quantiles.map(([, value]) => Math.abs(value))) : 0;
+  const [unit, size] = output.unit !== 'Pa' || most < 1e3 ? [output.unit, 1] : most < 1e6 ? ['kPa', 1e3] : ['MPa', 1e6];
+  const inUnit = (value) => (value === null ? null : value / size);
+  const { spread } = output;
+  return {
+    ...output,
+    unit: unit.replace('^2', '²').replace('^3', '³'),
+    at_medians: inUnit(output.at_medians),
+    bars: output.bars.map((bar) => bar.map(inUnit)),
+    extremes: output.extremes.map((extreme) => ({ ...extreme, value: inUnit(extreme.value) })),
+    spread: spread && {
+      ...spread,
+      mean: inUnit(spread.mean),
+      sd: inUnit(spread.sd),
+      quantiles: spread.quantiles.map(([p, value]) => [p, inUnit(value)]),
+      histogram: { ...spread.histogram, lowest: inUnit(spread.histogram.lowest), width: inUnit(spread.histogram.width) },
+    },
+  };
+}
+
 const withUnit = (value, unit) => (value === null ? 'no value' : shortNumber(value) + (unit ? ` ${unit}` : ''));
 
 function drawHistogram({ lowest, width, counts }, label, place) {
@@ -96,7 +118,7 @@ export function addPopulation(data) {
   verdict.className = `outcome ${data.succeeded === data.cases ? 'good' : 'bad'}`;
   document.querySelector('header').append(element('p', {}, data.words));
   if (data.failures.length > 0) addSection('failures', 'Failures', table(data.failures, ['case', 'how', 'message']));
-  data.outputs.forEach((output, i) => addOutput(output, data, i + 1));
+  data.outputs.forEach((output, i) => addOutput(inShortUnit(output), data, i + 1));
   if (data.parameters.length > 0)
     addSection('parameters', 'Parameters', table(data.parameters.map(({ name, distribution }) => [name, distribution]), ['parameter', 'distribution']));
   addSection('program', 'Program', pairs([['articular', data.program]]));
