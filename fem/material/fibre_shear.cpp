@@ -67,7 +67,7 @@ void FibreShear::add_slopes(const Invariants& I, InvariantSlopes& energy) const 
   second(kI4, kI4) = (0.75 * y / I4 - I1 * s) / I4;
   second(kI4, kI5) = s / (2 * I4);
   second(kJ, kJ) = 2 * y / (J * J);
-  for (const Invariant i : {kI1, kI4, kI5}) second(i, kJ) = -first[i] / J;
+  for (const int i : {kI1, kI4, kI5}) second(i, kJ) = -first[i] / J;
   second.triangularView<Eigen::StrictlyLower>() = second.transpose();
   const std::array<double, 3> B2_squared = squared_acosh(y);
   energy.add(across, G2_ * B2_squared[1], G2_ * B2_squared[2]);

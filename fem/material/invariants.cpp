@@ -20,7 +20,7 @@ void InvariantSlopes::add(const InvariantSlopes& q, double slope, double curvatu
   second += slope * q.second + curvature * q.first * q.first.transpose();
 }
 
-IsochoricInvariant::IsochoricInvariant(const Invariants& I, Invariant i, double r, double p)
+IsochoricInvariant::IsochoricInvariant(const Invariants& I, int i, double r, double p)
     : value(std::pow(I[i], r) * std::pow(I[kJ], p)) {
   const double by_i = r / I[i], by_J = p / I[kJ];
   slopes.first[i] = value * by_i;

@@ -10,20 +10,18 @@
 namespace articular::fem {
 
 /// Of C = FᵀF and the unit direction a0 of a fibre at rest [Weiss 1996], see fibre_invariants.hpp.
-enum Invariant {
-  kI1,  // tr C
-  kI2,  // |cof F|²
-  kI4,  // a0·C a0
-  kI5,  // a0·C² a0
-  kJ,   // det F
-  kNumInvariants
-};
+inline constexpr int kI1 = 0;  // tr C
+inline constexpr int kI2 = 1;  // |cof F|²
+inline constexpr int kI4 = 2;  // a0·C a0
+inline constexpr int kI5 = 3;  // a0·C² a0
+inline constexpr int kJ = 4;   // det F
+inline constexpr int kNumInvariants = 5;
 
 struct Invariants {
   /// @param a0  zero where there is no fibre
   explicit Invariants(const Mat3& F, const Vec3& a0 = Vec3::Zero());
 
-  double operator[](Invariant i) const { return value[i]; }
+  double operator[](int i) const { return value[i]; }
 
   Mat3 F, cofactor;
   Vec3 a0, b, w;  // b = F a0, w = Fᵀb
@@ -43,7 +41,7 @@ struct InvariantSlopes {
 
 /// q = I_i^r J^p with its slopes: an invariant without the change of volume.
 struct IsochoricInvariant {
-  IsochoricInvariant(const Invariants& I, Invariant i, double r, double p);
+  IsochoricInvariant(const Invariants& I, int i, double r, double p);
   double value;
   InvariantSlopes slopes;
 };
