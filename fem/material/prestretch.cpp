@@ -20,6 +20,7 @@ Mat3 prestretch_gradient(double s, const Vec3& a0) {
 
 // F0 mixes columns of F, which are blocks of three in vec(F).
 Mat9 with_prestretch(const Mat9& A, const Mat3& F0) {
+  if (F0.isIdentity(0)) return A;  // tissue without prestretch does not pay for it
   Mat9 half = Mat9::Zero(), whole = Mat9::Zero();
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) half.middleCols<3>(3 * i) += F0(k, i) * A.middleCols<3>(3 * k);
