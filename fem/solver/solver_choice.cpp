@@ -23,7 +23,8 @@ constexpr int kStartFrom = 5;  // solutions
 
 // With contact the pattern changes again and again, and multigrid is set up anew each time. A
 // factorization then costs less up to so many blocks; beyond, so do conjugate gradients, whose
-// iterations grow with the way of waves in a step. Where steps are so long that mass says little,
+// iterations grow with the way of waves in a step. They start from earlier solutions: at rest one
+// step is like the other, whatever the pattern. Where steps are so long that mass says little,
 // or there is none, contact may take multigrid a hundred iterations (the knee at 1000 N), and a
 // factorization never does.
 constexpr int kMostFactoredInContact = 2'500, kMostFactoredAtRest = 6'000;
@@ -116,8 +117,8 @@ SolverChoice choose_with_contact(const SolverProblem& problem) {
                 : "contact changes the matrix, and thin tissue is soon factored"};
   }
   if (short_steps) {
-    return {SolverKind::ConjugateGradients, 0,
-            "contact changes the matrix, and steps are short: nothing needs to be set up"};
+    return {SolverKind::ConjugateGradients, kStartFrom,
+            "contact changes the matrix, and steps are short: little needs to be set up"};
   }
   return {SolverKind::Multigrid, 0, "multigrid: iterations do not depend on the size"};
 }

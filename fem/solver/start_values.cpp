@@ -51,11 +51,10 @@ class ProjectedStart final : public LinearSolver {
   };
 
   void update_kept(const BlockMatrix& A, std::span<const PressureTerm> terms) {
-    if (A.pattern_id() != pattern_id_) {
+    if (!kept_.empty() && kept_[0].x.size() != 3 * Eigen::Index{A.num_blocks()}) {
       kept_.clear();
       oldest_ = 0;
     }
-    pattern_id_ = A.pattern_id();
     pressure_.set(terms);
     for (Kept& kept : kept_) {
       A.multiply(kept.x, kept.A_x);
@@ -84,6 +83,9 @@ class ProjectedStart final : public LinearSolver {
     }
     const Eigen::VectorXd c = scale.cwiseProduct(modes.eigenvectors() * part);
     if (!c.allFinite()) return;
+    residual_ = b;
+    for (Eigen::Index k = 0; k < n; ++k) residual_ -= c[k] * kept_[k].A_x;
+    if (!(residual_.norm() < b.norm())) return;  // nearer in energy, and farther from the goal
     for (Eigen::Index k = 0; k < n; ++k) x += c[k] * kept_[k].x;
   }
 
@@ -101,9 +103,9 @@ class ProjectedStart final : public LinearSolver {
 
   std::unique_ptr<LinearSolver> solver_;
   std::size_t num_kept_, oldest_ = 0;
-  std::uint64_t pattern_id_ = 0;
   std::vector<Kept> kept_;
   PressureOperator pressure_;
+  Eigen::VectorXd residual_;
 };
 
 }  // namespace

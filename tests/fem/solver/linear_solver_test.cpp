@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -66,6 +67,18 @@ BlockMatrix shifted_stiffness(const std::array<int, 3>& cells, double E = 2e4) {
   const double shift = kShift * K.block(0)(0, 0);
   for (int i = 0; i < K.num_blocks(); ++i) K.block(K.slot(i, i)) += shift * Mat3::Identity();
   return K;
+}
+
+/// A with blocks, most of them zero, for all pairs.
+BlockMatrix with_all_blocks(const BlockMatrix& A) {
+  std::vector<int> all(A.num_blocks());
+  std::iota(all.begin(), all.end(), 0);
+  BlockMatrix wide(A.num_blocks(), all, std::vector<int>{0, A.num_blocks()});
+  for (int i = 0; i < A.num_blocks(); ++i) {
+    for (int s = A.row_begin()[i]; s < A.row_begin()[i + 1]; ++s)
+      wide.block(wide.slot(i, A.column()[s])) = A.block(s);
+  }
+  return wide;
 }
 
 TEST_P(LinearSolverTest, AgreesWithADenseSolution) {
@@ -229,6 +242,26 @@ TEST(ConjugateGradients, EndBelowRoundOff) {
   EXPECT_LT(report.relative_residual, 1e-13);
 }
 
+// Block Jacobi takes 34 iterations here: the next matrix gets an incomplete factor.
+TEST(ConjugateGradients, TakeAThirdOfTheIterationsAfterASolutionThatTookMany) {
+  const BlockMatrix A = shifted_stiffness({6, 6, 6});
+  const auto solver = make_conjugate_gradients(kTolerance, 1000);
+  const Eigen::VectorXd b = Random().matrix<Eigen::VectorXd>(3 * A.num_blocks(), 1);
+  const Eigen::VectorXd expected = dense(A).llt().solve(b);
+  ASSERT_EQ(solver->prepare(A), FactorStatus::Ready);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
+  const int first = solver->solve(b, x).iterations;
+  EXPECT_GT(first, 25);
+  for (int k = 0; k < 2; ++k) {
+    ASSERT_EQ(solver->prepare(A), FactorStatus::Ready);
+    x.setZero();
+    const SolveReport report = solver->solve(b, x);
+    EXPECT_TRUE(report.converged);
+    EXPECT_LT(3 * report.iterations, 1.2 * first);
+    EXPECT_LT((x - expected).norm(), kAccuracy * expected.norm());
+  }
+}
+
 TEST(ConjugateGradients, RefuseBadSettings) {
   EXPECT_THROW(make_conjugate_gradients(0, 10), std::invalid_argument);
   EXPECT_THROW(make_conjugate_gradients(1e-6, 0), std::invalid_argument);
@@ -248,6 +281,65 @@ TEST(ProjectedStart, FindsCombinationsOfItsLastSolutions) {
     EXPECT_LE(solver->solve(B.col(1) - 2 * B.col(2) + B.col(3), x).iterations, 5);
   }
   EXPECT_GT(solver->solve(B.col(0), x).iterations, 10);  // forgotten
+}
+
+// Contact changes the pattern: what is kept are solutions, whatever the matrix.
+TEST(ProjectedStart, KeepsItsSolutionsWithANewPattern) {
+  BlockMatrix A = shifted_stiffness({3, 3, 3});
+  const auto solver = make_projected_start(make_conjugate_gradients(kTolerance, 1000), 3);
+  const Eigen::VectorXd b = Random().matrix<Eigen::VectorXd>(3 * A.num_blocks(), 1);
+  Eigen::VectorXd x;
+  ASSERT_EQ(solver->prepare(A), FactorStatus::Ready);
+  EXPECT_GT(solver->solve(b, x).iterations, 10);
+  BlockMatrix wider = with_all_blocks(A);
+  ASSERT_NE(wider.pattern_id(), A.pattern_id());
+  ASSERT_EQ(solver->prepare(wider), FactorStatus::Ready);
+  EXPECT_LE(solver->solve(b, x).iterations, 1);
+  A = shifted_stiffness({2, 2, 2});  // another size: nothing to start from
+  ASSERT_EQ(solver->prepare(A), FactorStatus::Ready);
+  EXPECT_GT(solver->solve(b.head(3 * A.num_blocks()), x).iterations, 5);
+}
+
+/// Solves by a dense factor, and remembers where it was to start.
+class Remembering final : public LinearSolver {
+ public:
+  explicit Remembering(Eigen::VectorXd& start) : start_(start) {}
+  using LinearSolver::prepare;
+  FactorStatus prepare(const BlockMatrix& A, const Positions&) override {
+    factor_.compute(dense(A));
+    return FactorStatus::Ready;
+  }
+  SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) override {
+    start_ = x;
+    x = factor_.solve(b);
+    return {};
+  }
+
+ private:
+  Eigen::VectorXd& start_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+};
+
+// Iterations end by the residual. A start that is better in energy may have a larger one.
+TEST(ProjectedStart, LeavesAStartThatIsFartherFromTheGoal) {
+  Eigen::VectorXd start, x;
+  const auto solver = make_projected_start(std::make_unique<Remembering>(start), 1);
+  BlockMatrix A(2, std::vector<int>{0, 1}, std::vector<int>{0, 2});
+  const auto solve = [&](double stiffness, const Vec3& b_0, const Vec3& b_1) {
+    A.block(A.slot(0, 0)) = Mat3::Identity();
+    A.block(A.slot(1, 1)) = stiffness * Mat3::Identity();
+    ASSERT_EQ(solver->prepare(A), FactorStatus::Ready);
+    Eigen::VectorXd b(6);
+    b << b_0, b_1;
+    EXPECT_TRUE(solver->solve(b, x).converged);
+  };
+  const Vec3 e = Vec3::UnitX();
+  solve(100, e, 10 * e);  // x = (e, e/10)
+  // Half of 11 times that is best in energy. The residual would be (5.5, -55), which was (11, 0).
+  solve(100, 11 * e, 0 * e);
+  EXPECT_EQ(start, Eigen::VectorXd::Zero(6));
+  solve(1, 11 * e, e);  // now x = (11, 0) is kept
+  EXPECT_NEAR(start[0], 11, 1e-12);
 }
 
 TEST(ProjectedStart, RefusesBadSettings) {

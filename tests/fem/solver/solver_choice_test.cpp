@@ -34,6 +34,7 @@ TEST(SolverChoice, ContactAsksForLittleSetUp) {
   problem.num_blocks = problem.num_nodes = 20'000;
   problem.elements_a_step = 10;
   EXPECT_EQ(choose_solver(problem).kind, SolverKind::ConjugateGradients);
+  EXPECT_GT(choose_solver(problem).num_kept, 0);
   problem.elements_a_step = 100;
   EXPECT_EQ(choose_solver(problem).kind, SolverKind::Multigrid);
   problem.elements_a_step = 10;
