@@ -133,8 +133,10 @@ bool from_air(std::span<const PlacedSurface> surfaces, const Chord& chord, WrapW
       if (result.found) break;
     }
     plane.up = plane.along.cross(plane.up);
-    // Around the border of an open surface only where there is no other way.
-    const double length = result.length + (result.to_border ? kFar * placed.size : 0);
+    // Only where there is no other way: around the border of an open surface, or around what lies
+    // before the chord goes in.
+    const bool last_resort = result.to_border || result.to_behind;
+    const double length = result.length + (last_resort ? kFar * placed.size : 0);
     if (!result.found || length >= least) continue;
     least = length;
     depth = result.depth;

@@ -49,7 +49,12 @@ WalkResult walk(const PlacedSurface& surface, int surface_index, const ChordPlan
     // From an edge that the plane only touches there are two ways too, or none.
     const Cut cut = count > 1 && ahead(cuts[1]) > ahead(cuts[0]) ? cuts[1] : cuts[0];
     const double height = (cut.x - plane.from).dot(plane.up);
-    if (height <= 0) return result;  // the chord comes out of this face
+    if (height <= 0) {  // the chord comes out of this face
+      const double drop = (last - plane.from).dot(plane.up) - height;
+      const Vec3 out = drop > 0 ? Vec3(cut.x + height / drop * (cut.x - last)) : last;
+      result.to_behind = (out - start.at).dot(plane.along) < 0;
+      return result;
+    }
     result.found = true;
     const WrapEdge& edge = surface.surface->edges[static_cast<std::size_t>(cut.edge)];
     const bool forward = edge.face[0] == face;

@@ -22,8 +22,9 @@ struct WalkStart {
 struct WalkResult {
   bool found = false;
   bool to_border = false;
-  double depth = 0;   // [m] how far the chord lies below the surface, at most
-  double length = 0;  // [m] of the walk
+  bool to_behind = false;  // the chord comes out of the surface behind where the walk began
+  double depth = 0;        // [m] how far the chord lies below the surface, at most
+  double length = 0;       // [m] of the walk
 };
 
 /// The edges that the plane cuts out of a surface, from the start to where the chord is above the
