@@ -11,8 +11,7 @@ namespace articular::anatomy {
 namespace {
 
 constexpr double kClearance = 0.02;  // beside what chords of elements need
-/// Horns leave the condyle and the plateau, between which nothing may squeeze them: they grow on
-/// bone.
+/// Horns leave the condyle and the plateau, between which nothing may squeeze them.
 constexpr double kHornRelief = 1, kHornRise = 0.3;
 
 /// The inner edge: its height, how far its middle stands out, how far each face has left its
