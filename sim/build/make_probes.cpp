@@ -109,6 +109,13 @@ struct Resolver {
     return ObservedStretch{body(fibres.tissue).tissue};
   }
 
+  Observed operator()(const ExtentProbe& extent) const {
+    const int rigid = body(extent.frame).rigid;
+    const Pose& rest = model.rigid_bodies[static_cast<std::size_t>(rigid)].rest;
+    return ObservedExtent{body(extent.tissue).tissue,
+                          {rigid, extent.point - rest.p, extent.direction}};
+  }
+
   Observed operator()(const ShareProbe& share) const {
     return ObservedShare{probes_called(share.part), probes_called(share.whole), share.direction};
   }

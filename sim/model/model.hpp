@@ -217,8 +217,8 @@ struct ObservedContact {
   std::vector<char> faces;  // of that body's collider: those that count; empty: all
 };
 
-/// About which a line's moment arm is taken: it goes with a rigid body.
-struct LineAxis {
+/// Goes with a fixed or rigid body.
+struct BodyAxis {
   int rigid = 0;                   // index into Model::rigid_bodies
   Vec3 point = Vec3::Zero();       // in the rigid body's frame [m]
   Vec3 direction = Vec3::UnitX();  // unit vector, in that frame
@@ -242,7 +242,7 @@ struct ObservedLigament {
 
 struct ObservedMomentArm {
   int line = 0;  // index into Model::lines
-  LineAxis axis;
+  BodyAxis axis;
 };
 
 struct ObservedWrap {
@@ -268,6 +268,11 @@ struct ObservedStretch {
   int tissue = 0;  // index into Model::tissues; it has fibres
 };
 
+struct ObservedExtent {
+  int tissue = 0;  // index into Model::tissues
+  BodyAxis axis;
+};
+
 struct ObservedShare {
   std::vector<int> part, whole;   // indices into Model::probes
   Vec3 direction = Vec3::Zero();  // unit vector
@@ -281,7 +286,7 @@ struct ObservedJoint {
 using Observed = std::variant<ObservedPoint, ObservedAngle, ObservedContact, ObservedMuscle,
                               ObservedFibres, ObservedLigament, ObservedMomentArm, ObservedWrap,
                               ObservedEnergy, ObservedReaction, ObservedSupport, ObservedAttachment,
-                              ObservedStretch, ObservedShare, ObservedJoint>;
+                              ObservedStretch, ObservedExtent, ObservedShare, ObservedJoint>;
 
 struct ProbeModel {
   std::string name;

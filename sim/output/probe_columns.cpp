@@ -236,7 +236,7 @@ struct MomentArm {
 
 /// The moment that a tension of 1 N puts on the body, about the axis.
 MomentArm measure(const ObservedMomentArm& observed, const Now& now) {
-  const LineAxis& axis = observed.axis;
+  const BodyAxis& axis = observed.axis;
   const Pose& pose = now.pose(axis.rigid);
   const Vec3 point = pose.p + pose.R * axis.point;
   return {(pose.R * axis.direction)
@@ -327,6 +327,25 @@ ForceAndMoment measure(const ObservedAttachment& attachment, const Now& now) {
 void list(const ForceAndMoment& reading, Columns& columns) {
   columns.vector("force", "N", reading.force);
   columns.vector("moment", "N m", reading.moment);
+}
+
+struct Extent {
+  double largest = 0, least = 0;  // [m]
+};
+
+Extent measure(const ObservedExtent& observed, const Now& now) {
+  const auto& [rigid, point, direction] = observed.axis;
+  const Pose& pose = now.pose(rigid);
+  const Vec3 along = pose.R * direction;
+  const double begin = along.dot(pose.p + pose.R * point);
+  const Positions& x = now.moment().tissues[static_cast<std::size_t>(observed.tissue)].x;
+  const Eigen::RowVectorXd reach = along.transpose() * x;
+  return {reach.maxCoeff() - begin, reach.minCoeff() - begin};
+}
+
+void list(const Extent& extent, Columns& columns) {
+  columns.length("largest", extent.largest);
+  columns.length("least", extent.least);
 }
 
 /// Known when the row is complete: see History.

@@ -379,6 +379,14 @@ struct FibresProbe {
   std::string tissue;
 };
 
+/// How far a tissue reaches along an axis that goes with a fixed or rigid body.
+struct ExtentProbe {
+  std::string tissue;
+  std::string frame;
+  Vec3 point = Vec3::Zero();      // [m], where the axis begins, world at the start
+  Vec3 direction = Vec3::Zero();  // unit vector, world at the start
+};
+
 /// The forces of some probes divided by those of others, both along a direction.
 struct ShareProbe {
   std::vector<std::string> part, whole;  // names of probes with forces
@@ -394,8 +402,8 @@ struct JointProbe {
 struct Probe {
   std::string name;
   std::variant<PointProbe, AngleProbe, ContactProbe, LineProbe, MomentArmProbe, WrapProbe,
-               EnergyProbe, ReactionProbe, SupportProbe, AttachmentProbe, FibresProbe, ShareProbe,
-               JointProbe>
+               EnergyProbe, ReactionProbe, SupportProbe, AttachmentProbe, FibresProbe, ExtentProbe,
+               ShareProbe, JointProbe>
       what;
   Location where = {};
 };

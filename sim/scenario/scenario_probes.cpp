@@ -26,6 +26,14 @@ std::string read_body_of_kind(const Node& node, const Context& context, Body::Ki
   return body.name;
 }
 
+/// A fixed or rigid body.
+std::string read_bone(const Node& node, const Context& context) {
+  const Body& body = read_body_reference(node, context);
+  if (body.kind == Body::Kind::Tissue)
+    fail(node, fmt::format("expected a fixed or rigid body, body `{}` is tissue", body.name));
+  return body.name;
+}
+
 bool is_in(const std::string& name, const Names& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -73,11 +81,7 @@ const KeyTable& joint_side_keys() {
 JointSide read_joint_side(const Node& node, const Context& context) {
   const TableReader table(node, joint_side_keys(), fmt::format("`{}`", node.name));
   JointSide side;
-  const Body& body = read_body_reference(table.at("body"), context);
-  if (body.kind == Body::Kind::Tissue)
-    fail(table.at("body"),
-         fmt::format("expected a fixed or rigid body, body `{}` is tissue", body.name));
-  side.body = body.name;
+  side.body = read_bone(table.at("body"), context);
   table.read("point", side.origin);
   table.read("lateral", side.lateral);
   table.read("up", side.up);
@@ -119,11 +123,7 @@ Target read_line(const TableReader& table, const Context& context, const Named& 
 Target read_moment_arm(const TableReader& table, const Context& context, const Named& named) {
   MomentArmProbe arm;
   arm.line = read_line_reference(table.at("line"), context, named);
-  const Body& body = read_body_reference(table.at("body"), context);
-  if (body.kind == Body::Kind::Tissue)
-    fail(table.at("body"),
-         fmt::format("expected a fixed or rigid body, body `{}` is tissue", body.name));
-  arm.body = body.name;
+  arm.body = read_bone(table.at("body"), context);
   table.read("point", arm.point);
   table.read("axis", arm.axis);
   return arm;
@@ -149,10 +149,7 @@ Target read_attachment(const TableReader& table, const Context& context, const N
   const Node::List& bodies = read_list(table.at("bodies"), "a tissue and a bone", 2);
   AttachmentProbe attachment;
   attachment.tissue = read_body_of_kind(bodies[0], context, Body::Kind::Tissue, "tissue");
-  const Body& rigid = read_body_reference(bodies[1], context);
-  if (rigid.kind == Body::Kind::Tissue)
-    fail(bodies[1], fmt::format("expected a fixed or rigid body, body `{}` is tissue", rigid.name));
-  attachment.rigid = rigid.name;
+  attachment.rigid = read_bone(bodies[1], context);
   return attachment;
 }
 
@@ -162,6 +159,15 @@ Target read_fibres_probe(const TableReader& table, const Context& context, const
   if (!body.material || !body.material->fibres)
     fail(node, fmt::format("expected a tissue with fibres, body `{}` has none", body.name));
   return FibresProbe{body.name};
+}
+
+Target read_extent(const TableReader& table, const Context& context, const Named&) {
+  ExtentProbe extent;
+  extent.tissue = read_body_of_kind(table.at("body"), context, Body::Kind::Tissue, "tissue");
+  extent.frame = read_bone(table.at("frame"), context);
+  table.read("point", extent.point);
+  table.read("direction", extent.direction);
+  return extent;
 }
 
 Target read_share(const TableReader& table, const Context& context, const Named&) {
@@ -201,6 +207,8 @@ constexpr ProbeKind kProbeKinds[] = {
     {"reaction", read_reaction, true, "force and moment on what holds a body or tissue"},
     {"attachment", read_attachment, true, "force and moment of a tissue on a bone at tied nodes"},
     {"fibres", read_fibres_probe, true, "stretch of a tissue's fibres from their free length"},
+    {"extent", read_extent, false,
+     "how far a tissue reaches along an axis that goes with a fixed or rigid body"},
     {"share", read_share, true, "forces of some probes by those of others"},
     {"joint", read_joint, false, "joint coordinates after Grood and Suntay (1983)"}};
 
@@ -226,6 +234,14 @@ std::vector<Key> own_keys(std::string_view kind) {
   if (kind == "line" || kind == "wrap") return {line};
   if (kind == "moment_arm")
     return {line, body, point, {"axis", {form::Direction{}}, kRequired, "the axis"}};
+  if (kind == "extent")
+    return {{"body", {form::Text{"name of a tissue"}}, kRequired, "the tissue"},
+            {"frame",
+             {form::Text{"name of a fixed or rigid body"}},
+             kRequired,
+             "the body that the axis goes with"},
+            {"point", {form::Vector{kLength}}, kRequired, "where the axis begins, at the start"},
+            {"direction", {form::Direction{}}, kRequired, "of the axis, at the start"}};
   if (kind == "reaction")
     return {{"body",
              {form::Text{"name of a fixed body, or a rigid one with `hold`"}},

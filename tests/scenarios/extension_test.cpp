@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/scenarios/coarse_knee.hpp"
+#include "tests/scenarios/mirrored_knee.hpp"
 #include "tests/scenarios/scenario_results.hpp"
 
 namespace articular::extension_test {
@@ -138,41 +139,9 @@ TEST(KneeSquat, TheQuadricepsBalancesTheGround) {
   }
 }
 
-anatomy::Anatomy mirrored(anatomy::Anatomy anatomy) {
-  for (auto& [name, mesh] : anatomy.meshes) {
-    mesh.X_mm.row(0) *= -1;
-    if (mesh.tets.cols() > 0) mesh.tets.row(0).swap(mesh.tets.row(1));
-    if (mesh.triangles.cols() > 0) mesh.triangles.row(0).swap(mesh.triangles.row(1));
-  }
-  return anatomy;
-}
-
-void mirror(std::vector<sim::Anchor>& path) {
-  for (sim::Anchor& anchor : path) anchor.point.x() *= -1;
-}
-
-void mirror(sim::JointSide& side) {
-  side.origin.x() *= -1;
-  side.lateral.x() *= -1;
-}
-
-sim::Scenario mirrored(sim::Scenario scenario) {
-  for (sim::Muscle& muscle : scenario.muscles) mirror(muscle.path);
-  for (sim::Ligament& ligament : scenario.ligaments) mirror(ligament.path);
-  for (sim::Probe& probe : scenario.probes) {
-    if (auto* joint = std::get_if<sim::JointProbe>(&probe.what)) {
-      joint->is_right = !joint->is_right;
-      mirror(joint->proximal);
-      mirror(joint->distal);
-    }
-    if (auto* point = std::get_if<sim::PointProbe>(&probe.what)) point->anchor.point.x() *= -1;
-  }
-  return scenario;
-}
-
 TEST(KneeExtension, ALeftKneeIsTheMirrorImage) {
-  const ScenarioResults left =
-      knee_test::run_with(mirrored(coarse_anatomy()), mirrored(short_extension()));
+  const ScenarioResults left = knee_test::run_with(knee_test::mirrored(coarse_anatomy()),
+                                                   knee_test::mirrored(short_extension()));
   const ScenarioResults& right = right_knee();
   EXPECT_EQ(left.summary().at("outcome"), "finished");
   for (const char* const column :

@@ -6,6 +6,7 @@
 
 #include "tools/anatomy/anatomy_knee_bones.hpp"
 #include "tools/anatomy/anatomy_ligaments.hpp"
+#include "tools/anatomy/anatomy_meniscus.hpp"
 #include "tools/anatomy/anatomy_patella.hpp"
 #include "tools/anatomy/anatomy_trochlea.hpp"
 

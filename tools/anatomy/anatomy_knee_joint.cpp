@@ -63,13 +63,13 @@ const Compartment& medial_compartment() {
                                   .sagittal_curvature = 1.0 / 150,
                                   .eminence_radius = 53,
                                   .tibial_thickness = 2.23,
-                                  .rim_width = 14,
+                                  .rim_width = 14.5,
                                   .rim_depth = 23,
                                   .horn_angle = 145 * kDeg,
                                   .front_width = 7.96,
                                   .middle_width = 8.10,
                                   .back_width = 13.46,
-                                  .rim_height = 4.5};
+                                  .rim_height = 5};
   return medial;
 }
 
@@ -86,13 +86,13 @@ const Compartment& lateral_compartment() {
                                    .sagittal_curvature = -1.0 / 37.5,
                                    .eminence_radius = 41,
                                    .tibial_thickness = 2.86,
-                                   .rim_width = 13.7,
+                                   .rim_width = 14.3,
                                    .rim_depth = 17.5,
                                    .horn_angle = 155 * kDeg,
                                    .front_width = 9,
                                    .middle_width = 9,
                                    .back_width = 10,
-                                   .rim_height = 4.5};
+                                   .rim_height = 5};
   return lateral;
 }
 

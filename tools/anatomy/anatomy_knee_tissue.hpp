@@ -2,7 +2,7 @@
 
 #include "tools/anatomy/anatomy_knee_joint.hpp"
 
-/// Cartilage and menisci of the knee as tetrahedra. mm.
+/// Cartilage of the knee as tetrahedra. mm.
 namespace articular::anatomy {
 
 /// Element size along the surfaces, and layers through the thickness.
@@ -18,14 +18,6 @@ void check_resolution(const KneeResolution& resolution);
 /// (last); its mean thickness, volume by articular area, is the compartment's.
 Mesh femoral_cartilage(const Compartment& c, const KneeResolution& resolution);
 Mesh tibial_cartilage(const Compartment& c, const KneeResolution& resolution);
-
-/// A wedge between condyle and plateau, bent to a C from the anterior to the posterior horn, with
-/// fibres along the rim. Its lower face follows the plateau, its upper one the condyle, as far as
-/// the height of the rim lets it; both with room for the chords of the other's elements.
-Mesh meniscus(const Compartment& c, const KneeResolution& resolution);
-
-/// Middle of a horn's end face. @param end  -1 anterior, 1 posterior
-Vec3 horn(const Compartment& c, int end);
 
 /// Fraction of the cartilage's full thickness and place in the layer at a point of a condyle.
 struct CartilagePlace {

@@ -188,6 +188,53 @@ body = "bar"
   EXPECT_NEAR(probes("fibres.largest_stretch [-]"), 1.1 * 2, 1e-9);
 }
 
+// A bar of 4 mm in a plate that turns by a right angle and moves: the bar goes along, and reaches
+// as far in the plate as before. In the frame of the wall it lies along another axis.
+TEST(ExtentProbe, IsAlongAnAxisThatGoesWithItsBody) {
+  const TemporaryFolder folder;
+  const auto probe = [](const char* name, const char* frame, const char* direction) {
+    return std::string("[[probe]]\nkind = \"extent\"\nbody = \"bar\"\nname = \"") + name +
+           "\"\nframe = \"" + frame + "\"\npoint = \"0 0 1 mm\"\ndirection = " + direction + "\n";
+  };
+  const std::string text = R"(
+duration = "1 s"
+contact = false
+[[body]]
+name = "bar"
+kind = "tissue"
+geometry = { box = { size = "1 1 4 mm", cells = [1, 1, 2], center = "0 0 2 mm" } }
+density = "1 g/cm^3"
+material = { law = "neo-hookean", young_modulus = "1 kPa", poisson_ratio = 0.3 }
+[[body]]
+name = "wall"
+kind = "fixed"
+[[body]]
+name = "plate"
+kind = "fixed"
+[[attach]]
+body = "bar"
+to = "plate"
+region = { box = ["-1 -1 -1 mm", "1 1 5 mm"] }
+[[load]]
+kind = "motion"
+body = "plate"
+time = ["0 s", "1 s"]
+translation = ["0 0 0 mm", "3 0 0 mm"]
+rotation = ["0 0 0 deg", "0 90 0 deg"]
+)" + probe("in_plate", "plate", "[0, 0, 2]") +
+                           probe("in_wall", "wall", "[0, 0, 1]") +
+                           probe("along", "wall", "[1, 0, 0]");
+  Simulation run(read_scenario(folder.file("bar.toml", text)));
+  run.advance(1);
+  const Probes probes(run);
+  EXPECT_NEAR(probes("in_plate.largest [mm]"), 3, 1e-9);
+  EXPECT_NEAR(probes("in_plate.least [mm]"), -1, 1e-9);
+  EXPECT_NEAR(probes("in_wall.largest [mm]"), -0.5, 1e-9);
+  EXPECT_NEAR(probes("in_wall.least [mm]"), -1.5, 1e-9);
+  EXPECT_NEAR(probes("along.largest [mm]"), 7, 1e-9);
+  EXPECT_NEAR(probes("along.least [mm]"), 3, 1e-9);
+}
+
 TEST(LineProbe, ALigamentHasItsForceAndItsStrainFromSlack) {
   Scenario s = scene(0.1);
   s.bodies = {stand("a"), stand("b")};

@@ -249,6 +249,13 @@ kind = "fibres"
 body = "of transversely-isotropic"
 mirror = "x"
 [[probe]]
+name = "extent"
+kind = "extent"
+body = "tissue"
+frame = "skull"
+point = "0 0 0 mm"
+direction = [1, 0, 0]
+[[probe]]
 name = "share"
 kind = "share"
 part = ["body_left"]

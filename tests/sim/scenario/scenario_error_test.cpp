@@ -436,6 +436,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"WrapProbeOfAStraightLine",
                 muscle("[[probe]]\nname = \"p\"\nkind = \"wrap\"\nline = @\"temporalis\"\n"),
                 "`line`: `temporalis` has no `wrap`"},
+        Mistake{"ExtentProbeInTheFrameOfTissue",
+                kStart +
+                    "[[probe]]\nname = \"p\"\nkind = \"extent\"\nbody = \"disc_left\"\nframe = "
+                    "@\"disc_left\"\npoint = \"0 0 0 mm\"\ndirection = [1, 0, 0]\n",
+                "`frame`: expected a fixed or rigid body, body `disc_left` is tissue"},
         Mistake{"FibresProbeOfTissueWithout",
                 kStart + "[[probe]]\nname = \"p\"\nkind = \"fibres\"\nbody = @\"disc_left\"\n",
                 "`body`: expected a tissue with fibres, body `disc_left` has none"},

@@ -6,7 +6,9 @@
 
 #include "sim/mesh/mesh_io.hpp"
 #include "tests/tools/anatomy/anatomy_checks.hpp"
+#include "tools/anatomy/anatomy_grid.hpp"
 #include "tools/anatomy/anatomy_knee.hpp"
+#include "tools/anatomy/anatomy_meniscus.hpp"
 #include "tools/anatomy/anatomy_solids.hpp"
 
 namespace articular::anatomy::knee_anatomy_test {
@@ -189,7 +191,66 @@ TEST(KneeAnatomy, MenisciHaveThePublishedRims) {
     const Eigen::RowVectorXd heights = mesh.X_mm.row(2).tail(layer) - mesh.X_mm.row(2).head(layer);
     EXPECT_GT(heights.maxCoeff(), 4);
     EXPECT_LT(heights.maxCoeff(), 5.6);
-    EXPECT_GT(heights.minCoeff(), 0.75);
+    EXPECT_GT(heights.minCoeff(), 0.7);
+  }
+}
+
+/// A section of a meniscus of two layers: its outline, counterclockwise from the lower face's inner
+/// end, as distance from the inner edge and height.
+std::vector<Eigen::Vector2d> section(const Mesh& mesh, const CellGrid& grid, int i) {
+  const Vec3 inner = mesh.X_mm.col(grid.node(i, 0, 1)),
+             outer = mesh.X_mm.col(grid.node(i, grid.nv, 1));
+  const Eigen::Vector2d out = (outer - inner).head<2>().normalized();
+  std::vector<Eigen::Vector2d> outline;
+  const auto add = [&](int j, int k) {
+    const Vec3 p = mesh.X_mm.col(grid.node(i, j, k));
+    outline.emplace_back((p - inner).head<2>().dot(out), p.z());
+  };
+  for (int j = 0; j <= grid.nv; ++j) add(j, 0);
+  add(grid.nv, 1);
+  for (int j = grid.nv; j >= 0; --j) add(j, grid.nw);
+  add(0, 1);
+  return outline;
+}
+
+/// The least angle at a corner of an outline.
+double sharpest_deg(const std::vector<Eigen::Vector2d>& outline) {
+  double least = 180;
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Eigen::Vector2d before = outline[(k + outline.size() - 1) % outline.size()] - outline[k],
+                          after = outline[(k + 1) % outline.size()] - outline[k];
+    least = std::min(least, std::acos(before.normalized().dot(after.normalized())) / kDegree);
+  }
+  return least;
+}
+
+// An edge of 90 degrees or less digs into cartilage: pressures there grow with every refinement.
+TEST(KneeAnatomy, SectionsOfAMeniscusHaveNoSharpEdgeAndThePublishedSize) {
+  for (const Compartment* c : kBoth) {
+    SCOPED_TRACE(name_of(*c));
+    constexpr double kSize = 1;
+    const Mesh mesh = meniscus(*c, {kSize, 2});
+    const CellGrid grid{even_cells(75, kSize, 8), even_cells(c->middle_width, kSize, 4), 2};
+    ASSERT_EQ(mesh.X_mm.cols(), (grid.nu + 1) * (grid.nv + 1) * 3);
+    const auto width = [&](int i) {
+      return (mesh.X_mm.col(grid.node(i, grid.nv, 1)) - mesh.X_mm.col(grid.node(i, 0, 1)))
+          .head<2>()
+          .norm();
+    };
+    for (int i = grid.nu / 8; i <= 7 * grid.nu / 8; ++i) {
+      const std::vector<Eigen::Vector2d> outline = section(mesh, grid, i);
+      EXPECT_GT(sharpest_deg(outline), 95) << i;
+      double area = 0;  // a wedge of these widths and heights has 16 to 30 mm²
+      for (std::size_t k = 0; k < outline.size(); ++k) {
+        const Eigen::Vector2d &p = outline[k], &q = outline[(k + 1) % outline.size()];
+        area += (p.x() * q.y() - q.x() * p.y()) / 2;
+      }
+      EXPECT_GT(area, 13) << i;
+      EXPECT_LT(area, 45) << i;
+    }
+    // As wide as published, or as far inwards as there is room.
+    EXPECT_NEAR(width(grid.nu / 2), c->middle_width, 1);
+    EXPECT_NEAR(width(grid.nu / 4), c->front_width, 1);
   }
 }
 

@@ -1,0 +1,144 @@
+#include "tools/anatomy/anatomy_meniscus.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "tools/anatomy/anatomy_grid.hpp"
+#include "tools/anatomy/anatomy_solids.hpp"
+
+namespace articular::anatomy {
+namespace {
+
+constexpr double kClearance = 0.02;  // beside what chords of elements need
+/// Horns leave the condyle and the plateau, between which nothing may squeeze them.
+constexpr double kHornRelief = 1, kHornRise = 0.3;
+
+/// The inner edge: its height, how far its middle stands out, how far each face has left its
+/// cartilage there. The outer rim: how far its middle stands out, by how much the upper and the
+/// lower face bend towards it. Faces bend over kBendWay.
+constexpr double kEdgeHeight = 0.75, kEdgeRound = 0.3, kEdgeRelief = 0.25;
+constexpr double kRimRound = 1, kRimBend = 0.6, kRimLift = 0.2, kBendWay = 2.5;
+constexpr double kRimBlend = 0.6;  // width over which the upper face gets level
+
+/// Ray from a compartment's middle to the outer rim. psi: 0 at the middle of the rim, < 0 in front.
+Eigen::Vector2d rim_ray(const Compartment& c, double psi) {
+  return {c.side * c.rim_width * std::cos(psi), c.rim_depth * std::sin(psi)};
+}
+
+/// Between the three widths, by the share of front and back.
+double full_width(const Compartment& c, double psi) {
+  const double t = std::min(std::abs(psi) / (90 * kDeg), 1.0);
+  const double blend = t * t * (3 - 2 * t);
+  return c.middle_width + blend * ((psi < 0 ? c.front_width : c.back_width) - c.middle_width);
+}
+
+/// 0 along the rim, 1 at the ends of the horns.
+double horn_share(const Compartment& c, double psi) {
+  constexpr double kBegin = 0.7;
+  const double t = std::clamp((std::abs(psi) / c.horn_angle - kBegin) / (1 - kBegin), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// 1 at a distance of 0, nothing from `way` on.
+double fade(double distance, double way) {
+  const double t = std::max(1 - distance / way, 0.0);
+  return t * t;
+}
+
+/// One section, across the rim.
+class MeniscusSection {
+ public:
+  /// @param size  of the elements along the surfaces
+  MeniscusSection(const Compartment& c, double size, double psi)
+      : c_(c), ray_(rim_ray(c, psi)), horn_(horn_share(c, psi)) {
+    // A chord of length l of a circle of radius R leaves it by l²/8R; of a square's diagonal h²/4R.
+    const double plateau_radius = std::min(1 / std::abs(c.sagittal_curvature), c.eminence_radius);
+    const auto chord = [&](double radius) { return kClearance + size * size / (4 * radius); };
+    upper_ = (1 - horn_) * chord(c.coronal_radius);
+    lower_ = (1 - horn_) * chord(plateau_radius) + horn_ * kHornRise;
+    constexpr double kStep = 0.01;  // as wide as there is room
+    for (width_ = full_width(c, psi); width_ > 1; width_ -= kStep) {
+      narrow_ = std::min(width_ / c.middle_width, 1.0);
+      if (ceiling(plan(0), 0) - floor(plan(0), 0) > kEdgeHeight) break;
+    }
+  }
+
+  /// @param v  -1 at the inner edge, 1 at the outer rim
+  /// @param w  0 on the lower face, 1 on the upper one
+  Vec3 place(double v, double w) const {
+    constexpr double kGrading = 0.3;  // elements are narrow at the edge, where the faces bend
+    const double t = (v + 1) / 2, along = width_ * t * (1 - kGrading + kGrading * t);
+    const double round = kEdgeRound * (1 - t) * (1 - t) - kRimRound * t * t;
+    const Eigen::Vector2d p = plan(along + narrow_ * round * (2 * w - 1) * (2 * w - 1));
+    return {p.x(), p.y(), (1 - w) * floor(p, along) + w * ceiling(p, along)};
+  }
+
+ private:
+  /// From above. @param along  from the inner edge outwards
+  Eigen::Vector2d plan(double along) const {
+    const Eigen::Vector2d middle(c_.side * kCompartmentX, 0);
+    return middle + ray_ * (1 - (width_ - along) / ray_.norm());
+  }
+  double along_plateau(const Eigen::Vector2d& p) const {
+    return plateau_height(c_, p.x(), p.y()) + lower_;
+  }
+  double floor(const Eigen::Vector2d& p, double along) const {
+    return along_plateau(p) + narrow_ * bend(along, kRimLift);
+  }
+  double ceiling(const Eigen::Vector2d& p, double along) const {
+    const double along_condyle = condyle_height(c_, p.x(), p.y(), upper_) - kHornRelief * horn_;
+    return smooth_min(along_condyle, along_plateau(p) + c_.rim_height, kRimBlend) -
+           narrow_ * bend(along, kRimBend);
+  }
+  /// How far a face has left its cartilage. @param rim  by how much at the outer rim
+  double bend(double along, double rim) const {
+    return kEdgeRelief * fade(along, narrow_ * kBendWay) +
+           rim * fade(width_ - along, narrow_ * kBendWay);
+  }
+
+  const Compartment& c_;
+  Eigen::Vector2d ray_;
+  double horn_;
+  double upper_ = 0, lower_ = 0;   // clearance of both faces
+  double width_ = 0, narrow_ = 1;  // roundings of a narrow section are smaller by this factor
+};
+
+/// Along the grid's first direction, one an element.
+FibreDirections rim_fibres(const Mesh& mesh, const CellGrid& grid) {
+  FibreDirections fibres(3, mesh.tets.cols());
+  for (Eigen::Index e = 0; e < mesh.tets.cols(); ++e) {
+    const Eigen::Index cell = e / 6;  // i fastest, then j, then k, see CellGrid
+    const int i = static_cast<int>(cell % grid.nu);
+    const int j = static_cast<int>(cell / grid.nu % grid.nv);
+    const int k = static_cast<int>(cell / grid.nu / grid.nv);
+    Vec3 along = Vec3::Zero();
+    for (const int dj : {0, 1})
+      for (const int dk : {0, 1})
+        along += mesh.X_mm.col(grid.node(i + 1, j + dj, k + dk)) -
+                 mesh.X_mm.col(grid.node(i, j + dj, k + dk));
+    fibres.col(e) = along.normalized();
+  }
+  return fibres;
+}
+
+}  // namespace
+
+Mesh meniscus(const Compartment& c, const KneeResolution& resolution) {
+  check_resolution(resolution);
+  const double h = resolution.size_mm;
+  constexpr double kLength = 75;  // along its middle, about
+  const CellGrid grid{even_cells(kLength, h, 8), even_cells(c.middle_width, h, 4),
+                      resolution.layers};
+  Mesh mesh = grid.fill([&](double u, double v, double w) -> Vec3 {
+    return MeniscusSection(c, h, u * c.horn_angle).place(v, w);
+  });
+  mesh.fibres = rim_fibres(mesh, grid);
+  return mesh;
+}
+
+Vec3 horn(const Compartment& c, int end) {
+  return MeniscusSection(c, 0, end * c.horn_angle).place(0, 0.5);
+}
+
+}  // namespace articular::anatomy

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "tools/anatomy/anatomy_knee_tissue.hpp"
+
+/// Menisci of the knee as tetrahedra. mm.
+namespace articular::anatomy {
+
+/// Between condyle and plateau, bent to a C from the anterior to the posterior horn, with fibres
+/// along the rim. A section, with the inner edge on the left:
+///
+///                    __.---.
+///            __..--''       )     upper face: along the condyle, as far as the rim's height lets
+///            it
+///       __.-'               |
+///      (_________________.-'      lower face: along the plateau
+///
+/// Both faces have room for the chords of the other's elements. Towards the inner edge they leave
+/// their cartilage little by little, and both edges are round: none digs into cartilage.
+Mesh meniscus(const Compartment& c, const KneeResolution& resolution);
+
+/// Middle of a horn's end face. @param end  -1 anterior, 1 posterior
+Vec3 horn(const Compartment& c, int end);
+
+}  // namespace articular::anatomy
