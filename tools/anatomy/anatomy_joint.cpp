@@ -26,7 +26,10 @@ constexpr double kAnteriorDeg = 3;  // rise of the preglenoid plane before the c
 constexpr double kAnteriorLength = 15;
 constexpr double kHeadExponent = 2.5;       // superellipse of the head in the frontal plane
 constexpr double kTroughCurvature = 0.018;  // [1/mm] fossa_drop = this * x²
-constexpr double kFossaHalfWidth = 13;
+constexpr double kFossaHalfWidth = 13;      // lateral; the medial wall is nearer
+constexpr double kMedialWallDeg = 8;        // to the sagittal plane: it recedes forwards
+constexpr double kMedialWallHeight = 7;
+constexpr double kMedialWallEnd = 6;  // of the preglenoid plane: there it has run out
 
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 /// Downwards for a forward heading: into the joint.
@@ -54,6 +57,36 @@ double signed_distance(const ProfilePiece& p, const Vec2& q) {
 }
 
 double fossa_drop(double x) { return kTroughCurvature * x * x; }
+
+/// Where the medial wall stands, `forward` of the condyle centre: its distance from the middle.
+double medial_wall(double forward) {
+  return kMedialWall + std::tan(kMedialWallDeg * kDeg) * std::max(forward, 0.0);
+}
+
+/// Its height along the profile, `s` from the start of a piece: full from the roof to the crest.
+double medial_wall_height(std::size_t piece, double s) {
+  if (piece == 0) return 0;
+  if (piece < 4) return kMedialWallHeight;
+  return kMedialWallHeight * std::max(0.0, 1 - s / kMedialWallEnd);
+}
+
+/// Signed distance of p from the medial wall, > 0 in the joint. It hangs from the profile.
+double distance_from_medial_wall(const Vec3& p, const FossaProfile& fossa) {
+  const double forward = -p.y();
+  const double to_plane = (p.x() + medial_wall(forward)) * std::cos(kMedialWallDeg * kDeg);
+  for (std::size_t i = 1; i < fossa.size(); ++i) {
+    const ProfilePiece& piece = fossa[i];
+    if (forward < piece.start.x() || forward > point_on(piece, piece.length).x()) continue;
+    double low = 0, high = piece.length;  // forward grows along the piece
+    for (int k = 0; k < 40; ++k) {
+      const double middle = 0.5 * (low + high);
+      (point_on(piece, middle).x() < forward ? low : high) = middle;
+    }
+    const double bottom = point_on(piece, low).y() - medial_wall_height(i, low);
+    return std::max(to_plane, bottom - p.z());
+  }
+  return std::abs(to_plane) + kMedialWallHeight;  // before and behind there is none
+}
 
 /// Radius of the disc's lower surface: the head's as far as the disc rests on it, then bending
 /// outwards: the rim hangs freely beside the pole.
@@ -148,7 +181,7 @@ double distance_below_fossa(const Vec3& p, const FossaProfile& fossa) {
     const double d = signed_distance(piece, q);
     if (std::abs(d) < std::abs(nearest)) nearest = d;
   }
-  return nearest - fossa_drop(p.x());
+  return std::min(nearest - fossa_drop(p.x()), distance_from_medial_wall(p, fossa));
 }
 
 void stitch(const std::vector<int>& a, const std::vector<int>& b, const std::vector<Vec3>& nodes,
@@ -207,24 +240,35 @@ Mesh condyle_sheet(double h) {
 }
 
 Mesh fossa_sheet(double h, const FossaProfile& fossa) {
-  const int num_rows = 2 * static_cast<int>(std::lround(kFossaHalfWidth / h));
+  const int medial = static_cast<int>(std::lround(kMedialWall / h)),
+            lateral = static_cast<int>(std::lround(kFossaHalfWidth / h)),
+            down = static_cast<int>(std::lround(kMedialWallHeight / h));
   std::vector<Vec3> nodes;
   std::vector<Eigen::Vector3i> triangles;
   std::vector<int> previous;
-  for (int row = 0; row <= num_rows; ++row) {
-    const double x = kFossaHalfWidth * (2.0 * row / num_rows - 1);
+  // From the lower edge of the medial wall up to the profile, then along it to the lateral rim.
+  for (int row = -medial - down; row <= lateral; ++row) {
+    const double below = std::max(0, -medial - row) / static_cast<double>(down);
+    const double across = std::max(row, -medial) / static_cast<double>(row < 0 ? medial : lateral);
     std::vector<int> current;
-    for (const ProfilePiece& piece : fossa) {
+    for (std::size_t i = 0; i < fossa.size(); ++i) {
+      const ProfilePiece& piece = fossa[i];
       const int segments = std::max(1, static_cast<int>(std::lround(piece.length / h)));
-      for (int i = piece.start == fossa[0].start ? 0 : 1; i <= segments; ++i) {
-        const double s = piece.length * i / segments;
-        const Vec2 q =
-            point_on(piece, s) + fossa_drop(x) * inward(piece.heading + s * piece.curvature);
+      for (int k = i == 0 ? 0 : 1; k <= segments; ++k) {
+        const double s = piece.length * k / segments;
+        const double wall_height = medial_wall_height(i, s);
+        const bool at_roof = i == 0 && k == segments;  // the wall begins here
+        if (below > 0 && wall_height == 0 && !at_roof) continue;
+        const Vec2 on_profile = point_on(piece, s);
+        const double x = across * (across < 0 ? medial_wall(on_profile.x()) : kFossaHalfWidth);
+        const Vec2 q = on_profile + fossa_drop(x) * inward(piece.heading + s * piece.curvature);
         current.push_back(static_cast<int>(nodes.size()));
-        nodes.emplace_back(kCondyle + Vec3(x, -q.x(), q.y()));
+        nodes.emplace_back(
+            kCondyle +
+            Vec3(x, -q.x(), q.y() - below * (at_roof ? kMedialWallHeight : wall_height)));
       }
     }
-    if (row > 0) stitch(current, previous, nodes, triangles);
+    if (!previous.empty()) stitch(current, previous, nodes, triangles);
     previous = current;
   }
   return to_mesh(nodes, triangles);
