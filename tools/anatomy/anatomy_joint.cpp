@@ -63,6 +63,14 @@ double medial_wall(double forward) {
   return kMedialWall + std::tan(kMedialWallDeg * kDeg) * std::max(forward, 0.0);
 }
 
+/// The same for a point of the profile, which the trough of the fossa shifts along `normal`.
+double medial_wall(const Vec2& on_profile, const Vec2& normal) {
+  double wall = medial_wall(on_profile.x());
+  for (int i = 0; i < 5; ++i)  // converges a hundredfold each time
+    wall = medial_wall(on_profile.x() + fossa_drop(wall) * normal.x());
+  return wall;
+}
+
 /// Its height along the profile, `s` from the start of a piece: full from the roof to the crest.
 double medial_wall_height(std::size_t piece, double s) {
   if (piece == 0) return 0;
@@ -82,7 +90,8 @@ double distance_from_medial_wall(const Vec3& p, const FossaProfile& fossa) {
       const double middle = 0.5 * (low + high);
       (point_on(piece, middle).x() < forward ? low : high) = middle;
     }
-    const double bottom = point_on(piece, low).y() - medial_wall_height(i, low);
+    const double bottom =
+        point_on(piece, low).y() - fossa_drop(medial_wall(forward)) - medial_wall_height(i, low);
     return std::max(to_plane, bottom - p.z());
   }
   return std::abs(to_plane) + kMedialWallHeight;  // before and behind there is none
@@ -260,8 +269,9 @@ Mesh fossa_sheet(double h, const FossaProfile& fossa) {
         const bool at_roof = i == 0 && k == segments;  // the wall begins here
         if (below > 0 && wall_height == 0 && !at_roof) continue;
         const Vec2 on_profile = point_on(piece, s);
-        const double x = across * (across < 0 ? medial_wall(on_profile.x()) : kFossaHalfWidth);
-        const Vec2 q = on_profile + fossa_drop(x) * inward(piece.heading + s * piece.curvature);
+        const Vec2 normal = inward(piece.heading + s * piece.curvature);
+        const double x = across * (across < 0 ? medial_wall(on_profile, normal) : kFossaHalfWidth);
+        const Vec2 q = on_profile + fossa_drop(x) * normal;
         current.push_back(static_cast<int>(nodes.size()));
         nodes.emplace_back(
             kCondyle +
