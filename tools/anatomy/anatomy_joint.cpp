@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -71,9 +72,9 @@ double medial_wall(const Vec2& on_profile, const Vec2& normal) {
   return wall;
 }
 
-/// Its height along the profile, `s` from the start of a piece: full from the roof to the crest.
+/// Its height along the profile, `s` from the start of a piece: full from the roof to the crest,
+/// nothing behind.
 double medial_wall_height(std::size_t piece, double s) {
-  if (piece == 0) return 0;
   if (piece < 4) return kMedialWallHeight;
   return kMedialWallHeight * std::max(0.0, 1 - s / kMedialWallEnd);
 }
@@ -107,6 +108,44 @@ double disc_lower_radius(double x) {
   const double slope = (condyle_radius(kFollow) - condyle_radius(kFollow - kStep)) / kStep;
   const double beyond = ax - kFollow, range = kDiscHalfWidth - kFollow;
   return condyle_radius(kFollow) + slope * (beyond - beyond * beyond / (2 * range));
+}
+
+/// A point of the fossa at the length s of a piece of its profile.
+/// @param across  -1 at the medial wall, 0 in the middle, 1 at the lateral rim
+Vec3 fossa_point(const ProfilePiece& piece, double s, double across) {
+  const Vec2 on_profile = point_on(piece, s), normal = inward(piece.heading + s * piece.curvature);
+  const double x = across * (across < 0 ? medial_wall(on_profile, normal) : kFossaHalfWidth);
+  const Vec2 q = on_profile + fossa_drop(x) * normal;
+  return kCondyle + Vec3(x, -q.x(), q.y());
+}
+
+int num_segments(const ProfilePiece& piece, double h) {
+  return std::max(1, static_cast<int>(std::lround(piece.length / h)));
+}
+
+/// Points of the whole profile, from behind, with edges of length h.
+std::vector<Vec3> fossa_row(const FossaProfile& fossa, double h, double across) {
+  std::vector<Vec3> row;
+  for (std::size_t i = 0; i < fossa.size(); ++i) {
+    const int segments = num_segments(fossa[i], h);
+    for (int k = i == 0 ? 0 : 1; k <= segments; ++k)
+      row.push_back(fossa_point(fossa[i], fossa[i].length * k / segments, across));
+  }
+  return row;
+}
+
+/// Points on the medial wall, from the roof as far as it goes.
+/// @param below  0 at the profile, 1 at the wall's lower edge
+std::vector<Vec3> medial_wall_row(const FossaProfile& fossa, double h, double below) {
+  std::vector<Vec3> row;
+  for (std::size_t i = 1; i < fossa.size(); ++i) {
+    const int segments = num_segments(fossa[i], h);
+    for (int k = i == 1 ? 0 : 1; k <= segments; ++k) {
+      const double s = fossa[i].length * k / segments, height = medial_wall_height(i, s);
+      if (height > 0) row.push_back(fossa_point(fossa[i], s, -1) - below * height * Vec3::UnitZ());
+    }
+  }
+  return row;
 }
 
 double smooth_min(double a, double b, double width) {
@@ -257,27 +296,13 @@ Mesh fossa_sheet(double h, const FossaProfile& fossa) {
   std::vector<int> previous;
   // From the lower edge of the medial wall up to the profile, then along it to the lateral rim.
   for (int row = -medial - down; row <= lateral; ++row) {
-    const double below = std::max(0, -medial - row) / static_cast<double>(down);
-    const double across = std::max(row, -medial) / static_cast<double>(row < 0 ? medial : lateral);
-    std::vector<int> current;
-    for (std::size_t i = 0; i < fossa.size(); ++i) {
-      const ProfilePiece& piece = fossa[i];
-      const int segments = std::max(1, static_cast<int>(std::lround(piece.length / h)));
-      for (int k = i == 0 ? 0 : 1; k <= segments; ++k) {
-        const double s = piece.length * k / segments;
-        const double wall_height = medial_wall_height(i, s);
-        const bool at_roof = i == 0 && k == segments;  // the wall begins here
-        if (below > 0 && wall_height == 0 && !at_roof) continue;
-        const Vec2 on_profile = point_on(piece, s);
-        const Vec2 normal = inward(piece.heading + s * piece.curvature);
-        const double x = across * (across < 0 ? medial_wall(on_profile, normal) : kFossaHalfWidth);
-        const Vec2 q = on_profile + fossa_drop(x) * normal;
-        current.push_back(static_cast<int>(nodes.size()));
-        nodes.emplace_back(
-            kCondyle +
-            Vec3(x, -q.x(), q.y() - below * (at_roof ? kMedialWallHeight : wall_height)));
-      }
-    }
+    const std::vector<Vec3> points =
+        row < -medial
+            ? medial_wall_row(fossa, h, static_cast<double>(-medial - row) / down)
+            : fossa_row(fossa, h, static_cast<double>(row) / (row < 0 ? medial : lateral));
+    std::vector<int> current(points.size());
+    std::iota(current.begin(), current.end(), static_cast<int>(nodes.size()));
+    nodes.insert(nodes.end(), points.begin(), points.end());
     if (!previous.empty()) stitch(current, previous, nodes, triangles);
     previous = current;
   }
