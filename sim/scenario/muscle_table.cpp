@@ -83,7 +83,8 @@ MuscleRow read_row(const Row& row, const Location& where) {
 }
 
 void check_columns(const CsvRow& headers) {
-  const auto& [columns, where] = headers;
+  const std::vector<std::string>& columns = headers.fields;
+  const Location& where = headers.where;
   const auto count = [&](std::string_view name) {
     const auto n = std::count(columns.begin(), columns.end(), name);
     if (n > 1) throw InputError(where, fmt::format("column `{}` appears twice", name));
