@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 #include "sim/base/message_text.hpp"
@@ -10,6 +11,8 @@
 
 namespace articular::sim {
 namespace {
+
+constexpr std::string_view kOptimalLength = "optimal_length_mm";
 
 /// The columns of the table and the fields of one of its rows.
 class Row {
@@ -31,6 +34,16 @@ class Row {
     if (!is_valid(value))
       throw InputError(row_.where, fmt::format("column `{}` {}, found {}", column, rule, field));
     return value;
+  }
+
+  /// Nothing where there is no such column, or its field is empty.
+  template <class Condition>
+  std::optional<double> number_if_given(std::string_view column, Condition is_valid,
+                                        std::string_view rule) const {
+    const auto at = std::find(columns_.begin(), columns_.end(), column);
+    if (at == columns_.end()) return std::nullopt;
+    if (row_.fields[static_cast<std::size_t>(at - columns_.begin())].empty()) return std::nullopt;
+    return number(column, is_valid, rule);
   }
 
   double coordinate(std::string_view column) const {
@@ -58,6 +71,9 @@ MuscleRow read_row(const Row& row, const Location& where) {
   muscle.lower_mm[2] = row.coordinate("lz_mm");
   muscle.max_force = row.number(
       "max_force_N", [](double f) { return f > 0; }, "must be positive");
+  const std::optional<double> optimal_mm = row.number_if_given(
+      kOptimalLength, [](double l) { return l > 0; }, "must be positive");
+  if (optimal_mm) muscle.optimal_length = 1e-3 * *optimal_mm;
   muscle.max_length_ratio = row.number(
       "max_over_opt_length", [](double r) { return r > 1; }, "must be greater than 1");
   muscle.tendon_ratio = row.number(
@@ -67,18 +83,29 @@ MuscleRow read_row(const Row& row, const Location& where) {
 }
 
 void check_columns(const CsvRow& headers) {
-  const auto& [columns, where] = headers;
+  const std::vector<std::string>& columns = headers.fields;
+  const Location& where = headers.where;
+  const auto count = [&](std::string_view name) {
+    const auto n = std::count(columns.begin(), columns.end(), name);
+    if (n > 1) throw InputError(where, fmt::format("column `{}` appears twice", name));
+    return n;
+  };
   for (const char* name :
        {"id", "muscle", "body_upper", "ux_mm", "uy_mm", "uz_mm", "body_lower", "lx_mm", "ly_mm",
         "lz_mm", "max_force_N", "max_over_opt_length", "tendon_ratio"}) {
-    const auto count = std::count(columns.begin(), columns.end(), name);
-    if (count == 1) continue;
-    if (count > 1) throw InputError(where, fmt::format("column `{}` appears twice", name));
+    if (count(name) == 1) continue;
     const std::string near = nearest_name(name, columns);
     throw InputError(where,
                      fmt::format("column `{}` is missing{}", name,
                                  near.empty() ? "" : fmt::format("; is it `{}`?", one_line(near))));
   }
+  // The one column that may be missing: with another unit it would go unnoticed.
+  if (count(kOptimalLength) == 1) return;
+  for (const std::string& column : columns)
+    if (column.starts_with("optimal_length"))
+      throw InputError(where, fmt::format("expected optimal lengths in millimetres, in a column "
+                                          "`{}`, found `{}`",
+                                          kOptimalLength, one_line(column)));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Muscles and ligaments: what pulls along a path of points.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 
 #include "sim/scenario/data_path.hpp"
 #include "sim/scenario/muscle_table.hpp"
@@ -93,6 +94,8 @@ void read_dynamics(const TableReader& table, Muscle& muscle) {
   table.read("deactivation_time", muscle.deactivation_time);
 }
 
+KeyType optimal_length_type() { return {form::Quantity{kLength, kPositive}}; }
+
 Curve read_excitation(const Node& node, const Context& context) {
   return read_curve(node, kFraction, context);
 }
@@ -127,48 +130,66 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
   return muscle;
 }
 
-/// The muscles of a table, each once.
-std::vector<std::string> muscle_names(const std::vector<MuscleRow>& rows) {
+/// What the scenario may call the rows of a table by, each once: muscles, then rows.
+std::vector<std::string> names_in(const std::vector<MuscleRow>& rows) {
   std::vector<std::string> names;
-  for (const MuscleRow& row : rows)
-    if (std::find(names.begin(), names.end(), row.muscle) == names.end())
-      names.push_back(row.muscle);
+  for (const auto name : {&MuscleRow::muscle, &MuscleRow::id})
+    for (const MuscleRow& row : rows)
+      if (std::find(names.begin(), names.end(), row.*name) == names.end())
+        names.push_back(row.*name);
   return names;
 }
 
-/// The rows without those of the muscles in `leave_out`; every name there must be one of the rows'.
+bool is_called(const MuscleRow& row, const std::string& name) {
+  return row.muscle == name || row.id == name;
+}
+
+/// What is wrong with a name that is none of theirs; nothing if it is.
+std::optional<std::string> unknown_name(const std::string& name,
+                                        const std::vector<MuscleRow>& rows) {
+  const std::vector<std::string> names = names_in(rows);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return std::nullopt;
+  return fmt::format("the muscle table has no muscle or row `{}`{}", one_line(name),
+                     suggestion(name, names));
+}
+
+/// The rows without those in `leave_out`; every name there must be one of the rows'.
 std::vector<MuscleRow> rows_to_take(const TableReader& table, std::vector<MuscleRow> rows) {
   const Node* node = table.find("leave_out");
   if (node == nullptr) return rows;
-  const std::vector<std::string> names = muscle_names(rows);
   for (const Node& element : read_list(*node, "names of muscles such as [\"geniohyoid\"]")) {
     const std::string left_out = read_text(element);
-    if (std::find(names.begin(), names.end(), left_out) == names.end())
-      fail(element, fmt::format("the muscle table has no muscle `{}`{}", one_line(left_out),
-                                suggestion(left_out, names)));
-    std::erase_if(rows, [&](const MuscleRow& row) { return row.muscle == left_out; });
+    if (const auto mistake = unknown_name(left_out, rows)) fail(element, *mistake);
+    std::erase_if(rows, [&](const MuscleRow& row) { return is_called(row, left_out); });
   }
   return rows;
 }
 
-/// The excitations of a table by muscle name; every name must be one of the rows'.
-std::vector<std::pair<std::string, Curve>> read_excitations(const TableReader& table,
-                                                            const std::vector<MuscleRow>& rows,
-                                                            const Context& context) {
-  std::vector<std::pair<std::string, Curve>> curves;
-  const Node* node = table.find("excitation");
-  if (node == nullptr) return curves;
-  const std::vector<std::string> names = muscle_names(rows);
+/// What a key such as `excitation` says of each row, by the name of its muscle or its own id;
+/// nullptr: nothing.
+/// @throws InputError for a name of no row, and where a row and its muscle are both named
+std::vector<const Node*> by_row(const TableReader& table, const std::string& key,
+                                const std::vector<MuscleRow>& rows) {
+  std::vector<const Node*> of_row(rows.size(), nullptr);
+  const Node* node = table.find(key);
+  if (node == nullptr) return of_row;
   if (node->table() == nullptr)
-    fail(*node, fmt::format("expected a table of curves by muscle name, found {}", found(*node)));
+    fail(*node,
+         fmt::format("expected a table by names of muscles or rows, found {}", found(*node)));
   for (const Member& member : node->table()->members) {
-    if (std::find(names.begin(), names.end(), member.key) == names.end())
-      throw InputError(member.key_where,
-                       fmt::format("the muscle table has no muscle `{}`{}", one_line(member.key),
-                                   suggestion(member.key, names)));
-    curves.emplace_back(member.key, read_excitation(member.node, context));
+    if (const auto mistake = unknown_name(member.key, rows))
+      throw InputError(member.key_where, *mistake);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!is_called(rows[i], member.key)) continue;
+      if (of_row[i] != nullptr)
+        throw InputError(member.key_where,
+                         fmt::format("row `{0}` is one of the muscle `{1}`, and `{2}` names both: "
+                                     "expected either the muscle or its rows",
+                                     rows[i].id, rows[i].muscle, key));
+      of_row[i] = &member.node;
+    }
   }
-  return curves;
+  return of_row;
 }
 
 /// The bodies of the scenario for the body names of a table.
@@ -227,10 +248,12 @@ void append_table(const Node& node, const Context& context, std::vector<Muscle>&
   const std::vector<MuscleRow> rows =
       rows_to_take(table, read_muscle_table(read_path(file, context.folder), file.where));
   const TableBodies bodies(table, rows, context);
-  const auto excitations = read_excitations(table, rows, context);
+  const std::vector<const Node*> excitations = by_row(table, "excitation", rows);
+  const std::vector<const Node*> optimal_lengths = by_row(table, "optimal_length", rows);
   Placement placement;
   table.read("place", placement, read_placement);
-  for (const MuscleRow& row : rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const MuscleRow& row = rows[i];
     const Node id{row.id, "id", row.where};
     Muscle muscle;
     muscle.where = row.where;
@@ -240,11 +263,13 @@ void append_table(const Node& node, const Context& context, std::vector<Muscle>&
         {bodies.find(row.upper_body, row.where), placed(row.upper_mm, placement), 0, row.where},
         {bodies.find(row.lower_body, row.where), placed(row.lower_mm, placement), 0, row.where}};
     muscle.max_force = row.max_force;
+    if (row.optimal_length) muscle.optimal_length = placement.scale * *row.optimal_length;
+    if (optimal_lengths[i] != nullptr)
+      muscle.optimal_length = read_real(*optimal_lengths[i], optimal_length_type());
     muscle.max_length_ratio = row.max_length_ratio;
     muscle.tendon_ratio = row.tendon_ratio;
     read_dynamics(table, muscle);
-    for (const auto& [name, curve] : excitations)
-      if (name == row.muscle) muscle.excitation = curve;
+    if (excitations[i] != nullptr) muscle.excitation = read_excitation(*excitations[i], context);
     muscles.push_back(std::move(muscle));
   }
 }
@@ -333,9 +358,7 @@ const KeyTable& muscle_keys() {
           {form::Quantity{kForce, kPositive}},
           otherwise("required with `path`"),
           "isometric, at full activation"},
-         {"optimal_length",
-          {form::Quantity{kLength, kPositive}},
-          otherwise("length at the start"),
+         {"optimal_length", optimal_length_type(), otherwise("length at the start"),
           "of the whole muscle"},
          {"max_length_ratio",
           {form::Number{kMoreThanOne}},
@@ -361,16 +384,20 @@ const KeyTable& muscle_table_keys() {
         {{"file", {form::Text{"path"}}, kRequired, "CSV table with a row for each muscle"},
          {"place", {form::Table{place_keys}}, kNone, "moves the points"},
          {"leave_out",
-          {list_of({form::Text{"muscle of the table"}})},
+          {list_of({form::Text{"muscle or row of the table"}})},
           kNone,
-          "muscles of the table that are not taken"},
+          "muscles or rows of the table that are not taken"},
          {"bodies",
           {form::Map{"body of the table", {{form::Text{"name of a body"}}}}},
           kNone,
           "renames bodies"}}};
     append(dynamics_keys(), table);
+    table.keys.push_back({"optimal_length",
+                          {form::Map{"muscle or row of the table", {optimal_length_type()}}},
+                          otherwise("as the table has it"),
+                          "of the whole muscle, tendon and all"});
     table.keys.push_back({"excitation",
-                          {form::Map{"muscle of the table", {curve_or_name()}}},
+                          {form::Map{"muscle or row of the table", {curve_or_name()}}},
                           otherwise("0"),
                           "activations that are asked for, 0 to 1"});
     return table;

@@ -214,7 +214,7 @@ double temporal_block_distance(const Vec3& p, const FossaProfile& fossa) {
   const Vec3 d = p - kCondyle;
   if (d.norm() > 45) return d.norm() - 40;
   const double below = distance_below_fossa(d, fossa);
-  const Vec3 half(12.5, 17, 10), center(0, -7, 7);
+  const Vec3 half(14, 17, 12), center(-1.5, -7, 5);
   const Vec3 box = (d - center).cwiseAbs() - half;
   const double box_distance = box.maxCoeff();
   const double top = std::abs(below + 4.0) - 4.0;  // 0 to 8 mm above the surface

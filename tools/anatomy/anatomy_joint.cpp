@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -26,7 +27,10 @@ constexpr double kAnteriorDeg = 3;  // rise of the preglenoid plane before the c
 constexpr double kAnteriorLength = 15;
 constexpr double kHeadExponent = 2.5;       // superellipse of the head in the frontal plane
 constexpr double kTroughCurvature = 0.018;  // [1/mm] fossa_drop = this * x²
-constexpr double kFossaHalfWidth = 13;
+constexpr double kFossaHalfWidth = 13;      // lateral; the medial wall is nearer
+constexpr double kMedialWallDeg = 8;        // to the sagittal plane: it recedes forwards
+constexpr double kMedialWallHeight = 7;
+constexpr double kMedialWallEnd = 6;  // of the preglenoid plane: there it has run out
 
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 /// Downwards for a forward heading: into the joint.
@@ -55,6 +59,45 @@ double signed_distance(const ProfilePiece& p, const Vec2& q) {
 
 double fossa_drop(double x) { return kTroughCurvature * x * x; }
 
+/// Where the medial wall stands, `forward` of the condyle centre: its distance from the middle.
+double medial_wall(double forward) {
+  return kMedialWall + std::tan(kMedialWallDeg * kDeg) * std::max(forward, 0.0);
+}
+
+/// The same for a point of the profile, which the trough of the fossa shifts along `normal`.
+double medial_wall(const Vec2& on_profile, const Vec2& normal) {
+  double wall = medial_wall(on_profile.x());
+  for (int i = 0; i < 5; ++i)  // converges a hundredfold each time
+    wall = medial_wall(on_profile.x() + fossa_drop(wall) * normal.x());
+  return wall;
+}
+
+/// Its height along the profile, `s` from the start of a piece: full from the roof to the crest,
+/// nothing behind.
+double medial_wall_height(std::size_t piece, double s) {
+  if (piece < 4) return kMedialWallHeight;
+  return kMedialWallHeight * std::max(0.0, 1 - s / kMedialWallEnd);
+}
+
+/// Signed distance of p from the medial wall, > 0 in the joint. It hangs from the profile.
+double distance_from_medial_wall(const Vec3& p, const FossaProfile& fossa) {
+  const double forward = -p.y();
+  const double to_plane = (p.x() + medial_wall(forward)) * std::cos(kMedialWallDeg * kDeg);
+  for (std::size_t i = 1; i < fossa.size(); ++i) {
+    const ProfilePiece& piece = fossa[i];
+    if (forward < piece.start.x() || forward > point_on(piece, piece.length).x()) continue;
+    double low = 0, high = piece.length;  // forward grows along the piece
+    for (int k = 0; k < 40; ++k) {
+      const double middle = 0.5 * (low + high);
+      (point_on(piece, middle).x() < forward ? low : high) = middle;
+    }
+    const double bottom =
+        point_on(piece, low).y() - fossa_drop(medial_wall(forward)) - medial_wall_height(i, low);
+    return std::max(to_plane, bottom - p.z());
+  }
+  return std::abs(to_plane) + kMedialWallHeight;  // before and behind there is none
+}
+
 /// Radius of the disc's lower surface: the head's as far as the disc rests on it, then bending
 /// outwards: the rim hangs freely beside the pole.
 double disc_lower_radius(double x) {
@@ -65,6 +108,44 @@ double disc_lower_radius(double x) {
   const double slope = (condyle_radius(kFollow) - condyle_radius(kFollow - kStep)) / kStep;
   const double beyond = ax - kFollow, range = kDiscHalfWidth - kFollow;
   return condyle_radius(kFollow) + slope * (beyond - beyond * beyond / (2 * range));
+}
+
+/// A point of the fossa at the length s of a piece of its profile.
+/// @param across  -1 at the medial wall, 0 in the middle, 1 at the lateral rim
+Vec3 fossa_point(const ProfilePiece& piece, double s, double across) {
+  const Vec2 on_profile = point_on(piece, s), normal = inward(piece.heading + s * piece.curvature);
+  const double x = across * (across < 0 ? medial_wall(on_profile, normal) : kFossaHalfWidth);
+  const Vec2 q = on_profile + fossa_drop(x) * normal;
+  return kCondyle + Vec3(x, -q.x(), q.y());
+}
+
+int num_segments(const ProfilePiece& piece, double h) {
+  return std::max(1, static_cast<int>(std::lround(piece.length / h)));
+}
+
+/// Points of the whole profile, from behind, with edges of length h.
+std::vector<Vec3> fossa_row(const FossaProfile& fossa, double h, double across) {
+  std::vector<Vec3> row;
+  for (std::size_t i = 0; i < fossa.size(); ++i) {
+    const int segments = num_segments(fossa[i], h);
+    for (int k = i == 0 ? 0 : 1; k <= segments; ++k)
+      row.push_back(fossa_point(fossa[i], fossa[i].length * k / segments, across));
+  }
+  return row;
+}
+
+/// Points on the medial wall, from the roof as far as it goes.
+/// @param below  0 at the profile, 1 at the wall's lower edge
+std::vector<Vec3> medial_wall_row(const FossaProfile& fossa, double h, double below) {
+  std::vector<Vec3> row;
+  for (std::size_t i = 1; i < fossa.size(); ++i) {
+    const int segments = num_segments(fossa[i], h);
+    for (int k = i == 1 ? 0 : 1; k <= segments; ++k) {
+      const double s = fossa[i].length * k / segments, height = medial_wall_height(i, s);
+      if (height > 0) row.push_back(fossa_point(fossa[i], s, -1) - below * height * Vec3::UnitZ());
+    }
+  }
+  return row;
 }
 
 double smooth_min(double a, double b, double width) {
@@ -148,7 +229,7 @@ double distance_below_fossa(const Vec3& p, const FossaProfile& fossa) {
     const double d = signed_distance(piece, q);
     if (std::abs(d) < std::abs(nearest)) nearest = d;
   }
-  return nearest - fossa_drop(p.x());
+  return std::min(nearest - fossa_drop(p.x()), distance_from_medial_wall(p, fossa));
 }
 
 void stitch(const std::vector<int>& a, const std::vector<int>& b, const std::vector<Vec3>& nodes,
@@ -207,24 +288,22 @@ Mesh condyle_sheet(double h) {
 }
 
 Mesh fossa_sheet(double h, const FossaProfile& fossa) {
-  const int num_rows = 2 * static_cast<int>(std::lround(kFossaHalfWidth / h));
+  const int medial = static_cast<int>(std::lround(kMedialWall / h)),
+            lateral = static_cast<int>(std::lround(kFossaHalfWidth / h)),
+            down = static_cast<int>(std::lround(kMedialWallHeight / h));
   std::vector<Vec3> nodes;
   std::vector<Eigen::Vector3i> triangles;
   std::vector<int> previous;
-  for (int row = 0; row <= num_rows; ++row) {
-    const double x = kFossaHalfWidth * (2.0 * row / num_rows - 1);
-    std::vector<int> current;
-    for (const ProfilePiece& piece : fossa) {
-      const int segments = std::max(1, static_cast<int>(std::lround(piece.length / h)));
-      for (int i = piece.start == fossa[0].start ? 0 : 1; i <= segments; ++i) {
-        const double s = piece.length * i / segments;
-        const Vec2 q =
-            point_on(piece, s) + fossa_drop(x) * inward(piece.heading + s * piece.curvature);
-        current.push_back(static_cast<int>(nodes.size()));
-        nodes.emplace_back(kCondyle + Vec3(x, -q.x(), q.y()));
-      }
-    }
-    if (row > 0) stitch(current, previous, nodes, triangles);
+  // From the lower edge of the medial wall up to the profile, then along it to the lateral rim.
+  for (int row = -medial - down; row <= lateral; ++row) {
+    const std::vector<Vec3> points =
+        row < -medial
+            ? medial_wall_row(fossa, h, static_cast<double>(-medial - row) / down)
+            : fossa_row(fossa, h, static_cast<double>(row) / (row < 0 ? medial : lateral));
+    std::vector<int> current(points.size());
+    std::iota(current.begin(), current.end(), static_cast<int>(nodes.size()));
+    nodes.insert(nodes.end(), points.begin(), points.end());
+    if (!previous.empty()) stitch(current, previous, nodes, triangles);
     previous = current;
   }
   return to_mesh(nodes, triangles);

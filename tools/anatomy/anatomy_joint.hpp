@@ -18,9 +18,10 @@
 ///                     '-----' ( C  )
 ///
 /// The sagittal profile is a chain of arcs and lines without kinks; at the mediolateral distance x
-/// from the middle it is offset by fossa_drop(x) towards the condyle (the trough of the fossa). The
-/// head is a body of revolution about the transverse axis, so that hinge rotation alone leaves the
-/// gap as it is.
+/// from the middle it is offset by fossa_drop(x) towards the condyle (the trough of the fossa).
+/// On the medial side a wall hangs from it, kMedialWall from the middle and further off in front:
+/// it stops the condyle that goes forward from drifting inwards. The head is a body of revolution
+/// about the transverse axis, so that hinge rotation alone leaves the gap as it is.
 namespace articular::anatomy {
 
 /// Centre of the left condyle head. With the incisor edge at kIncisor: 100 mm between the condyles,
@@ -32,6 +33,7 @@ constexpr double kCondyleHalfWidth = 9;  // 18 mm mediolateral
 constexpr double kSlopeDeg = 42;         // of the eminence's posterior face
 constexpr double kEminenceHeight = 6;    // from roof to crest
 constexpr double kDiscHalfWidth = 11;    // 22 mm mediolateral
+constexpr double kMedialWall = 11.6;     // of the fossa, from the condyle centre
 /// Clearance between disc and bone. The disc's faces are chords of the head: with edges of 1.2 mm
 /// they dip h²/8R = 0.036 mm below their nodes, so the lower clearance is the larger one.
 constexpr double kLowerClearance = 0.045;
@@ -65,7 +67,8 @@ double distance_below_fossa(const Vec3& p, const FossaProfile& fossa = usual_fos
 /// @param h  edge length
 Mesh condyle_sheet(double h);
 
-/// Postglenoid wall, roof, slope, crest and 15 mm beyond it, normals into the joint.
+/// Postglenoid wall, roof, slope, crest and 15 mm beyond it, and the medial wall that hangs from
+/// them; normals into the joint.
 Mesh fossa_sheet(double h, const FossaProfile& fossa = usual_fossa());
 
 /// The disc: tetrahedra of edge h along the surface, two layers at h = 1.2 mm.

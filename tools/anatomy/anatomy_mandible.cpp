@@ -14,7 +14,9 @@ constexpr double kMuscleBoneGrid = 2.2;  // parts of the bones that muscles touc
 
 /// Left attachments, on the surfaces of mandible_surface and skull_surface. Directions follow the
 /// lines of action of MPE18 where it has them (superficial masseter, anterior temporalis, medial
-/// and inferior lateral pterygoid); forces, lengths and ratios: PECK (scenarios/SOURCES.md).
+/// and inferior lateral pterygoid); forces and ratios: PECK; sarcomeres of the mean region of the
+/// superficial and the deep masseter, of the pterygoids as measured, and of the temporalis as of
+/// the whole masseter (scenarios/SOURCES.md).
 std::vector<MuscleRow> left_muscles() {
   const std::string skull = "skull", mandible = "mandible", hyoid = "hyoid";
   return {
@@ -25,7 +27,7 @@ std::vector<MuscleRow> left_muscles() {
        mandible,
        {45.5, 5.5, 72},
        158.0,
-       75.54,
+       2.41,
        1.2698,
        0.5},
       {"mt",
@@ -35,7 +37,7 @@ std::vector<MuscleRow> left_muscles() {
        mandible,
        {46.8, 6.5, 78},
        95.6,
-       65.81,
+       2.41,
        1.4186,
        0.48},
       {"pt",
@@ -45,7 +47,7 @@ std::vector<MuscleRow> left_muscles() {
        mandible,
        {46.8, 7, 78},
        75.6,
-       77.11,
+       2.41,
        1.3109,
        0.51},
       {"sm",
@@ -55,7 +57,7 @@ std::vector<MuscleRow> left_muscles() {
        mandible,
        {48.5, 19, 29},
        190.4,
-       51.46,
+       2.48,
        1.2997,
        0.46},
       {"dm",
@@ -65,7 +67,7 @@ std::vector<MuscleRow> left_muscles() {
        mandible,
        {48.5, 17, 53},
        81.6,
-       29.07,
+       2.33,
        1.5428,
        0.29},
       {"mp",
@@ -75,7 +77,7 @@ std::vector<MuscleRow> left_muscles() {
        mandible,
        {44, 22, 32},
        174.8,
-       40.51,
+       2.52,
        1.2498,
        0.64},
       {"sp",
@@ -85,7 +87,7 @@ std::vector<MuscleRow> left_muscles() {
        mandible,
        {47.5, 28, 77.5},
        28.7,
-       27.7,
+       2.72,
        1.3610,
        0.0},
       {"ip",
@@ -95,7 +97,7 @@ std::vector<MuscleRow> left_muscles() {
        mandible,
        {48, 28, 75.5},
        66.9,
-       31.5,
+       2.83,
        1.3175,
        0.0},
       {"ad",
@@ -105,19 +107,10 @@ std::vector<MuscleRow> left_muscles() {
        hyoid,
        {11, 10, -7},
        40.0,
-       35.1,
+       0,
        1.2849,
        0.0},
-      {"pd",
-       "posterior digastric",
-       skull,
-       {51, 53, 70},
-       hyoid,
-       {11, 10, -7},
-       40.0,
-       35.1,
-       1.2849,
-       0.0},
+      {"pd", "posterior digastric", skull, {51, 53, 70}, hyoid, {11, 10, -7}, 40.0, 0, 1.2849, 0.0},
       {"am",
        "anterior mylohyoid",
        mandible,
@@ -125,7 +118,7 @@ std::vector<MuscleRow> left_muscles() {
        hyoid,
        {2, 4, -8},
        35.4,
-       35.1,
+       0,
        1.2849,
        0.0},
       {"pm",
@@ -135,11 +128,11 @@ std::vector<MuscleRow> left_muscles() {
        hyoid,
        {6, 6, -8},
        35.4,
-       35.1,
+       0,
        1.2849,
        0.0},
-      {"gh", "geniohyoid", mandible, {2, -35, 15}, hyoid, {2, 6, -6}, 32.0, 35.1, 1.2849, 0.0},
-      {"sh", "stylohyoid", skull, {38, 44, 68}, hyoid, {11, 10, -6}, 15.6, 35.1, 1.2849, 0.0},
+      {"gh", "geniohyoid", mandible, {2, -35, 15}, hyoid, {2, 6, -6}, 32.0, 0, 1.2849, 0.0},
+      {"sh", "stylohyoid", skull, {38, 44, 68}, hyoid, {11, 10, -6}, 15.6, 0, 1.2849, 0.0},
   };
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,16 @@ struct MuscleRow {
   Vec3 upper;
   std::string body_lower;
   Vec3 lower;
-  double max_force;             // [N], peak, one side
-  double published_opt_length;  // [mm]
+  double max_force;     // [N], peak, one side
+  double sarcomere_um;  // measured with the mouth closed; 0: not known
   double max_over_opt_length;
   double tendon_ratio;
 };
+
+/// Length at which a muscle is strongest [mm], from its sarcomeres, or nothing where these are not
+/// known. At the length l, with the tendon ratio r, fibres are (l - r l_opt) / ((1 - r) l_opt) =
+/// sarcomere / 2.7 um of their optimal length. 2.7 um: optimum of human sarcomeres.
+std::optional<double> optimal_length(const MuscleRow& muscle);
 
 struct Landmark {
   std::string name, body;

@@ -112,6 +112,7 @@ max_velocity = "5 1/s"
 force_length = true
 activation_time = "10 ms"
 deactivation_time = "40 ms"
+optimal_length = { m1 = "8 mm" }
 excitation = { masseter = { time = ["0 s"], value = [1] } }
 [[ligament]]
 name = "linear"

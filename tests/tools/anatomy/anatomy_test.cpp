@@ -114,6 +114,26 @@ TEST(MandibleAnatomy, HasThePublishedDimensions) {
   EXPECT_LT(fossa.X_mm.row(1).minCoeff(), kCondyle.y() - 15 - kCondyleRadius);  // room for the path
 }
 
+// Beside the condyle's medial pole, as far on as the crest, and further off in front.
+TEST(MandibleAnatomy, AMedialWallStandsBesideTheDisc) {
+  const Mesh& fossa = default_anatomy().meshes.at("fossa_left.vtp");
+  SurfaceDistance to_fossa(fossa.X_mm, fossa.triangles);
+  for (const double forward : {0.0, 4.0, 8.0}) {
+    const Vec3 in_joint(0, -forward, -0.6 * forward);  // the condyle goes down in front
+    const double wall = kMedialWall + std::tan(8 * kDegree) * forward;
+    for (const double beyond : {-0.5, 0.5}) {
+      const Vec3 p = in_joint + Vec3(-wall - beyond, 0, 1);
+      EXPECT_NEAR(distance_below_fossa(p), -beyond, 0.02) << forward;
+      EXPECT_NEAR(to_fossa(kCondyle + p), -beyond, 0.15) << forward;
+    }
+    EXPECT_GT(distance_below_fossa(in_joint + Vec3(wall, 0, 1)), 2);  // none on the outer side
+  }
+  for (const double size : {0.7, 1.2, 2.0}) {
+    const Mesh mesh = disc(size);
+    EXPECT_GT(mesh.X_mm.row(0).minCoeff(), kCondyle.x() - kMedialWall + 0.5);
+  }
+}
+
 TEST(MandibleAnatomy, JointSheetsFaceTheDisc) {
   for (const char* side : {"left", "right"}) {
     const Mesh& condyle = default_anatomy().meshes.at(std::string("condyle_") + side + ".vtp");
