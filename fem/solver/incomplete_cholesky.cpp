@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <array>
 #include <cassert>
 #include <cstddef>
 
@@ -10,23 +11,22 @@
 namespace articular::fem {
 namespace {
 
-constexpr double kSmallestShift = 1.0 / 256, kShiftGrowth = 4;
-
-double next_shift(double shift) { return shift == 0 ? kSmallestShift : kShiftGrowth * shift; }
-double last_shift(double shift) { return shift <= kSmallestShift ? 0 : shift / kShiftGrowth; }
+constexpr std::array kShifts{0.0, 1.0 / 256, 1.0 / 64, 1.0 / 16, 1.0 / 4, 1.0};
 
 }  // namespace
 
 bool IncompleteCholesky::factorize(const LowerBlocks& A) {
   row_begin_ = A.row_begin;
   column_ = A.column;
-  for (double shift = last_shift(shift_); shift <= 1; shift = next_shift(shift)) {
-    if (!factorize(A, shift)) continue;
-    shift_ = shift;
+  for (std::size_t k = level_ > 0 ? level_ - 1 : 0; k < kShifts.size(); ++k) {
+    if (!factorize(A, kShifts[k])) continue;
+    level_ = k;
     return true;
   }
   return false;
 }
+
+double IncompleteCholesky::shift() const { return kShifts[level_]; }
 
 bool IncompleteCholesky::factorize(const LowerBlocks& A, double shift) {
   const auto n = static_cast<std::size_t>(A.num_blocks());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "fem/base/types.hpp"
@@ -27,7 +28,7 @@ class IncompleteCholesky {
   [[nodiscard]] bool factorize(const LowerBlocks& A);
   /// z = (L D Lᵀ)⁻¹ r
   void solve(const Eigen::VectorXd& r, Eigen::VectorXd& z);
-  double shift() const { return shift_; }
+  double shift() const;
 
  private:
   using Mat3f = Eigen::Matrix3f;
@@ -40,7 +41,7 @@ class IncompleteCholesky {
   std::vector<float> below_;             // L below its diagonal of identities: 9 a block, padded
   std::vector<Mat3f> inverse_pivot_;     // D⁻¹
   Eigen::VectorXf work_;
-  double shift_ = 0;
+  std::size_t level_ = 0;  // of the shifts
   // While factoring:
   std::vector<Mat3> scaled_, lower_, inverse_;  // L D, L and D⁻¹
   std::vector<int> slot_of_column_;             // of the row at hand; -1: none
