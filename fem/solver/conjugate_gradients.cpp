@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "fem/solver/incomplete_cholesky.hpp"
 #include "fem/solver/linear_solver.hpp"
 #include "fem/solver/preconditioned_iteration.hpp"
 #include "fem/sparse/lower_blocks.hpp"
@@ -13,14 +12,7 @@
 namespace articular::fem {
 namespace {
 
-/// Where block Jacobi takes more iterations, an incomplete factor pays: its set-up takes as long as
-/// ten of them, and it needs a third as many, twice as long each.
-constexpr int kManyIterations = 25;
-/// Where a factor takes fewer, block Jacobi would have done.
-constexpr int kFewIterations = 5;
-
-/// Preconditioned by block Jacobi, or by an incomplete factor where the solution before took many
-/// iterations. Sums run in a fixed order.
+/// Block Jacobi as preconditioner. Sums run in a fixed order.
 class ConjugateGradients final : public LinearSolver {
  public:
   ConjugateGradients(double tolerance, int max_iterations)
@@ -38,37 +30,22 @@ class ConjugateGradients final : public LinearSolver {
     A_.take(A);
     memory_.resize(3 * Eigen::Index{A.num_blocks()});
     ready_ = invert_diagonal();
-    if (!ready_) return FactorStatus::NotPositiveDefinite;
-    // Pressures are not in the blocks of A, and would be missing from its factor.
-    has_factor_ = part.terms.empty() && takes_many_ && factor_.factorize(A_);
-    return FactorStatus::Ready;
+    return ready_ ? FactorStatus::Ready : FactorStatus::NotPositiveDefinite;
   }
 
   SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) override {
     assert(ready_);
     assert(b.size() == memory_.r.size());
-    const SolveReport report = iterate(b, x);
-    takes_many_ = report.iterations > (has_factor_ ? kFewIterations : kManyIterations);
-    if (report.converged || !has_factor_) return report;
-    has_factor_ = false;
-    SolveReport again = iterate(b, x);
-    again.iterations += report.iterations;
-    return again;
-  }
-
- private:
-  SolveReport iterate(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     return preconditioned_iteration(
         [this](const Eigen::VectorXd& v, Eigen::VectorXd& y) {
           A_.multiply(v, y);
           pressure_.add_product(v, y);
         },
-        [this](const Eigen::VectorXd& r, Eigen::VectorXd& z) {
-          has_factor_ ? factor_.solve(r, z) : solve_diagonal(r, z);
-        },
-        tolerance_, max_iterations_, b, x, memory_);
+        [this](const Eigen::VectorXd& r, Eigen::VectorXd& z) { precondition(r, z); }, tolerance_,
+        max_iterations_, b, x, memory_);
   }
 
+ private:
   /// @return false where a block is not positive definite
   bool invert_diagonal() {
     inverse_diagonal_.resize(A_.diagonal.size());
@@ -81,7 +58,7 @@ class ConjugateGradients final : public LinearSolver {
     return true;
   }
 
-  void solve_diagonal(const Eigen::VectorXd& r, Eigen::VectorXd& z) const {
+  void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const {
     for (int i = 0; i < A_.num_blocks(); ++i) {
       const Eigen::Index row = 3 * Eigen::Index{i};
       z.segment<3>(row) = inverse_diagonal_[i] * r.segment<3>(row);
@@ -92,10 +69,7 @@ class ConjugateGradients final : public LinearSolver {
   int max_iterations_;
   LowerBlocks A_;
   std::vector<Mat3> inverse_diagonal_;
-  IncompleteCholesky factor_;
   bool ready_ = false;
-  bool has_factor_ = false;  // of A
-  bool takes_many_ = false;  // iterations, the last solution
   PressureOperator pressure_;
   IterationMemory memory_;
 };

@@ -55,9 +55,7 @@ class LinearSolver {
 std::unique_ptr<LinearSolver> make_cholesky(
     std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1));
 
-/// Conjugate gradients with the inverses of the diagonal blocks as preconditioner, or, after a
-/// solution that took many iterations, with an incomplete factor (incomplete_cholesky.hpp) where
-/// there are no pressures.
+/// Conjugate gradients with the inverses of the diagonal blocks as preconditioner.
 /// @param tolerance  on |r| / |b|
 std::unique_ptr<LinearSolver> make_conjugate_gradients(double tolerance, int max_iterations);
 
