@@ -58,6 +58,7 @@ class ConjugateGradients final : public LinearSolver {
     return true;
   }
 
+  /// z = M⁻¹ r
   void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const {
     for (int i = 0; i < A_.num_blocks(); ++i) {
       const Eigen::Index row = 3 * Eigen::Index{i};

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "tools/anatomy/anatomy_grid.hpp"
+#include "tools/anatomy/anatomy_solids.hpp"
 
 namespace articular::anatomy {
 namespace {
@@ -146,11 +147,6 @@ std::vector<Vec3> medial_wall_row(const FossaProfile& fossa, double h, double be
     }
   }
   return row;
-}
-
-double smooth_min(double a, double b, double width) {
-  const double h = std::max(width - std::abs(a - b), 0.0) / width;
-  return std::min(a, b) - h * h * width / 4;
 }
 
 /// Inner and outer radius of the disc on the ray at `angle` from the vertical (> 0 forward) in the

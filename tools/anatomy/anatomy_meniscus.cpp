@@ -26,10 +26,13 @@ Eigen::Vector2d rim_ray(const Compartment& c, double psi) {
   return {c.side * c.rim_width * std::cos(psi), c.rim_depth * std::sin(psi)};
 }
 
+/// From 0 to 1, level at both ends; t in [0, 1].
+double smooth_step(double t) { return t * t * (3 - 2 * t); }
+
 /// Between the three widths, by the share of front and back.
 double full_width(const Compartment& c, double psi) {
   const double t = std::min(std::abs(psi) / (90 * kDeg), 1.0);
-  const double blend = t * t * (3 - 2 * t);
+  const double blend = smooth_step(t);
   return c.middle_width + blend * ((psi < 0 ? c.front_width : c.back_width) - c.middle_width);
 }
 
@@ -37,7 +40,7 @@ double full_width(const Compartment& c, double psi) {
 double horn_share(const Compartment& c, double psi) {
   constexpr double kBegin = 0.7;
   const double t = std::clamp((std::abs(psi) / c.horn_angle - kBegin) / (1 - kBegin), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
+  return smooth_step(t);
 }
 
 /// 1 at a distance of 0, nothing from `way` on.

@@ -9,8 +9,7 @@ namespace articular::anatomy {
 /// along the rim. A section, with the inner edge on the left:
 ///
 ///                    __.---.
-///            __..--''       )     upper face: along the condyle, as far as the rim's height lets
-///            it
+///            __..--''       )     upper face: along the condyle, up to the rim's height
 ///       __.-'               |
 ///      (_________________.-'      lower face: along the plateau
 ///

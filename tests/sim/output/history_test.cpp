@@ -145,10 +145,9 @@ TEST(AttachmentProbe, CountsContactOnTheTiedNodesToo) {
   EXPECT_NEAR(probes("share.share [-]"), 1, 1e-5);
 }
 
-// Half of a bar is drawn out by 2, the other half by 1.1.
-TEST(FibresProbe, HasTheMeanOverTheVolumeAndTheLargestStretch) {
-  const TemporaryFolder folder;
-  const std::string text = R"(
+/// A bar of 4 mm that stands at z = 0, in two halves, and two bodies to attach it to.
+std::string bar_and_plates(const std::string& material) {
+  return R"(
 duration = "1 s"
 contact = false
 [[body]]
@@ -156,13 +155,23 @@ name = "bar"
 kind = "tissue"
 geometry = { box = { size = "1 1 4 mm", cells = [1, 1, 2], center = "0 0 2 mm" } }
 density = "1 g/cm^3"
-material = { law = "transversely-isotropic", c10 = "1 kPa", c3 = "1 kPa", c4 = 1, c5 = "1 kPa", toe_end = 1.1, bulk_modulus = "10 kPa", prestretch = 1.1, fibres = { direction = [0, 0, 1] } }
+material = )" +
+         material + R"(
 [[body]]
 name = "wall"
 kind = "fixed"
 [[body]]
 name = "plate"
 kind = "fixed"
+)";
+}
+
+// Half of a bar is drawn out by 2, the other half by 1.1.
+TEST(FibresProbe, HasTheMeanOverTheVolumeAndTheLargestStretch) {
+  const TemporaryFolder folder;
+  const std::string material =
+      R"({ law = "transversely-isotropic", c10 = "1 kPa", c3 = "1 kPa", c4 = 1, c5 = "1 kPa", toe_end = 1.1, bulk_modulus = "10 kPa", prestretch = 1.1, fibres = { direction = [0, 0, 1] } })";
+  const std::string text = bar_and_plates(material) + R"(
 [[attach]]
 body = "bar"
 to = "wall"
@@ -196,21 +205,9 @@ TEST(ExtentProbe, IsAlongAnAxisThatGoesWithItsBody) {
     return std::string("[[probe]]\nkind = \"extent\"\nbody = \"bar\"\nname = \"") + name +
            "\"\nframe = \"" + frame + "\"\npoint = \"0 0 1 mm\"\ndirection = " + direction + "\n";
   };
-  const std::string text = R"(
-duration = "1 s"
-contact = false
-[[body]]
-name = "bar"
-kind = "tissue"
-geometry = { box = { size = "1 1 4 mm", cells = [1, 1, 2], center = "0 0 2 mm" } }
-density = "1 g/cm^3"
-material = { law = "neo-hookean", young_modulus = "1 kPa", poisson_ratio = 0.3 }
-[[body]]
-name = "wall"
-kind = "fixed"
-[[body]]
-name = "plate"
-kind = "fixed"
+  const std::string material =
+      R"({ law = "neo-hookean", young_modulus = "1 kPa", poisson_ratio = 0.3 })";
+  const std::string text = bar_and_plates(material) + R"(
 [[attach]]
 body = "bar"
 to = "plate"
