@@ -164,6 +164,7 @@ void complete_collider(Collider& collider, const std::vector<char>& is_outer) {
                                                   collider.face_area);
   collider.rims = rims_of_smoothing_groups(collider.X, faces, kFacingNone);
   collider.rim_height = heights_over_convex_rims(collider.X, faces, kFacingNone);
+  collider.across = faces_across_edges(collider.X, faces, kFacingNone);
 
   // Mean height of the elements that have a face on the surface, over that face.
   collider.height.setZero(num_nodes);

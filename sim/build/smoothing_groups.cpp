@@ -124,6 +124,16 @@ std::vector<unsigned> rims_of_smoothing_groups(const Positions& X, const Eigen::
   return rims;
 }
 
+Eigen::Matrix3Xi faces_across_edges(const Positions& X, const Eigen::Matrix3Xi& faces,
+                                    double crease) {
+  Eigen::Matrix3Xi across = Eigen::Matrix3Xi::Constant(3, faces.cols(), -1);
+  for (const auto& [p, q] : shared_edges(unit_normals(X, faces), faces, crease).smooth) {
+    across(p.opposite(), p.face) = q.face;
+    across(q.opposite(), q.face) = p.face;
+  }
+  return across;
+}
+
 Positions heights_over_convex_rims(const Positions& X, const Eigen::Matrix3Xi& faces,
                                    double crease) {
   Positions heights = Positions::Zero(3, faces.cols());

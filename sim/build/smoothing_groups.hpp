@@ -26,6 +26,10 @@ Eigen::VectorXd areas_of_smoothing_groups(const Eigen::Matrix3Xi& groups, Eigen:
 std::vector<unsigned> rims_of_smoothing_groups(const Positions& X, const Eigen::Matrix3Xi& faces,
                                                double crease);
 
+/// Of each face, by corner: the face of the same group across the edge opposite; -1 at a rim.
+Eigen::Matrix3Xi faces_across_edges(const Positions& X, const Eigen::Matrix3Xi& faces,
+                                    double crease);
+
 /// Of each face, by corner: its height over the edge opposite, where that is a rim and the body is
 /// convex there [m]; else 0.
 Positions heights_over_convex_rims(const Positions& X, const Eigen::Matrix3Xi& faces,

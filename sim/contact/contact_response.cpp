@@ -56,11 +56,23 @@ const FlatTriangle& face_now(const Configuration& configuration, const Collider&
   return triangle;
 }
 
+/// Whether a face's neighbour of the same group stands oblique to the triangle, and so has not the
+/// weight of one that faces it, or none.
+bool meets_oblique(const FlatTriangle& s, const Configuration& configuration, const Collider& faces,
+                   int face, MetFaces& met) {
+  const auto across = faces.across.col(face);
+  return std::any_of(across.begin(), across.end(), [&](int other) {
+    return other >= 0 &&
+           -s.normal.dot(face_now(configuration, faces, other, met).normal) < kFacingFull;
+  });
+}
+
 /// A triangle's patches. Where faces stand oblique to it their weights differ, and beside rims the
 /// depths: no face takes over from the next what an edge sweeps. Nor, in the tangent, at the corner
 /// where such an edge meets an end. Where depths begin to count the sum is zero all along the edge.
-void end_at_edges(std::span<ContactPairState::Patch> patches) {
-  if (std::none_of(patches.begin(), patches.end(), [](const ContactPairState::Patch& entry) {
+void end_at_edges(std::span<ContactPairState::Patch> patches, bool meet_oblique) {
+  if (!meet_oblique &&
+      std::none_of(patches.begin(), patches.end(), [](const ContactPairState::Patch& entry) {
         return entry.patch.turning != 0 || is_beside_rim(entry.patch) || has_end(entry.patch);
       }))
     return;
@@ -100,12 +112,14 @@ void find_patches(const Model& model, const CandidateList& list, const Configura
     const double rest_area = side.triangles.face_area[static_cast<std::size_t>(triangle)];
     Vec3 covered = Vec3::Zero(), integrals = Vec3::Zero();
     const std::size_t first_patch = pair_state.num_patches;
+    bool meet_oblique = false;
     for (; first < pairs.size() && pairs[first].triangle == triangle; ++first) {
       const int face = pairs[first].face;
       range.reach = pairs[first].reach;
       const FlatTriangle& f = face_now(configuration, side.faces, face, met);
       const std::optional<FacingPair> facing = facing_pair(s, f, range);
       if (!facing) continue;
+      meet_oblique = meet_oblique || meets_oblique(s, configuration, side.faces, face, met);
       for (int nearest = 0; nearest < ContactPatch::kParts; ++nearest) {
         if (pair_state.num_patches == pair_state.stored.size()) pair_state.stored.emplace_back();
         ContactPairState::Patch& entry = pair_state.stored[pair_state.num_patches];
@@ -125,7 +139,8 @@ void find_patches(const Model& model, const CandidateList& list, const Configura
       pair_state.area[group] += covered[i];
       pair_state.depth[group] += integrals[i];
     }
-    end_at_edges({pair_state.stored.data() + first_patch, pair_state.num_patches - first_patch});
+    end_at_edges({pair_state.stored.data() + first_patch, pair_state.num_patches - first_patch},
+                 meet_oblique);
   }
 }
 

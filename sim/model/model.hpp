@@ -90,6 +90,7 @@ struct Collider {
   Eigen::VectorXd group_area;             // around each, at the start [m²]
   std::vector<unsigned> rims;             // of each face, FlatTriangle::rims
   Positions rim_height;                   // of each face, FlatTriangle::rim_height
+  Eigen::Matrix3Xi across;                // of each face, see faces_across_edges()
   std::vector<int> nearby_begin, nearby;  // per tetrahedron: faces around it
   std::vector<char> is_inner;             // per tetrahedron: no node of it is on the surface
   Eigen::VectorXd compliance;             // of an element at the surface, h/M, at each node [m/Pa]

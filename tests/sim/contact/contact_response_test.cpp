@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "tests/sim/support/contact_scene.hpp"
 
@@ -244,6 +245,40 @@ TEST(AveragedContact, ForcesAreTheDerivativeOfTheEnergyWhereFacesStandOblique) {
 
 TEST(AveragedContact, TheTangentIsTheDerivativeOfTheForcesWhereFacesStandOblique) {
   SunkBlock block = ridged_block(Body::Kind::Fixed);
+  EXPECT_LT(error_of_tangent(block), 1e-5);
+}
+
+/// Beyond x = 0 the lower block's top rises by 58 degrees. What has sunk in there falls off by 20:
+/// it faces the top wholly, and the slope not at all.
+SunkBlock block_before_a_slope() {
+  constexpr double kCell = kSide / 3;
+  const TemporaryFolder folder;
+  Scenario s = SunkBlock::scenario(Vec3::Zero());
+  const auto rise = [&](Vec3 X) {
+    if (X.z() > 0.5 * kSide - 1e-9 && X.x() > 0.5 * kCell)
+      X.z() += std::tan(58 * std::numbers::pi / 180) * kCell;
+    return X;
+  };
+  const auto fall = [&](Vec3 X) {
+    X.z() -= std::tan(20 * std::numbers::pi / 180) * X.x();
+    return X;
+  };
+  const BoxGeometry below{{2 * kSide, 2 * kSide, kSide}, {6, 3, 1}, Vec3::Zero()};
+  const BoxGeometry above{
+      {0.3 * kSide, kSide, 0.5 * kSide}, {3, 4, 2}, {-0.1 * kSide, 0.07 * kSide, 0.73 * kSide}};
+  s.bodies[0].geometry = mesh_body("lower", Body::Kind::Tissue, bent(below, rise), folder).geometry;
+  s.bodies[1].geometry = mesh_body("upper", Body::Kind::Tissue, bent(above, fall), folder).geometry;
+  return SunkBlock(s, 0.001);
+}
+
+// No other patch takes over at the edge what the ones before it sweep.
+TEST(AveragedContact, ForcesAreTheDerivativeOfTheEnergyBeforeASlopeThatDoesNotFace) {
+  SunkBlock block = block_before_a_slope();
+  block.forces(block.y);
+  ASSERT_GT(block.response.pair_states()[0]->num_patches, 20U);
+  for (const ContactPairState::Patch& entry : block.response.pair_states()[0]->patches())
+    EXPECT_EQ(entry.patch.turning, 0);
+  EXPECT_LT(error_of_forces(block), 1e-6);
   EXPECT_LT(error_of_tangent(block), 1e-5);
 }
 
