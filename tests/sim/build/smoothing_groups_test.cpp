@@ -102,6 +102,25 @@ TEST(SmoothingGroups, HeightsOverRimsAreThoseOfTheFacesButAtInnerEdges) {
   EXPECT_EQ(outer, 2 * (16 + 16 + 5 * 2));
 }
 
+// Of an angle with an inner edge too, each side has one face across, unless it is a rim.
+TEST(SmoothingGroups, TheFaceAcrossAnEdgeSharesItsNodesAndIsNoneAtARim) {
+  const MeshData angle = carved({{0.04, 0.04, 0.02}, {4, 4, 2}, Vec3::Zero()},
+                                [](const Vec3& X) { return X.x() < 0 || X.y() < 0; });
+  const Groups s(angle);
+  const std::vector<unsigned> rims = rims_of_smoothing_groups(angle.X, s.faces, kCrease);
+  const Eigen::Matrix3Xi across = faces_across_edges(angle.X, s.faces, kCrease);
+  ASSERT_EQ(across.cols(), s.faces.cols());
+  for (int f = 0; f < s.faces.cols(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int other = across(k, f);
+      ASSERT_EQ(other < 0, (rims[static_cast<std::size_t>(f)] >> k & 1) != 0);
+      if (other < 0) continue;
+      EXPECT_NE(other, f);
+      for (const int node : {s.faces((k + 1) % 3, f), s.faces((k + 2) % 3, f)})
+        EXPECT_TRUE((s.faces.col(other).array() == node).any());
+    }
+}
+
 TEST(SmoothingGroups, ABallHasNoCreases) {
   const Groups s(sphere_mesh({0.01, 4e-3, Vec3::Zero()}));
   for (const auto& [node, groups] : s.at_node) EXPECT_EQ(groups.size(), 1U);
