@@ -33,6 +33,8 @@ constexpr int kSearchesFrom = 8, kNever = std::numeric_limits<int>::max();
 /// Contact that opens and closes makes corrections grow for an iteration or two; ARKODE's limit of
 /// 2.3 gives up then.
 constexpr double kDivergenceRatio = 1e3;
+/// A prediction in which less is left of the force on a body has taken it from what it touches.
+constexpr double kLeastLeft = 0.3;
 
 class ImplicitRungeKutta final : public TimeIntegrator {
  public:
@@ -42,6 +44,7 @@ class ImplicitRungeKutta final : public TimeIntegrator {
     newton_.restart();
     keep_matrix_ = false;
     acceleration_.setZero();
+    touched_.clear();
     t_landing_.reset();
   }
   const SolverCounts& counts() const override { return counts_; }
@@ -54,6 +57,10 @@ class ImplicitRungeKutta final : public TimeIntegrator {
   static int is_converged(SUNNonlinearSolver solver, N_Vector, N_Vector correction,
                           realtype tolerance, N_Vector weights, void* data);
   static int predict_stage(realtype t, N_Vector z, void* data);
+  /// Where everything would be after the time h.
+  /// @param y  a state, and then that one
+  void predict(const Eigen::VectorXd& acceleration, double h, Eigen::Ref<Eigen::VectorXd> y) const;
+  bool has_let_go() const;
   [[nodiscard]] bool evolve(const Eigen::VectorXd& start, double t, double h);
   [[nodiscard]] bool evolve_by_either_tangent(const Eigen::VectorXd& start, double t, double h,
                                               bool lands = false);
@@ -72,7 +79,11 @@ class ImplicitRungeKutta final : public TimeIntegrator {
   const bool has_stiff_contact_;
   std::optional<double> t_landing_;  // [s] a step from there is known to need soft contact first
   Eigen::VectorXd acceleration_;     // mean of the last step, zero if there is none
-  std::exception_ptr error_;         // thrown below a C callback
+  std::vector<double> touched_;      // force on bodies at the end of the last step [N]
+  Eigen::VectorXd stage_start_;      // before it was predicted
+  double stage_time_ = 0;            // [s] from the step's start to the stage
+  bool may_predict_again_ = false, has_predicted_again_ = false;  // in this stage
+  std::exception_ptr error_;                                      // thrown below a C callback
   sundials::Context context_;
   sundials::Vector y_;
   sundials::Solver solver_;
@@ -104,6 +115,13 @@ int ImplicitRungeKutta::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_V
     N_Vector y = nullptr;
     check(ARKStepGetCurrentGamma(self.arkode_.get(), &gamma), "ARKStepGetCurrentGamma");
     check(ARKStepGetCurrentState(self.arkode_.get(), &y), "ARKStepGetCurrentState");
+    if (std::exchange(self.may_predict_again_, false) && self.has_let_go()) {
+      self.has_predicted_again_ = true;
+      self.predict(Eigen::VectorXd::Zero(self.acceleration_.size()), self.stage_time_,
+                   self.stage_start_);
+      view(x) = self.stage_start_ - view(y);
+      return 0;
+    }
     ++self.counts_.newton_iterations;
     const bool solved = self.newton_.solve(N_VGetArrayPointer(y), gamma, N_VGetArrayPointer(b),
                                            N_VGetArrayPointer(x), self.conditions_, self.counts_);
@@ -126,6 +144,7 @@ int ImplicitRungeKutta::is_converged(SUNNonlinearSolver solver, N_Vector, N_Vect
   auto& self = *static_cast<ImplicitRungeKutta*>(data);
   int iteration = 0;
   SUNNonlinSolGetCurIter(solver, &iteration);
+  if (self.has_predicted_again_ && --iteration < 0) return SUN_NLS_CONTINUE;
   const double size = N_VWrmsNorm(correction, weights), last = self.correction_size_;
   self.correction_size_ = size;
   self.convergence_rate_ =
@@ -138,24 +157,41 @@ int ImplicitRungeKutta::is_converged(SUNNonlinearSolver solver, N_Vector, N_Vect
 
 /// A stage's iteration starts where everything would be if it went on as in the last step, with the
 /// velocity of this one's start and the acceleration of that one: bodies in contact then start
-/// pressed together about as they will be, and few contacts open or close in the iteration.
+/// pressed together about as they will be, and few contacts open or close in the iteration. But
+/// where bodies have met in the last step the blow does not go on: see has_let_go().
 int ImplicitRungeKutta::predict_stage(realtype t, N_Vector z, void* data) {
   auto& self = *static_cast<ImplicitRungeKutta*>(data);
   self.newton_.begin_iteration();
-  const Layout& layout = self.model_.layout;
-  double* y = N_VGetArrayPointer(z);
-  const double h = t - self.conditions_.step_start;
-  Eigen::Map<Eigen::VectorXd> vector(y, layout.size());
-  vector.segment(layout.velocities(), self.acceleration_.size()) += h * self.acceleration_;
-  vector.head(3 * layout.num_free_nodes) +=
-      h * vector.segment(layout.velocities(), 3 * layout.num_free_nodes);
+  self.stage_time_ = t - self.conditions_.step_start;
+  self.stage_start_ = view(z);
+  self.may_predict_again_ = true;
+  self.has_predicted_again_ = false;
+  self.predict(self.acceleration_, self.stage_time_, view(z));
+  return 0;
+}
+
+void ImplicitRungeKutta::predict(const Eigen::VectorXd& acceleration, double h,
+                                 Eigen::Ref<Eigen::VectorXd> y) const {
+  const Layout& layout = model_.layout;
+  y.segment(layout.velocities(), acceleration.size()) += h * acceleration;
+  y.head(3 * layout.num_free_nodes) +=
+      h * y.segment(layout.velocities(), 3 * layout.num_free_nodes);
   for (int r = 0; r < layout.num_rigid; ++r) {
     const int velocity =
-        layout.velocities() + 3 * self.model_.rigid_bodies[static_cast<std::size_t>(r)].block;
-    vector.segment<3>(layout.rigid_p(r)) += h * vector.segment<3>(velocity);
-    turn(y + layout.rigid_q(r), h * vector.segment<3>(velocity + 3));
+        layout.velocities() + 3 * model_.rigid_bodies[static_cast<std::size_t>(r)].block;
+    y.segment<3>(layout.rigid_p(r)) += h * y.segment<3>(velocity);
+    turn(y.data() + layout.rigid_q(r), h * y.segment<3>(velocity + 3));
   }
-  return 0;
+}
+
+/// A body that something pressed on at the end of the last step is free, or nearly, where the last
+/// step's acceleration leads: that was a blow. Newton's iteration from there would throw it back,
+/// deep into what it had touched.
+bool ImplicitRungeKutta::has_let_go() const {
+  const std::vector<double>& now = dynamics_.now().contact.force_on_bodies();
+  for (std::size_t b = 0; b < touched_.size(); ++b)
+    if (now[b] < kLeastLeft * touched_[b]) return true;
+  return false;
 }
 
 void set_scheme(void* arkode, Integrator::Scheme scheme) {
@@ -286,6 +322,7 @@ std::optional<double> ImplicitRungeKutta::advance(Eigen::VectorXd& y, double t, 
   }
   ++counts_.steps;
   keep_matrix_ = true;
+  touched_ = dynamics_.now().contact.force_on_bodies();
   const Eigen::VectorXd before = y;
   y = view(y_);
   for (int r = 0; r < model_.layout.num_rigid; ++r)
