@@ -104,6 +104,22 @@ TEST(KneeExtension, TheTendonPullsAboutAsTheQuadricepsNearExtensionAndLessWithFl
     EXPECT_GT(tendon_ratio(right_knee(), time), tendon_ratio(right_knee(), time + 1)) << time;
 }
 
+// A body of fibres between patella and tuberosity pulls with what its lines pull with.
+TEST(KneeExtension, ATendonOfTissuePullsAsItsLines) {
+  sim::Scenario scenario =
+      shipped_scenario("knee/extension.toml", {"duration=1 s", "choice.tendon=tissue"});
+  for (sim::Body& body : scenario.bodies)
+    for (sim::MeshFile& file : body.contact_meshes) file.faces.reset();
+  const ScenarioResults tissue = knee_test::run_with(
+      anatomy::knee_anatomy({4, 2}, {.patella = true, .ligaments = true}), scenario);
+  EXPECT_EQ(tissue.summary().at("outcome"), "finished");
+  const double pull = vector_at(tissue, "patellar_tendon.force", "N", 1).norm();
+  EXPECT_NEAR(pull, 400 * tendon_ratio(right_knee(), 1), 20);
+  EXPECT_GT(tissue.last("patellar_tendon_fibres.stretch [-]"), 1.01);
+  EXPECT_LT(tissue.last("patellar_tendon_fibres.stretch [-]"), 1.04);
+  EXPECT_NEAR(tissue.last("tibia.moment.x [N m]"), right_knee().at("tibia.moment.x [N m]", 1), 1);
+}
+
 TEST(KneeExtension, ThePatellaStaysInItsGrooveAndFlexesLessThanTheKnee) {
   const ScenarioResults& knee = right_knee();
   EXPECT_NEAR(knee.last("knee.flexion [deg]"), 30, 1e-6);
