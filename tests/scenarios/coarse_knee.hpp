@@ -14,8 +14,8 @@ inline ScenarioResults run_with(const anatomy::Anatomy& anatomy, sim::Scenario s
   const TemporaryFolder folder;
   anatomy::write_anatomy(anatomy, folder.path() / "anatomy");
   for (sim::Body& body : scenario.bodies) {
-    auto& mesh = std::get<sim::MeshFile>(body.geometry);
-    mesh.path = folder.path() / "anatomy" / mesh.path.filename();
+    if (auto* mesh = std::get_if<sim::MeshFile>(&body.geometry))
+      mesh->path = folder.path() / "anatomy" / mesh->path.filename();
     for (sim::MeshFile& file : body.contact_meshes)
       file.path = folder.path() / "anatomy" / file.path.filename();
   }

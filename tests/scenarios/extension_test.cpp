@@ -104,6 +104,22 @@ TEST(KneeExtension, TheTendonPullsAboutAsTheQuadricepsNearExtensionAndLessWithFl
     EXPECT_GT(tendon_ratio(right_knee(), time), tendon_ratio(right_knee(), time + 1)) << time;
 }
 
+// A body of fibres between patella and tuberosity pulls with what its lines pull with.
+TEST(KneeExtension, ATendonOfTissuePullsAsItsLines) {
+  sim::Scenario scenario =
+      shipped_scenario("knee/extension.toml", {"duration=1 s", "choice.tendon=tissue"});
+  for (sim::Body& body : scenario.bodies)
+    for (sim::MeshFile& file : body.contact_meshes) file.faces.reset();
+  const ScenarioResults tissue = knee_test::run_with(
+      anatomy::knee_anatomy({4, 2}, {.patella = true, .ligaments = true}), scenario);
+  EXPECT_EQ(tissue.summary().at("outcome"), "finished");
+  const double pull = vector_at(tissue, "patellar_tendon.force", "N", 1).norm();
+  EXPECT_NEAR(pull, 400 * tendon_ratio(right_knee(), 1), 20);
+  EXPECT_GT(tissue.last("patellar_tendon_fibres.stretch [-]"), 1.01);
+  EXPECT_LT(tissue.last("patellar_tendon_fibres.stretch [-]"), 1.04);
+  EXPECT_NEAR(tissue.last("tibia.moment.x [N m]"), right_knee().at("tibia.moment.x [N m]", 1), 1);
+}
+
 TEST(KneeExtension, ThePatellaStaysInItsGrooveAndFlexesLessThanTheKnee) {
   const ScenarioResults& knee = right_knee();
   EXPECT_NEAR(knee.last("knee.flexion [deg]"), 30, 1e-6);
@@ -123,8 +139,57 @@ TEST(KneeExtension, TheQuadricepsExtendsTheKneeWithAMomentArmOfAFewCentimetres) 
   EXPECT_LT(arm, 55);
 }
 
+const std::array<std::string, 4> kHamstrings{"biceps_femoris_long", "biceps_femoris_short",
+                                             "semimembranosus", "semitendinosus"};
+
+/// How much shorter a line gets by a radian of flexion, about 30 degrees. [mm]
+double arm_by_travel(const ScenarioResults& knee, const std::string& line) {
+  const double radian = 2.5 * 3.14159265 / 180;
+  const auto length = [&](double time) { return knee.at(line + ".length [mm]", time); };
+  return (length(6.5) - length(7)) / radian;
+}
+
+// Spoor and van Leeuwen 1992: 20 to 55 mm, and 12 to 20 mm of the gastrocnemius.
+TEST(KneeExtension, FlexorsHaveTheArmsOfMeasuredOnes) {
+  for (const std::string& line : kHamstrings) {
+    EXPECT_GT(arm_by_travel(right_knee(), line), 14) << line;
+    EXPECT_LT(arm_by_travel(right_knee(), line), 55) << line;
+  }
+  for (const std::string line : {"gastrocnemius_medial", "gastrocnemius_lateral"})
+    EXPECT_NEAR(arm_by_travel(right_knee(), line), 18, 6) << line;
+  EXPECT_GT(arm_by_travel(right_knee(), "semitendinosus"),
+            arm_by_travel(right_knee(), "semimembranosus"));
+}
+
+// Hamstrings draw the tibia backwards: they relieve the ACL, press the joint together, and take
+// their forces times their arms from the moment that holds the tibia.
+TEST(KneeExtension, HamstringsRelieveTheAclAndFlexTheKneeByTheirArms) {
+  sim::Scenario scenario = short_extension();
+  for (sim::Muscle& muscle : scenario.muscles)
+    for (const std::string& line : kHamstrings)
+      if (muscle.name == line) muscle.excitation.value = {0, 1};
+  const ScenarioResults both = knee_test::run_with(coarse_anatomy(), scenario);
+  EXPECT_EQ(both.summary().at("outcome"), "finished");
+  const ScenarioResults& alone = right_knee();
+  const auto acl = [](const ScenarioResults& knee) {
+    return knee.last("acl_anterior.force [N]") + knee.last("acl_posterior.force [N]");
+  };
+  EXPECT_LT(acl(both), 0.7 * acl(alone));
+  EXPECT_GT(vector_at(both, "tibiofemoral.force", "N", 7).norm(),
+            vector_at(alone, "tibiofemoral.force", "N", 7).norm() + 30);
+  double by_arms = 0;  // [N m]
+  for (const std::string& line : kHamstrings) {
+    EXPECT_EQ(alone.last(line + ".force [N]"), 0) << line;
+    by_arms += 1e-3 * both.last(line + ".force [N]") * arm_by_travel(both, line);
+  }
+  EXPECT_GT(by_arms, 3);
+  EXPECT_NEAR(both.last("tibia.moment.x [N m]") - alone.last("tibia.moment.x [N m]"), by_arms,
+              0.25 * by_arms);
+}
+
 // The ground's force passes farther and farther behind the knee; the quadriceps of the file leaves
-// the tibia's hold next to nothing of its moment, which is 7 N m at 30 and 15 at 40 degrees.
+// the tibia's hold next to nothing of its moment and that of the hamstrings, which is 13 N m at 30
+// and 23 at 40 degrees.
 TEST(KneeSquat, TheQuadricepsBalancesTheGround) {
   const ScenarioResults knee = run_scenario("knee/squat.toml", {"duration=9 s"});
   EXPECT_EQ(knee.summary().at("outcome"), "finished");
@@ -134,8 +199,10 @@ TEST(KneeSquat, TheQuadricepsBalancesTheGround) {
     const double force = vector_at(knee, "patellofemoral.force", "N", time).norm();
     EXPECT_GT(force, before + 100) << time;
     before = force;
-    // Ground and tendon press the joint together.
-    EXPECT_GT(vector_at(knee, "tibiofemoral.force", "N", time).norm(), 350) << time;
+    // Ground, tendon and flexors press the joint together.
+    EXPECT_GT(vector_at(knee, "tibiofemoral.force", "N", time).norm(), 700) << time;
+    for (const char* const line : {"semimembranosus", "gastrocnemius_medial"})
+      EXPECT_GT(knee.at(std::string(line) + ".force [N]", time), 50) << line;
   }
 }
 

@@ -64,9 +64,43 @@ double sum_of(const ScenarioResults& results, const std::vector<std::string>& co
   return sum;
 }
 
+/// The names of all lines that end at the tibia, each with its force, the place there and the next
+/// one on its way, as probes NAME_on_tibia, NAME_at_tibia and NAME_beside_tibia.
+std::vector<std::string> add_ends_at_tibia(sim::Scenario& scenario) {
+  std::vector<std::string> lines;
+  for (const sim::Ligament& ligament : scenario.ligaments)
+    for (std::size_t i = 1; i < ligament.path.size(); ++i) {
+      const sim::Anchor &beside = ligament.path[i - 1], &at = ligament.path[i];
+      if (at.body != "tibia" || beside.body == "tibia") continue;
+      scenario.probes.push_back({ligament.name + "_on_tibia", sim::LineProbe{ligament.name}});
+      scenario.probes.push_back({ligament.name + "_at_tibia", sim::PointProbe{at}});
+      scenario.probes.push_back({ligament.name + "_beside_tibia", sim::PointProbe{beside}});
+      lines.push_back(ligament.name);
+    }
+  return lines;
+}
+
+/// What straight lines put on the tibia, upwards. [N]
+double pull_on_tibia(const ScenarioResults& results, const std::vector<std::string>& lines) {
+  double sum = 0;
+  for (const std::string& line : lines) {
+    const auto place = [&](const char* end) {
+      Vec3 x;
+      for (int i = 0; i < 3; ++i)
+        x[i] = results.last(line + end + ".position." + "xyz"[i] + " [mm]");
+      return x;
+    };
+    const Vec3 along = place("_beside_tibia") - place("_at_tibia");
+    sum += results.last(line + "_on_tibia.force [N]") * along.normalized().z();
+  }
+  return sum;
+}
+
 TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
   const double load = 200;  // [N]
-  const ScenarioResults results = loaded_knee(0.2);
+  sim::Scenario scenario = shipped_scenario("knee/axial-load.toml", {"duration=0.2 s"});
+  const std::vector<std::string> lines = add_ends_at_tibia(scenario);
+  const ScenarioResults results = run_with(anatomy::knee_anatomy({4, 2}), scenario);
   EXPECT_EQ(results.summary().at("outcome"), "finished");
   EXPECT_GT(results.count("reported_pairs"), 0);
   // What holds the femur carries the load, along the tibia and nowhere else.
@@ -81,6 +115,14 @@ TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
   const double rigid = sum_of(
       results, {"cartilage_of_femur_medial.force.z [N]", "cartilage_of_femur_lateral.force.z [N]"});
   EXPECT_NEAR(contact, rigid, 1e-3 * load);
+  // On the tibia contact presses against the load and all lines. Those around a condyle are slack.
+  const double on_tibia =
+      sum_of(results, {"cartilage_medial.force.z [N]", "cartilage_lateral.force.z [N]",
+                       "below_meniscus_medial.force.z [N]", "below_meniscus_lateral.force.z [N]"});
+  for (const char* const line : {"capsule_medial_inner", "capsule_medial_outer",
+                                 "capsule_lateral_inner", "capsule_lateral_outer"})
+    EXPECT_EQ(results.last(line + std::string(".force [N]")), 0) << line;
+  EXPECT_NEAR(on_tibia, load + pull_on_tibia(results, lines), 1e-3 * load);
   // Horns are drawn apart, and their roots hold them.
   for (const char* root :
        {"medial_anterior", "medial_posterior", "lateral_anterior", "lateral_posterior"})
@@ -162,13 +204,38 @@ TEST(KneeFlexion, ADrivenFemurFlexesTheLoadedKneeAndTheOtherFreedomsFollow) {
     }
 }
 
-TEST(KneeAxialLoad, WithATornRootTheMeniscusIsPressedOut) {
-  const auto extrusion = [](const std::string& roots) {
+// What a meniscus carried goes through less cartilage without it, and the other compartment has
+// hardly another load.
+TEST(KneeAxialLoad, WithoutAMeniscusItsCompartmentHasLessAreaAndMorePressure) {
+  const auto knee = [](const std::string& menisci) {
     return coarse_knee("axial-load.toml",
-                       {"duration=0.1 s", "choice.cartilage=layer", "choice.medial_roots=" + roots})
-        .last("extrusion_medial.largest [mm]");
+                       {"duration=0.1 s", "choice.cartilage=layer", "choice.menisci=" + menisci});
   };
-  EXPECT_GT(extrusion("anterior"), extrusion("both") + 0.2);
+  const ScenarioResults both = knee("both"), lateral = knee("lateral"), none = knee("none");
+  for (const ScenarioResults* results : {&both, &lateral, &none})
+    EXPECT_EQ(results->summary().at("outcome"), "finished");
+  const char* const pressure = "cartilage_medial.max_face_pressure [Pa]";
+  EXPECT_GT(lateral.last(pressure), 1.2 * both.last(pressure));
+  EXPECT_LT(
+      lateral.last("cartilage_medial.area [mm^2]"),
+      0.8 * sum_of(both, {"cartilage_medial.area [mm^2]", "below_meniscus_medial.area [mm^2]"}));
+  EXPECT_NEAR(lateral.last("medial.share [-]"), both.last("medial.share [-]"), 0.1);
+  EXPECT_NEAR(none.last("femur.force.z [N]"), 100, 0.1);
+  EXPECT_GT(none.last("cartilage_lateral.max_face_pressure [Pa]"),
+            1.2 * both.last("cartilage_lateral.max_face_pressure [Pa]"));
+}
+
+TEST(KneeAxialLoad, WithATornRootTheMeniscusIsPressedOut) {
+  const auto knee = [](const std::string& torn) {
+    return coarse_knee("axial-load.toml", {"duration=0.1 s", "choice.cartilage=layer", torn});
+  };
+  const ScenarioResults whole = knee("choice.medial_roots=both");
+  for (const std::string side : {"medial", "lateral"}) {
+    const std::string extrusion = "extrusion_" + side + ".largest [mm]";
+    EXPECT_GT(knee("choice." + side + "_roots=anterior").last(extrusion),
+              whole.last(extrusion) + 0.2)
+        << side;
+  }
 }
 
 // Passive flexion is easy, and the knee gives way as measured ones do (sources:

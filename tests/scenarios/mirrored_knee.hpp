@@ -8,7 +8,7 @@
 #include "tools/anatomy/anatomy.hpp"
 
 /// A left knee of a right one: x is negated. Of a scenario, what the knees with meshes of anatomy()
-/// have: lines, and probes that name places.
+/// have: lines, boxes, and probes that name places.
 namespace articular::knee_test {
 
 inline anatomy::Anatomy mirrored(anatomy::Anatomy anatomy) {
@@ -44,6 +44,8 @@ inline void mirror(sim::Probe& probe) {
 }
 
 inline sim::Scenario mirrored(sim::Scenario scenario) {
+  for (sim::Body& body : scenario.bodies)
+    if (auto* box = std::get_if<sim::BoxGeometry>(&body.geometry)) box->center.x() *= -1;
   for (sim::Muscle& muscle : scenario.muscles) mirror(muscle.path);
   for (sim::Ligament& ligament : scenario.ligaments) mirror(ligament.path);
   for (sim::Probe& probe : scenario.probes) mirror(probe);

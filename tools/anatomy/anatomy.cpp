@@ -106,7 +106,8 @@ void add_knee(CLI::App& anatomy, int& exit_code) {
                  "Adds the patella, the femur with its groove, and the cartilage of both");
   knee->add_flag(
       "--ligaments", options->shape.ligaments,
-      "Adds the ACL and the superficial MCL as tissue with fibres, and the bone they touch");
+      "Adds the ACL and the superficial MCL as tissue with fibres, and the bone they touch; with "
+      "--patella the patellar tendon too");
   knee->add_option("--out", options->folder, "Folder for the files, made if it is not there")
       ->required()
       ->type_name("DIR");

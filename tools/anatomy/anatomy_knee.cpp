@@ -8,6 +8,7 @@
 #include "tools/anatomy/anatomy_ligaments.hpp"
 #include "tools/anatomy/anatomy_meniscus.hpp"
 #include "tools/anatomy/anatomy_patella.hpp"
+#include "tools/anatomy/anatomy_patellar_tendon.hpp"
 #include "tools/anatomy/anatomy_trochlea.hpp"
 
 namespace articular::anatomy {
@@ -75,6 +76,9 @@ Anatomy knee_anatomy(const KneeResolution& resolution, const KneeShape& shape) {
   }
   if (shape.patella) add_patella(resolution, factor, medial, lateral, anatomy);
   if (shape.ligaments) add_ligaments(resolution.size_mm, medial, lateral, anatomy);
+  if (shape.patella && shape.ligaments)
+    anatomy.meshes["patellar_tendon.vtu"] =
+        patellar_tendon_mesh(medial, lateral, factor * kPatellarThickness, resolution.size_mm);
   scale(anatomy, shape.scale);
   return anatomy;
 }

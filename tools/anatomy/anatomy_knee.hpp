@@ -11,7 +11,8 @@ struct KneeShape {
   double cartilage = 1;  // factor of the mean thickness of each cartilage
   bool patella =
       false;  // adds the patella, the trochlea, their cartilage, and a femur with a groove
-  bool ligaments = false;  // adds ACL and superficial MCL as tissue, and the bone that they touch
+  bool ligaments = false;  // adds ACL and superficial MCL as tissue, and the bone that they touch;
+                           // with patella its tendon
 };
 
 /// A right knee in extension: bones, cartilage of both condyles and plateaus, menisci, and the

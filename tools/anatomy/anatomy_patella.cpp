@@ -113,6 +113,19 @@ Mesh patellar_cartilage(double mean, const KneeResolution& resolution) {
   return cartilage_layer(grid, patellar_full_thickness(mean));
 }
 
+Distance patella_distance(double mean) {
+  return [full = patellar_full_thickness(mean)](const Vec3& p) {
+    constexpr double kStep = 1e-4;
+    const double value = bone_distance(full, p);
+    Vec3 slope;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 step = kStep * Vec3::Unit(i);
+      slope[i] = (bone_distance(full, p + step) - bone_distance(full, p - step)) / (2 * kStep);
+    }
+    return value / std::max(slope.norm(), 0.1);
+  };
+}
+
 Mesh patella_surface(double h, double mean) {
   const double full = patellar_full_thickness(mean), back = ridge_back();
   return contour([&](const Vec3& p) { return bone_distance(full, p); },

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tools/anatomy/anatomy_knee_tissue.hpp"
+#include "tools/anatomy/anatomy_solids.hpp"
 
 /// The patella in front of the trochlea, of a right knee in extension. mm.
 ///
@@ -21,7 +22,10 @@ Mesh patellar_cartilage(double mean, const KneeResolution& resolution);
 /// Thickness in the middle of that layer.
 double patellar_full_thickness(double mean);
 
-/// The bone under that cartilage: a closed surface.
+/// To the bone under that cartilage; about a distance near its surface.
+Distance patella_distance(double mean);
+
+/// That bone: a closed surface.
 /// @param h  spacing of the contoured grid
 Mesh patella_surface(double h, double mean);
 
