@@ -52,7 +52,7 @@ DiscretisationError error_of(const ErrorCourse& course) {
       std::span(course.points).first(std::min<std::size_t>(3, course.points.size()));
   const double formal = course.formal_order, order = order_of(finest);
   if (finest.size() == 2) return discretisation_error(finest, std::min(kUnseen, formal));
-  const DiscretisationError error = discretisation_error(finest, formal);
+  DiscretisationError error = discretisation_error(finest, formal);
   const std::string doubt = fmt::format("the method has order {}", formal);
   if (order > formal + 1) return {faster_bar(finest, formal), order, doubt};
   if (error.order < (1 - kConfirmed) * formal)

@@ -55,8 +55,8 @@ MadeLevels made_levels(const VariedMeshes& meshes, const fs::path& folder,
 }
 
 std::vector<double> finer_than(double base) {
-  std::vector<double> finer;
-  for (double factor = base / 1.2; factor > kFinest; factor /= 1.2) finer.push_back(factor);
+  std::vector<double> finer{base / 1.2};
+  while (finer.back() / 1.2 > kFinest) finer.push_back(finer.back() / 1.2);
   return finer;
 }
 

@@ -28,7 +28,7 @@ sim::Scenario scenario_of(const TemporaryFolder& folder, const std::string& sett
   return sim::read_scenario(folder.file("scene.toml", scene(settings, cells)));
 }
 
-int cells_across(int n, double factor) { return static_cast<int>(n / factor + 0.5); }
+long cells_across(int n, double factor) { return std::lround(n / factor); }
 
 TEST(MeshLevels, BeginCoarserThanTheSceneButNotWithFewerThanThreeCells) {
   for (const auto& [n, base, coarser, coarsest] :
