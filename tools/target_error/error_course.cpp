@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSame = 1 - 1e-9;  // ratios above are 1
 
-/// An observed order confirms the method's if it differs by no more than this part of it.
+/// An observed order confirms the method's if it is less by no more than this part of it.
 constexpr double kConfirmed = 0.25;
 
 /// The order that is taken where none was seen; that of the method, if it is less.
@@ -52,21 +52,29 @@ DiscretisationError error_of(const ErrorCourse& course) {
       std::span(course.points).first(std::min<std::size_t>(3, course.points.size()));
   const double formal = course.formal_order, order = order_of(finest);
   if (finest.size() == 2) return discretisation_error(finest, std::min(kUnseen, formal));
-  const DiscretisationError error = discretisation_error(finest, formal);
+  DiscretisationError error = discretisation_error(finest, formal);
   const std::string doubt = fmt::format("the method has order {}", formal);
-  if (order > (1 + kConfirmed) * formal) return {faster_bar(finest, formal), order, doubt};
+  if (order > formal + 1) return {faster_bar(finest, formal), order, doubt};
   if (error.order < (1 - kConfirmed) * formal)
     return {error.bar * kDoubtSafety / kGridSafety, order, doubt};
   return error;
 }
 
+double confirmed_bar(const ErrorCourse& course) {
+  if (course.points.size() != 2) return error_of(course).bar;
+  return kGridSafety / kDoubtSafety * discretisation_error(course.points, course.formal_order).bar;
+}
+
+void add_if_it_confirms(ErrorCourse& course, const SizedValue& coarsest) {
+  course.points.push_back(coarsest);
+  const DiscretisationError error = error_of(course);
+  if (!std::isfinite(error.order) || !error.doubt.empty()) course.points.pop_back();
+}
+
 double expected_bar(const ErrorCourse& course, double ratio) {
   const DiscretisationError error = error_of(course);
   if (!is_varied(course) || ratio > kSame) return error.bar;
-  const double fallen = std::pow(ratio, taken_order(course, error));
-  if (course.points.size() > 2) return error.bar * fallen;
-  const DiscretisationError if_seen = discretisation_error(course.points, course.formal_order);
-  return kGridSafety / kDoubtSafety * if_seen.bar * fallen;
+  return confirmed_bar(course) * std::pow(ratio, taken_order(course, error));
 }
 
 double expected_change(const ErrorCourse& course, double ratio) {

@@ -22,12 +22,27 @@ struct ErrorCourse {
 };
 
 /// Of the finest run, by the three finest points; 0 where the kind is not varied. Runs are coarse
-/// here: a safety factor of 1.25 is for an order that is the method's within a quarter, and 3 for
-/// another one [Oberkampf, Roy 2010, section 8.7]. Of a larger order that of the method is
-/// believed, and the bar is no less than the two coarser ones foretold.
+/// here: a safety factor of 1.25 is for an order that confirms the method's order q, and 3 for
+/// another one [Oberkampf, Roy 2010, section 8.7]. Confirmed is q if the order is from 3/4 q to
+/// q + 1. Of a larger order than q that of the method is believed, with the two that differ more
+/// beyond q + 1.
+///
+/// Why q + 1: an error a h^q + b h^(q+1) whose terms have one sign shows an order in between. The
+/// two finest, with order q, then have
+///
+///   a h^q + b h^(q+1) (r^(q+1) - 1) / (r^q - 1),  r = ratio of their sizes,
+///
+/// which is more than the error, by (r^(q+1) - 1) / (r^q - 1) at most.
 ///
 /// [Oberkampf, Roy 2010] Verification and validation in scientific computing. Cambridge.
 DiscretisationError error_of(const ErrorCourse& course);
+
+/// The bar that two points would have, were a third one to confirm the method's order; that of
+/// error_of() else.
+double confirmed_bar(const ErrorCourse& course);
+
+/// Adds a third point, coarser than two, if the three confirm the order.
+void add_if_it_confirms(ErrorCourse& course, const SizedValue& coarsest);
 
 /// The bar that a run with `ratio` (at most 1) of the finest run's size is expected to have.
 ///

@@ -33,31 +33,30 @@ bool leaves_whole(const std::vector<int>& counts, double factor) {
   });
 }
 
-/// Only the coarsest run of a direction is not needed.
-Direction with_one_run(Direction direction) {
-  if (direction.runs.size() > 1) direction.runs.resize(1);
-  return direction;
-}
-
 /// Factors on the element size of the scenario, of meshes that can be made at the base and coarser.
+/// The coarsest one is none of those that have to be.
 struct MadeLevels {
   MeshLevels levels;
-  std::vector<std::string> base, coarser;
+  std::vector<std::string> base, coarser, coarsest;
   std::string failure;
 };
 
 MadeLevels made_levels(const VariedMeshes& meshes, const fs::path& folder,
                        const MeshLevels& levels) {
-  MadeLevels made{levels, {}, {}, ""};
+  MadeLevels made{levels, {}, {}, {}, ""};
   made.base = resized_meshes(meshes, folder, levels.base, false, made.failure);
   if (made.failure.empty())
     made.coarser = resized_meshes(meshes, folder, levels.coarser, false, made.failure);
+  if (!made.failure.empty() || levels.coarsest == 0) return made;
+  std::string failure;
+  made.coarsest = resized_meshes(meshes, folder, levels.coarsest, false, failure);
+  if (!failure.empty()) made.levels.coarsest = 0;
   return made;
 }
 
 std::vector<double> finer_than(double base) {
-  std::vector<double> finer;
-  for (double factor = base / 1.2; factor > kFinest; factor /= 1.2) finer.push_back(factor);
+  std::vector<double> finer{base / 1.2};
+  while (finer.back() / 1.2 > kFinest) finer.push_back(finer.back() / 1.2);
   return finer;
 }
 
@@ -68,7 +67,8 @@ MadeLevels levels_of_files(const VariedMeshes& meshes, const fs::path& folder, b
   MadeLevels made;
   for (const auto& [base, coarser] : kPairs) {
     if (!coarse && base > 1) continue;
-    MadeLevels tried = made_levels(meshes, folder, {base, coarser, finer_than(base)});
+    MadeLevels tried =
+        made_levels(meshes, folder, {base, coarser, coarser * coarser / base, finer_than(base)});
     if (tried.failure.empty()) return tried;
     if (made.failure.empty()) made = std::move(tried);
   }
@@ -79,7 +79,7 @@ MeshLevels levels_of_grids(const VariedMeshes& meshes, bool coarse) {
   MeshLevels levels = mesh_levels(judged_counts(meshes));
   if (coarse || levels.base <= 1) return levels;
   std::erase_if(levels.finer, [](double factor) { return factor >= 1; });
-  return {1, levels.base, levels.finer};
+  return {1, levels.base, levels.coarser, levels.finer};
 }
 
 /// A mesh that the difference of two runs can speak of: not the two triangles of a rigid plate.
@@ -118,6 +118,9 @@ Refinement mesh_refinement(const VariedMeshes& meshes, const fs::path& folder, b
   base_overrides = made.base;
   mesh.coarser.runs.push_back(
       {"coarser mesh", made.coarser, size_of(made.levels.coarser) / own, "", {}});
+  if (made.levels.coarsest > 0)
+    mesh.coarser.runs.push_back(
+        {"coarsest mesh", made.coarsest, size_of(made.levels.coarsest) / own, "", {}});
   std::vector<double> factors{made.levels.base};
   for (const double factor : made.levels.finer) {
     factors.push_back(factor);
@@ -143,7 +146,7 @@ std::string step_override(double step) {
 /// Of a base whose steps are that of the scenario `base`.
 Refinement step_refinement(const sim::Scenario& base, const std::vector<double>& lengths) {
   Refinement step;
-  step.coarser = with_one_run(coarser_steps(base));
+  step.coarser = coarser_steps(base);
   if (step.coarser.runs.empty()) return step;
   if (is_explicit(base)) {
     step.sizes = {1, 0.1, 0.01, 1e-3};
@@ -187,7 +190,9 @@ MeshLevels mesh_levels(const std::vector<int>& counts) {
   const int coarser = next(n == 1 ? 1 : std::max(2, static_cast<int>(n / 2.25)));
   const int base = next(std::max(static_cast<int>(std::lround(n / 1.5)),
                                  static_cast<int>(std::ceil(4.0 / 3 * coarser))));
-  MeshLevels levels{static_cast<double>(n) / base, static_cast<double>(n) / coarser, {}};
+  const int coarsest = next(std::max(1, static_cast<int>(n / 3.375)));
+  MeshLevels levels{static_cast<double>(n) / base, static_cast<double>(n) / coarser, 0, {}};
+  if (4 * coarsest <= 3 * coarser) levels.coarsest = static_cast<double>(n) / coarsest;
   for (int j = next(base + 1); j * kFinest <= n; j = next(std::max(j + 1, 6 * j / 5)))
     levels.finer.push_back(static_cast<double>(n) / j);
   return levels;
@@ -234,7 +239,7 @@ RefinementBase refinement_base(const sim::Scenario& scenario,
 
 Refinement contact_refinement(const sim::Scenario& base, bool anything_touches) {
   Refinement contact;
-  contact.coarser = with_one_run(softer_contact(base, anything_touches));
+  contact.coarser = softer_contact(base, anything_touches);
   if (contact.coarser.runs.empty()) return contact;
   const double factor = sim::contact_stiffness_factor(base, true);
   contact.sizes = {1, 1.0 / 3, 1.0 / 9, 1.0 / 27};
@@ -243,6 +248,12 @@ Refinement contact_refinement(const sim::Scenario& base, bool anything_touches) 
   };
   contact.most_cost_order = 0.5;
   return contact;
+}
+
+void keep_depths(Refinement& mesh, const Refinement& contact) {
+  if (!contact.settings) return;
+  for (CoarserRun& run : mesh.coarser.runs)
+    for (const std::string& text : contact.settings(1 / run.size)) run.overrides.push_back(text);
 }
 
 }  // namespace articular::tools

@@ -31,4 +31,19 @@ FirstCourses first_courses(const sim::Scenario& scenario, const PilotFolder& pla
                            const WantedError& error, const WantedResult& result,
                            const std::function<double()>& seconds_left);
 
+/// What a run tells that is coarser in one kind of size, the others as in the coarse run.
+struct CoarserPoint {
+  PilotRun run;
+  SizedValue point;
+  std::string problem;  // why there is no point; "" where there is
+};
+
+/// The next coarser run of a kind: the course has the coarse run, and the coarser ones before.
+/// @param kind       with a run for it
+/// @param time_limit [s]
+/// @throws StudyInterrupted
+CoarserPoint coarser_point(const PilotFolder& place, const WantedResult& result,
+                           const FirstCourses& first, const Refinement& kind,
+                           const ErrorCourse& course, double time_limit);
+
 }  // namespace articular::tools

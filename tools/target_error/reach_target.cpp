@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "sim/base/atomic_file.hpp"
 #include "sim/base/error.hpp"
@@ -29,6 +30,9 @@ using Overrides = std::vector<std::string>;
 /// Of the goal: what is aimed at, so that an estimate that comes out a little worse still meets it.
 constexpr double kAim = 0.7;
 constexpr int kMostRuns = 4;
+
+/// Of the estimate: a part that is less is not worth a run of its own.
+constexpr double kCounts = 0.1;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -83,6 +87,7 @@ class TargetSearch {
 
   TargetOutcome reach() {
     start();
+    see_orders();
     TargetOutcome outcome;
     for (int runs = 0; runs == 0 || record_.bar > record_.goal.error; ++runs) {
       const std::optional<Plan> plan = next_plan();
@@ -92,6 +97,7 @@ class TargetSearch {
       }
       outcome.exit_code = run_plan(*plan);
       if (outcome.exit_code != 0) return outcome;
+      see_orders();
     }
     if (!has_run_) return outcome;
     record_.is_met = outcome.refusal.empty();
@@ -116,12 +122,11 @@ class TargetSearch {
     record_.result = wanted_result(settings_.of, columns_of(scenario_, model));
     const sim::ResultsFolder lock(settings_.directory);
     open_kept_runs(folder_, sim::fingerprint(scenario_, model) + identity(this_program()));
-    const PilotFolder place{scenario_.file,         folder_,
-                            settings_.overrides,    settings_.threads,
-                            scenario_.reproducible, settings_.quiet};
+    place_ = {scenario_.file,         folder_,        settings_.overrides, settings_.threads,
+              scenario_.reproducible, settings_.quiet};
     say(fmt::format("first coarse runs, to see how the error of {} falls",
                     name_of(record_.result)));
-    first_ = first_courses(scenario_, place, record_.wanted, record_.result,
+    first_ = first_courses(scenario_, place_, record_.wanted, record_.result,
                            [&] { return seconds_left(); });
     for (const PilotRun& run : first_.runs)
       record_.trials.push_back({run.name, run.failure, run.seconds});
@@ -150,6 +155,28 @@ class TargetSearch {
                       left_out_text(record_.kinds)));
   }
 
+  /// Where the target is met if the method's orders are those of the scene, a third, coarser run
+  /// of each kind tells whether they are. It costs less than a finer one. One that does not confirm
+  /// the order may be too coarse for it, and says nothing.
+  void see_orders() {
+    if (bar_if_confirmed(record_.courses) > record_.goal.error) return;
+    const double counts = kCounts * record_.bar;
+    for (std::size_t i = 0; i < record_.courses.size(); ++i) {
+      ErrorCourse& course = record_.courses[i];
+      const bool can_be_seen =
+          course.points.size() == 2 && record_.kinds[i].coarser.runs.size() > 1;
+      if (!can_be_seen || error_of(course).bar < counts || seconds_left() <= 0) continue;
+      const CoarserPoint coarser =
+          coarser_point(place_, record_.result, first_, record_.kinds[i], course, seconds_left());
+      record_.trials.push_back({coarser.run.name, coarser.run.failure, coarser.run.seconds});
+      if (coarser.problem.empty()) add_if_it_confirms(course, coarser.point);
+    }
+    const double before = std::exchange(record_.bar, bar_of(record_.courses));
+    if (record_.bar < before)
+      say(fmt::format("coarser runs confirm the order: ± {:.2g}, that is {}{}", record_.bar,
+                      error_text(record_.bar, record_), parts_behind(record_.courses)));
+  }
+
   struct Plan {
     ChosenSizes chosen;
     Overrides overrides;  // after those of the scenario
@@ -172,11 +199,12 @@ class TargetSearch {
   }
 
   Overrides overrides_of(const ChosenSizes& chosen) const {
+    std::vector<double> sizes = chosen.sizes;
+    sizes.back() /= sizes.front();  // depths of contact shrink with elements by themselves
     Overrides all = first_.base.overrides;
-    for (std::size_t i = 0; i < chosen.sizes.size(); ++i) {
-      if (chosen.sizes[i] >= 1) continue;
-      for (const std::string& text : record_.kinds[i].settings(chosen.sizes[i]))
-        all.push_back(text);
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      if (sizes[i] == 1 || !record_.kinds[i].settings) continue;
+      for (const std::string& text : record_.kinds[i].settings(sizes[i])) all.push_back(text);
     }
     return last_of_each_key(all);
   }
@@ -248,6 +276,7 @@ class TargetSearch {
   const TargetSettings& settings_;
   fs::path folder_;
   Clock::time_point start_ = Clock::now();
+  PilotFolder place_;
   FirstCourses first_;
   TargetRecord record_;
   double seconds_ = 0;    // of the finest run

@@ -40,6 +40,12 @@ double bar_of(const std::vector<ErrorCourse>& courses) {
   return sum;
 }
 
+double bar_if_confirmed(const std::vector<ErrorCourse>& courses) {
+  double sum = 0;
+  for (const ErrorCourse& course : courses) sum += confirmed_bar(course);
+  return sum;
+}
+
 std::string parts_text(const std::vector<ErrorCourse>& courses) {
   constexpr double kCounts = 0.01;
   const double sum = bar_of(courses);
@@ -83,7 +89,7 @@ std::string target_text(const TargetRecord& record) {
     text += course_line(record.courses[i], record.kinds[i]);
   if (const std::string left_out = left_out_text(record.kinds); !left_out.empty())
     text += "not in the estimate: " + left_out + "\n";
-  text += fmt::format("\n{} runs, {}; the last one's settings\n", record.trials.size(), [&] {
+  text += fmt::format("\n{} runs, {}; the settings of these results\n", record.trials.size(), [&] {
     double sum = 0;
     for (const TargetRecord::Trial& trial : record.trials) sum += trial.seconds;
     return duration_text(sum);

@@ -24,11 +24,14 @@ struct TargetRecord {
     std::string name, failure;
     double seconds = 0;
   };
-  std::vector<Trial> trials;  // in their order; the last one is the run
+  std::vector<Trial> trials;  // in their order; the last one that was chosen has the results
 };
 
 /// Sum of the bars of all kinds.
 double bar_of(const std::vector<ErrorCourse>& courses);
+
+/// The same, if a third run of each kind with two were to confirm the method's order.
+double bar_if_confirmed(const std::vector<ErrorCourse>& courses);
 
 /// "mesh 0.02, step 0.004": the parts that count.
 std::string parts_text(const std::vector<ErrorCourse>& courses);

@@ -41,19 +41,54 @@ TEST(ErrorCourse, ExpectsNoMoreThanTheOrderThatWasSeen) {
   EXPECT_NEAR(expected_change(slow, 0.25), change_of(-0.3, 1, 1, 0.25), 1e-6);
 }
 
-// An order within a quarter of the method's confirms it.
+// From 3/4 of the method's order to one more. Beyond it the method's order is taken.
 TEST(ErrorCourse, HasTheSmallSafetyFactorForTheMethodsOrderOnly) {
   for (const auto& [order, safety] : {std::pair{2.0, 1.25}, {1.6, 1.25}, {1.4, 3.0}})
     EXPECT_NEAR(error_of(course_of(2, 0.3, order, {1, 1.5, 2})).bar, safety * 0.3, 1e-6) << order;
-  const DiscretisationError fast = error_of(course_of(2, 0.3, 2.8, {1, 2, 4}));
-  EXPECT_NEAR(fast.bar, 3 * 0.3 * (std::pow(4, 2.8) - std::pow(2, 2.8)) / 12, 1e-6);
+  const DiscretisationError next = error_of(course_of(2, 0.3, 2.8, {1, 2, 4}));
+  EXPECT_NEAR(next.bar, 1.25 * 0.3 * (std::pow(2, 2.8) - 1) / 3, 1e-6);
+  EXPECT_EQ(next.doubt, "");
+  const DiscretisationError fast = error_of(course_of(2, 0.3, 3.2, {1, 2, 4}));
+  EXPECT_NEAR(fast.bar, 3 * 0.3 * (std::pow(4, 3.2) - std::pow(2, 3.2)) / 12, 1e-6);
   EXPECT_EQ(fast.doubt, "the method has order 2");
+}
+
+// a h + b h^2: the finer two, with order 1, say more than the error, and less than four times it.
+TEST(ErrorCourse, WithANextTermIsCovered) {
+  for (const double next : {0.1, 1.0, 10.0}) {
+    ErrorCourse course{"step", 1, {}};
+    for (const double h : {1.0, 2.0, 4.0}) course.points.push_back({h, h + next * h * h});
+    const double error = 1 + next, bar = error_of(course).bar;
+    EXPECT_GT(bar, error) << next;
+    EXPECT_LT(bar, 4 * error) << next;
+  }
 }
 
 // The finest two nearly agree by chance: what the coarser two say counts.
 TEST(ErrorCourse, ThatFallsTooFastIsNoBetterThanForetold) {
   const ErrorCourse course{"mesh", 2, {{1, 5.0001}, {2, 5}, {4, 4.4}}};
   EXPECT_NEAR(error_of(course).bar, 3 * 0.6 / 12, 1e-9);
+}
+
+// Two have a safety factor of 3, and order 1 at most.
+TEST(ErrorCourse, OfTwoIsLessOnceACoarserThirdConfirmsTheOrder) {
+  ErrorCourse course = course_of(2, 0.3, 2, {1, 1.5});
+  const SizedValue coarsest{3, 5 + 0.3 * 9};
+  EXPECT_NEAR(confirmed_bar(course), 1.25 * 0.3, 1e-12);
+  add_if_it_confirms(course, coarsest);
+  ASSERT_EQ(course.points.size(), 3U);
+  EXPECT_NEAR(error_of(course).bar, 1.25 * 0.3, 1e-6);
+}
+
+// Slower, too fast, to and fro: the third may be too coarse.
+TEST(ErrorCourse, OfTwoStaysWhereACoarserThirdShowsAnotherOrder) {
+  for (const double value : {5 + 0.3 * 2.7, 5 + 0.3 * 60, 5.0}) {
+    ErrorCourse course = course_of(2, 0.3, 2, {1, 1.5});
+    const double bar = error_of(course).bar;
+    add_if_it_confirms(course, {3, value});
+    EXPECT_EQ(course.points.size(), 2U) << value;
+    EXPECT_EQ(error_of(course).bar, bar) << value;
+  }
 }
 
 // What was expected comes true: the bar is as it was foretold.

@@ -28,19 +28,27 @@ sim::Scenario scenario_of(const TemporaryFolder& folder, const std::string& sett
   return sim::read_scenario(folder.file("scene.toml", scene(settings, cells)));
 }
 
-int cells_across(int n, double factor) { return static_cast<int>(n / factor + 0.5); }
+long cells_across(int n, double factor) { return std::lround(n / factor); }
 
 TEST(MeshLevels, BeginCoarserThanTheSceneButNotWithFewerThanThreeCells) {
-  for (const auto& [n, base, coarser] :
-       {std::array{12, 8, 5}, std::array{8, 5, 3}, std::array{4, 3, 2}, std::array{3, 3, 2},
-        std::array{2, 3, 2}, std::array{1, 2, 1}}) {
+  for (const auto& [n, base, coarser, coarsest] :
+       {std::array{12, 8, 5, 3}, std::array{8, 5, 3, 2}, std::array{4, 3, 2, 1},
+        std::array{3, 3, 2, 1}, std::array{2, 3, 2, 1}}) {
     const MeshLevels levels = mesh_levels({n, n, n});
     EXPECT_EQ(cells_across(n, levels.base), base) << n;
     EXPECT_EQ(cells_across(n, levels.coarser), coarser) << n;
+    EXPECT_EQ(cells_across(n, levels.coarsest), coarsest) << n;
     ASSERT_FALSE(levels.finer.empty());
     EXPECT_LT(levels.finer.front(), levels.base);
     EXPECT_GE(levels.finer.back(), 1.0 / 6 - 1e-9);
   }
+}
+
+TEST(MeshLevels, OfOneCellHaveNoCoarsestOne) {
+  const MeshLevels levels = mesh_levels({1, 1, 1});
+  EXPECT_EQ(cells_across(1, levels.base), 2);
+  EXPECT_EQ(cells_across(1, levels.coarser), 1);
+  EXPECT_EQ(levels.coarsest, 0);
 }
 
 // 7 by 4: two cells of four would be three and a half of seven.
@@ -75,7 +83,9 @@ TEST(RefinementBase, HasCoarserElementsAndStepsThanTheScene) {
             (Words{"body.\"block\".geometry.box.cells=[4, 4, 4]", "integrator.step=\"0.004 s\""}));
   ASSERT_EQ(base.kinds.size(), 3U);
   const Refinement& mesh = base.kinds[0];
-  EXPECT_NEAR(mesh.coarser.runs.at(0).size, 2, 1e-12);
+  ASSERT_EQ(mesh.coarser.runs.size(), 2U);
+  EXPECT_NEAR(mesh.coarser.runs[0].size, 2, 1e-12);
+  EXPECT_NEAR(mesh.coarser.runs[1].size, 4, 1e-12);
   ASSERT_GT(mesh.sizes.size(), 3U);
   EXPECT_NEAR(mesh.sizes[2], 4.0 / 6, 1e-12);
   EXPECT_EQ(mesh.settings(mesh.sizes[2]), Words{"body.\"block\".geometry.box.cells=[6, 6, 6]"});
@@ -116,8 +126,11 @@ TEST(ContactRefinement, IsStifferBySizesBelowOne) {
                                              "'fixed'\ngeometry = { box = { size = '1 1 1 "
                                              "mm', cells = [1, 1, 1] } }\n"));
   const Refinement contact = contact_refinement(scenario, true);
-  ASSERT_EQ(contact.coarser.runs.size(), 1U);
+  ASSERT_EQ(contact.coarser.runs.size(), 2U);
   EXPECT_EQ(contact.settings(1.0 / 3), Words{"contact_stiffness_factor=300"});
+  RefinementBase base = refinement_base(scenario, {}, folder / "prepared", true);
+  keep_depths(base.kinds[0], contact);
+  EXPECT_EQ(base.kinds[0].coarser.runs.at(0).overrides.back(), "contact_stiffness_factor=200");
   EXPECT_TRUE(contact_refinement(scenario, false).coarser.runs.empty());
 }
 

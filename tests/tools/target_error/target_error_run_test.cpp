@@ -131,6 +131,21 @@ TEST(RunTargetError, KeepsWhatItFoundAndDoesNotRunItAgain) {
   EXPECT_EQ(content(folder / "again/history.csv"), content(folder / "out/history.csv"));
 }
 
+// A loose target: the coarse run is good enough, and a third, coarser one shows so.
+TEST(RunTargetError, WhereTheCoarseRunIsGoodEnoughACoarserOneConfirmsTheOrder) {
+  const TemporaryFolder folder;
+  folder.file("drop.toml", kDrop);
+  const ProgramResult result =
+      run_program(folder, "run drop.toml --target-error 5% --of middle.position.z --out out");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("coarser runs confirm the order"), std::string::npos) << result.err;
+  const auto told = nlohmann::json::parse(content(folder / "out/summary.json")).at("target_error");
+  EXPECT_EQ(told.at("parts").at("step").at("sizes").size(), 3U);
+  const double error = std::abs(told.at("value").get<double>() - kDropAnswer);
+  EXPECT_LT(error, told.at("estimated_error").get<double>());
+  EXPECT_GT(5 * error, told.at("estimated_error").get<double>());
+}
+
 TEST(RunTargetError, RefusesWhatIsNoResult) {
   const TemporaryFolder folder;
   folder.file("drop.toml", kDrop);
