@@ -10,7 +10,8 @@ namespace {
 
 void muscle_tension(const MuscleModel& muscle, double activation, LineState& s) {
   const Muscle& m = muscle.given;
-  const double l0 = muscle.optimal_length, speed = m.max_velocity * l0;
+  // The tendon does not stretch: fibres take up the whole rate.
+  const double l0 = muscle.optimal_length, speed = m.max_velocity * (1 - m.tendon_ratio) * l0;
   const double a = std::clamp(activation, 0.0, 1.0);
   if (!m.force_length) {
     s.tension_per_activation = m.max_force;

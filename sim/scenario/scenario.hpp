@@ -231,7 +231,7 @@ struct Muscle {
       1.3;  // length at which the passive force reaches its maximum / optimal length
   double tendon_ratio = 0;           // tendon length / optimal length (Peck)
   double passive_fraction = 0.015;   // passive force at maximal length / max_force
-  double max_velocity = 10;          // [optimal lengths / s]
+  double max_velocity = 10;          // [optimal lengths of the fibres, without tendon / s]
   bool force_length = true;          // false: activation times max_force, at any length and speed
   double activation_time = 0.015;    // [s]
   double deactivation_time = 0.050;  // [s]

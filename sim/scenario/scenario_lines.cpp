@@ -66,7 +66,7 @@ std::vector<Key> dynamics_keys() {
           {"max_velocity",
            {form::Quantity{kRate, kPositive}},
            standard("10 1/s"),
-           "optimal lengths per second"},
+           "largest speed of shortening, in optimal lengths of the fibres per second"},
           {"force_length",
            {form::Boolean{}},
            standard(true),

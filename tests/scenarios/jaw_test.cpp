@@ -78,6 +78,20 @@ TEST(JawOpening, TheMouthOpensByTensOfMillimetresAndClosesAgain) {
   EXPECT_GT(largest, 0.5);  // [mm]
 }
 
+// Published for women: 44.3 ± 6.7 mm, 36.3 ± 4.3 degrees; the hyoid goes down. It comes back when
+// the mouth closes.
+TEST(JawOpening, WithAHyoidOnItsMusclesTheMouthOpensToThePublishedRange) {
+  const ScenarioResults results = run_scenario(
+      "mandible/opening.toml",
+      {"choice.hyoid=moves", "choice.disc=rigid", "accuracy=fast", "integrator.step=6 ms"});
+  expect_opens(results, 0.4, 37.6, 8, 0.2e-3);
+  EXPECT_GT(results.at("jaw.angle [deg]", 0.4), 28);
+  const std::string hyoid = "hyoid.position.z [mm]";
+  EXPECT_LT(results.at(hyoid, 0.4), results.at(hyoid, 0) - 5);
+  EXPECT_NEAR(results.at("hyoid.position.x [mm]", 0.4), 0, 0.01);
+  EXPECT_LT(std::abs(opening(results, 0.9)), 2);
+}
+
 TEST(JawOpening, WithoutContactACondyleLeavesItsFossa) {
   sim::Scenario scenario = shipped_scenario(
       "mandible/opening.toml",

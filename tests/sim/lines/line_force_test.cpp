@@ -47,7 +47,7 @@ TEST(LineState, AMusclesTensionIsItsActiveAndItsPassiveForce) {
       EXPECT_NEAR(state.length, length, 1e-15);
       EXPECT_NEAR(state.rate, rate, 1e-15);
       const double active = kActivation * kForce * active_force_length(length, kLength, 0.2).value *
-                            force_velocity(rate / (6 * kLength)).value;
+                            force_velocity(rate / (6 * 0.8 * kLength)).value;
       const double passive = 0.05 * kForce * passive_force_length(length, kLength, 1.4).value;
       EXPECT_NEAR(state.active, active, 1e-12 * kForce);
       EXPECT_NEAR(state.tension, active + passive, 1e-12 * kForce);
