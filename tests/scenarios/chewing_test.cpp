@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "tests/scenarios/scenario_results.hpp"
