@@ -6,6 +6,14 @@ double activation_of(const Tissue& tissue, const Configuration& now) {
   return tissue.muscle < 0 ? 0 : now.activation[tissue.muscle];
 }
 
+Eigen::MatrixXd cauchy_stress(const Tissue& tissue, const TissueMoment& moment,
+                              const Configuration& now) {
+  Eigen::MatrixXd stress = tissue.elements.cauchy_stress(moment.x, activation_of(tissue, now));
+  if (tissue.relaxation)
+    tissue.relaxation->add_cauchy_stress(moment.x, moment.internal_variables, stress);
+  return stress;
+}
+
 void displacements_of(const Moment& now, std::size_t tissue, const Eigen::VectorXd& dx,
                       Positions& u) {
   const std::vector<NodeRef>& nodes = now.model.tissues[tissue].nodes;

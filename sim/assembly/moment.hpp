@@ -50,6 +50,10 @@ inline std::span<const WeightedPoint> path_of(const Moment& now, std::size_t lin
 /// Of a tissue's fibres, in [0, 1]; 0 where no muscle activates them.
 double activation_of(const Tissue& tissue, const Configuration& now);
 
+/// Per element of a tissue, with what is left of relaxation: 6 x M (xx yy zz xy yz xz) [Pa].
+Eigen::MatrixXd cauchy_stress(const Tissue& tissue, const TissueMoment& moment,
+                              const Configuration& now);
+
 /// Displacements of a tissue's nodes by small ones of the blocks.
 void displacements_of(const Moment& now, std::size_t tissue, const Eigen::VectorXd& dx,
                       Positions& u);

@@ -24,13 +24,43 @@ struct Resolver {
     return model.bodies[static_cast<std::size_t>(body_index(scenario, name))];
   }
 
+  /// -1 where it names none: the world.
+  int frame_called(const std::string& name) const { return name.empty() ? -1 : body(name).rigid; }
+
+  PointInFrame place(const Anchor& anchor, const std::string& frame) const {
+    return {anchored_point(anchor, body_index(scenario, anchor.body), model, surfaces, warnings),
+            frame_called(frame)};
+  }
+
   Observed operator()(const PointProbe& point) const {
-    return ObservedPoint{anchored_point(point.anchor, body_index(scenario, point.anchor.body),
-                                        model, surfaces, warnings)};
+    return ObservedPoint{place(point.anchor, point.frame)};
+  }
+
+  Observed operator()(const WayProbe& way) const {
+    int before = 0;
+    for (const Probe& other : scenario.probes) {
+      if (&other == &probe) break;
+      before += std::holds_alternative<WayProbe>(other.what) ? 1 : 0;
+    }
+    return ObservedWay{place(way.anchor, way.frame), before};
+  }
+
+  Observed operator()(const HelicalAxisProbe& axis) const {
+    return ObservedHelicalAxis{body(axis.body).rigid, frame_called(axis.frame), axis.point};
   }
 
   Observed operator()(const AngleProbe& angle) const {
     return ObservedAngle{body(angle.body).rigid, angle.axis};
+  }
+
+  Observed operator()(const ContactsProbe& contacts) const {
+    ObservedContacts observed;
+    for (const int p : probes_called(contacts.of)) {
+      const Probe& part = scenario.probes[static_cast<std::size_t>(p)];
+      const Resolver resolver{scenario, model, geometry, surfaces, warnings, part};
+      observed.of.push_back(std::get<ObservedContact>(resolver(std::get<ContactProbe>(part.what))));
+    }
+    return observed;
   }
 
   Observed operator()(const ContactProbe& contact) const {
@@ -73,10 +103,20 @@ struct Resolver {
     return ObservedLigament{index, line.ligament};
   }
 
-  Observed operator()(const MomentArmProbe& arm) const {
-    const int rigid = body(arm.body).rigid;
+  BodyAxis axis_of(const std::string& name, const Vec3& point, const Vec3& direction) const {
+    const int rigid = body(name).rigid;
     const Pose& rest = model.rigid_bodies[static_cast<std::size_t>(rigid)].rest;
-    return ObservedMomentArm{line_called(arm.line), {rigid, arm.point - rest.p, arm.axis}};
+    return {rigid, point - rest.p, direction};
+  }
+
+  Observed operator()(const MomentArmProbe& arm) const {
+    return ObservedMomentArm{line_called(arm.line), axis_of(arm.body, arm.point, arm.axis)};
+  }
+
+  Observed operator()(const MuscleMomentProbe& net) const {
+    ObservedMuscleMoment observed{{}, axis_of(net.body, net.point, net.axis)};
+    for (const std::string& muscle : net.muscles) observed.lines.push_back(line_called(muscle));
+    return observed;
   }
 
   Observed operator()(const WrapProbe& wrap) const { return ObservedWrap{line_called(wrap.line)}; }
@@ -109,11 +149,15 @@ struct Resolver {
     return ObservedStretch{body(fibres.tissue).tissue};
   }
 
+  Observed operator()(const StressProbe& stress) const {
+    const int tissue = body(stress.tissue).tissue;
+    return ObservedStress{tissue, elements_in(stress.region, stress.tissue,
+                                              model.tissues[static_cast<std::size_t>(tissue)])};
+  }
+
   Observed operator()(const ExtentProbe& extent) const {
-    const int rigid = body(extent.frame).rigid;
-    const Pose& rest = model.rigid_bodies[static_cast<std::size_t>(rigid)].rest;
     return ObservedExtent{body(extent.tissue).tissue,
-                          {rigid, extent.point - rest.p, extent.direction}};
+                          axis_of(extent.frame, extent.point, extent.direction)};
   }
 
   Observed operator()(const ShareProbe& share) const {
@@ -148,6 +192,25 @@ struct Resolver {
       throw InputError(region.where,
                        fmt::format("[[probe]] `{}`: no face of `{}` has its middle in the region",
                                    probe.name, name));
+    return inside;
+  }
+
+  /// Their middle, at the start, lies in the region; all without one.
+  std::vector<int> elements_in(const std::optional<Region>& region, const std::string& name,
+                               const Tissue& tissue) const {
+    const auto& tets = tissue.elements.tets();
+    std::optional<RegionTest> test;
+    if (region) test.emplace(*region, body_index(scenario, name), model, geometry);
+    std::vector<int> inside;
+    for (int e = 0; e < static_cast<int>(tets.cols()); ++e)
+      if (!test ||
+          test->contains_element(tets.col(e), tissue.X(Eigen::all, tets.col(e)).rowwise().mean()))
+        inside.push_back(e);
+    if (inside.empty())
+      throw InputError(
+          region->where,
+          fmt::format("[[probe]] `{}`: no element of `{}` has its middle in the region", probe.name,
+                      name));
     return inside;
   }
 

@@ -57,6 +57,12 @@ bool RegionTest::contains_face(const Eigen::Vector3i& nodes, const Vec3& middle)
   return contains(middle, true);
 }
 
+bool RegionTest::contains_element(const Eigen::Vector4i& nodes, const Vec3& middle) const {
+  const auto is_in_set = [&](int a) { return in_set_[static_cast<std::size_t>(a)] != 0; };
+  return (!region_.set || std::all_of(nodes.begin(), nodes.end(), is_in_set)) &&
+         contains(middle, false);
+}
+
 bool RegionTest::contains(const Vec3& x, bool on_surface) const {
   if (region_.surface_only && !on_surface) return false;
   if (region_.box &&

@@ -28,6 +28,10 @@ class RegionTest {
   /// @param nodes  of the body's mesh
   bool contains_face(const Eigen::Vector3i& nodes, const Vec3& middle) const;
 
+  /// An element, which counts by its middle, and in a set by its nodes. None is on the surface.
+  /// @param nodes  of the body's mesh
+  bool contains_element(const Eigen::Vector4i& nodes, const Vec3& middle) const;
+
  private:
   bool contains(const Vec3& x, bool on_surface) const;
 

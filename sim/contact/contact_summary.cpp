@@ -18,7 +18,7 @@ struct CountedLoad {
   std::vector<char> is_group;  // that something of it presses on
 };
 
-/// A summary on its way: its center is still Σ p x dA.
+/// A summary on its way: its centers are still Σ p x dA.
 struct SummarySums {
   ContactSummary summary;
   Vec3 moment = Vec3::Zero();  // about the origin
@@ -37,6 +37,19 @@ SummarySums no_summary(const Model& model, const Configuration& configuration, C
   sums.on_a = nothing_on(pair.a);
   sums.on_b = nothing_on(pair.b);
   return sums;
+}
+
+Mat3 corners_at_start(const Collider& collider, int face) {
+  return collider.X(Eigen::all, collider.surface.faces.col(face));
+}
+
+/// A sum shared out to a face's corners as its force is, which has the last three of a patch's
+/// nodes.
+Vec3 shares_of_face(const Vec18& on_nodes, double sum) {
+  const Mat3 forces = on_nodes.tail<9>().reshaped(3, 3);
+  const Vec3 total = forces.rowwise().sum();
+  if (!(total.squaredNorm() > 0)) return Vec3::Zero();
+  return forces.transpose() * total * (sum / total.squaredNorm());
 }
 
 /// Adds the patches that count. What nodes have is summed over their patches too, so that parts add
@@ -74,6 +87,12 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
     const Vec3 q = pressure_integrals(pair_state, entry, groups);
     sum.normal_force += q.sum();
     sum.center += x * q;
+    const Vec18 on_nodes = forces_on_nodes(pair_state, entry, groups);
+    (contact.reversed ? sum.center_on_b : sum.center_on_a) +=
+        corners_at_start(side.triangles, entry.triangle) * q;
+    if (!is_self)
+      (contact.reversed ? sum.center_on_a : sum.center_on_b) +=
+          corners_at_start(side.faces, entry.face) * shares_of_face(on_nodes, q.sum());
     on_triangles.through[entry.triangle] += q.sum();
     on_faces.through[entry.face] +=
         q.sum() / -entry.patch.cosine;  // it acts along the face's normal
@@ -82,7 +101,6 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
       on_faces.is_group[static_cast<std::size_t>(side.faces.groups(i, entry.face))] = 1;
     }
     if (is_self) continue;
-    const Vec18 on_nodes = forces_on_nodes(pair_state, entry, groups);
     for (int i = 0; i < 3; ++i) {
       const Vec3 force = (contact.reversed ? -1 : 1) * on_nodes.segment<3>(3 * i);
       sum.force += force;
@@ -116,7 +134,9 @@ int add_pressures(const CountedLoad& on_body, const Collider& collider, ContactS
 
 ContactSummary finished(const Model& model, SummarySums sums) {
   ContactSummary& sum = sums.summary;
-  if (sum.normal_force > 0) sum.center /= sum.normal_force;
+  if (sum.normal_force > 0)
+    for (Vec3* center : {&sum.center, &sum.center_on_a, &sum.center_on_b})
+      *center /= sum.normal_force;
   sum.moment = sums.moment - sum.center.cross(sum.force);
   const ContactModel pair = model.contacts[sum.contact];
   const auto collider = [&](int body) -> const Collider& {

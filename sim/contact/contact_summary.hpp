@@ -13,9 +13,11 @@ struct ContactSummary {
   Vec3 force = Vec3::Zero();   // [N]
   Vec3 center = Vec3::Zero();  // ∫ p x dA / ∫ p dA [m]; where nothing carries, the origin
   Vec3 moment = Vec3::Zero();  // about that centre [N m]
-  double area = 0;             // [m²] rest area of the nodes that carry
-  double normal_force = 0;     // ∫ p dA over it [N]
-  double max_pressure = 0;     // [Pa] around a node of either body, see contact_pressure.hpp
+  /// Where that centre is on either body, in the geometry at the start [m].
+  Vec3 center_on_a = Vec3::Zero(), center_on_b = Vec3::Zero();
+  double area = 0;          // [m²] rest area of the nodes that carry
+  double normal_force = 0;  // ∫ p dA over it [N]
+  double max_pressure = 0;  // [Pa] around a node of either body, see contact_pressure.hpp
   /// [Pa] normal force through a face, of either body, by its area: of faces without blank corners
   double max_face_pressure = 0;
   bool is_resolved = true;      // or too few nodes have a pressure to tell the largest

@@ -203,8 +203,26 @@ struct GravityModel {
   Curve profile;                     // factor over time; empty: always 1
 };
 
-struct ObservedPoint {
+/// A place as a fixed or rigid body sees it.
+struct PointInFrame {
   WeightedPoint point;
+  int frame = -1;  // index into Model::rigid_bodies; -1: the world
+};
+
+struct ObservedPoint {
+  PointInFrame place;
+};
+
+/// Its length so far is a part of the state.
+struct ObservedWay {
+  PointInFrame place;
+  int way = 0;  // index into State::ways
+};
+
+struct ObservedHelicalAxis {
+  int rigid = 0;              // index into Model::rigid_bodies
+  int frame = -1;             // the same; -1: the world
+  Vec3 point = Vec3::Zero();  // world at the start [m]: the axis is shown near it
 };
 
 struct ObservedAngle {
@@ -216,6 +234,10 @@ struct ObservedContact {
   ContactId contact = -1;   // -1: the two cannot meet
   int body = 0;             // index into Model::bodies: the one that it acts on
   std::vector<char> faces;  // of that body's collider: those that count; empty: all
+};
+
+struct ObservedContacts {
+  std::vector<ObservedContact> of;
 };
 
 /// Goes with a fixed or rigid body.
@@ -246,6 +268,11 @@ struct ObservedMomentArm {
   BodyAxis axis;
 };
 
+struct ObservedMuscleMoment {
+  std::vector<int> lines;  // indices into Model::lines
+  BodyAxis axis;
+};
+
 struct ObservedWrap {
   int line = 0;  // index into Model::lines
 };
@@ -269,6 +296,11 @@ struct ObservedStretch {
   int tissue = 0;  // index into Model::tissues; it has fibres
 };
 
+struct ObservedStress {
+  int tissue = 0;             // index into Model::tissues
+  std::vector<int> elements;  // of it
+};
+
 struct ObservedExtent {
   int tissue = 0;  // index into Model::tissues
   BodyAxis axis;
@@ -284,10 +316,12 @@ struct ObservedJoint {
   bool is_right = true;
 };
 
-using Observed = std::variant<ObservedPoint, ObservedAngle, ObservedContact, ObservedMuscle,
-                              ObservedFibres, ObservedLigament, ObservedMomentArm, ObservedWrap,
-                              ObservedEnergy, ObservedReaction, ObservedSupport, ObservedAttachment,
-                              ObservedStretch, ObservedExtent, ObservedShare, ObservedJoint>;
+using Observed =
+    std::variant<ObservedPoint, ObservedWay, ObservedAngle, ObservedHelicalAxis, ObservedContact,
+                 ObservedContacts, ObservedMuscle, ObservedFibres, ObservedLigament,
+                 ObservedMomentArm, ObservedMuscleMoment, ObservedWrap, ObservedEnergy,
+                 ObservedReaction, ObservedSupport, ObservedAttachment, ObservedStretch,
+                 ObservedStress, ObservedExtent, ObservedShare, ObservedJoint>;
 
 struct ProbeModel {
   std::string name;

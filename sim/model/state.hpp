@@ -83,6 +83,12 @@ struct RunExtrema {
 /// where the next path is pulled from.
 using WrapHistory = std::vector<std::vector<EdgeCrossing>>;
 
+/// Of a place that a probe follows.
+struct Way {
+  double x = 0, y = 0, z = 0;  // where it began [m]
+  double length = 0;           // of all steps [m]
+};
+
 /// All that changes: a copy of it at a checkpoint is a restart point.
 struct State {
   double t = 0;                // [s]
@@ -92,6 +98,7 @@ struct State {
   double max_penetration = 0;  // [m] largest so far
   int frames = 0;              // written
   WrapHistory wraps;
+  std::vector<Way> ways;  // see ObservedWay
   EnergyLedger energy;
   Counts counts;
   OverlapResolution overlap_resolution;

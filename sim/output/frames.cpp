@@ -44,14 +44,12 @@ std::vector<Field> tissue_point_fields(const Model& model, const Tissue& tissue,
   return fields;
 }
 
-/// @param internal variables  of the tissue's relaxation
-std::vector<Field> tissue_cell_fields(const Tissue& tissue, const Positions& x,
-                                      const Configuration& now,
-                                      const Eigen::VectorXd& internal_variables) {
+std::vector<Field> tissue_cell_fields(const Tissue& tissue, const TissueMoment& state,
+                                      const Configuration& now) {
   const TissueElements& e = tissue.elements;
+  const Positions& x = state.x;
   const double activation = activation_of(tissue, now);
-  Eigen::MatrixXd stress = e.cauchy_stress(x, activation);
-  if (tissue.relaxation) tissue.relaxation->add_cauchy_stress(x, internal_variables, stress);
+  const Eigen::MatrixXd stress = cauchy_stress(tissue, state, now);
   std::vector<Field> fields = {
       {"cauchy_stress", "Pa", stress},
       {"von_mises", "Pa", fem::von_mises(stress).transpose()},
@@ -153,15 +151,13 @@ void write_frame(const Model& model, const Stepper& stepper, bool contact_surfac
     const BodyModel& body = model.bodies[b];
     const int body_index = static_cast<int>(b);
     if (body.tissue >= 0) {
-      const Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
-      Positions x;
-      positions_of(now, tissue.nodes, x);
-      writer.write_tissue(
-          {body.name, x, tissue.elements.tets(),
-           tissue_point_fields(model, tissue, now, x, contacts),
-           tissue_cell_fields(tissue, x, now,
-                              stepper.now().tissues[body.tissue].internal_variables)},
-          index, time);
+      const auto t = static_cast<std::size_t>(body.tissue);
+      const Tissue& tissue = model.tissues[t];
+      const TissueMoment& state = stepper.now().tissues[t];
+      writer.write_tissue({body.name, state.x, tissue.elements.tets(),
+                           tissue_point_fields(model, tissue, now, state.x, contacts),
+                           tissue_cell_fields(tissue, state, now)},
+                          index, time);
     } else if (body.X.cols() > 0) {
       write_rigid_body(model, now, body_index, contacts, index, time, writer);
     }

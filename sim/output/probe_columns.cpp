@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,7 +15,9 @@
 #include <string_view>
 #include <utility>
 
+#include "fem/material/von_mises.hpp"
 #include "sim/base/error.hpp"
+#include "sim/model/relative_motion.hpp"
 
 namespace articular::sim {
 namespace {
@@ -25,7 +29,10 @@ constexpr double kDegree = std::numbers::pi / 180;                     // [rad]
 class Columns {
  public:
   explicit Columns(const LengthUnit& unit)
-      : length_(unit.name), area_(unit.name + "^2"), per_metre_(1 / unit.metres) {}
+      : length_(unit.name),
+        area_(unit.name + "^2"),
+        speed_(unit.name + "/s"),
+        per_metre_(1 / unit.metres) {}
   virtual ~Columns() = default;
 
   /// Without a value the cell stays empty; a value that is given is a finite number.
@@ -34,7 +41,7 @@ class Columns {
   virtual void vector(std::string_view what, std::string_view unit,
                       const std::optional<Vec3>& value) = 0;
 
-  // Of values in m and m², in the user's unit of length.
+  // Of values in m, m² and m/s, in the user's unit of length.
   void length(std::string_view what, std::optional<double> x) {
     if (x) *x *= per_metre_;
     number(what, length_, x);
@@ -44,9 +51,14 @@ class Columns {
     if (x) *x *= per_metre_;
     vector(what, length_, x);
   }
+  void speed(std::string_view what, std::optional<double> v) {
+    if (v) *v *= per_metre_;
+    number(what, speed_, v);
+  }
+  void velocity(std::string_view what, const Vec3& v) { vector(what, speed_, v * per_metre_); }
 
  private:
-  std::string length_, area_;  // names
+  std::string length_, area_, speed_;  // names
   double per_metre_;
 };
 
@@ -115,10 +127,30 @@ struct Position {
 };
 
 Position measure(const ObservedPoint& point, const Now& now) {
-  return {now.configuration().position(point.point)};
+  return {position_of(point.place, now.model, now.configuration())};
 }
 
 void list(const Position& position, Columns& columns) { columns.place("position", position.x); }
+
+struct WayReading {
+  Vec3 velocity = Vec3::Zero();  // [m/s]
+  double straight = 0;           // from where it began [m]
+  double length = 0;             // [m]
+};
+
+WayReading measure(const ObservedWay& observed, const Now& now) {
+  const Way& way = now.state.ways[static_cast<std::size_t>(observed.way)];
+  const Vec3 x = position_of(observed.place, now.model, now.configuration());
+  return {velocity_of(observed.place, now.configuration()), (x - Vec3(way.x, way.y, way.z)).norm(),
+          way.length};
+}
+
+void list(const WayReading& way, Columns& columns) {
+  columns.velocity("velocity", way.velocity);
+  columns.speed("speed", way.velocity.norm());
+  columns.length("straight", way.straight);
+  columns.length("length", way.length);
+}
 
 struct Turn {
   double degrees = 0;
@@ -131,6 +163,49 @@ Turn measure(const ObservedAngle& angle, const Now& now) {
 
 void list(const Turn& turn, Columns& columns) { columns.number("angle", "deg", turn.degrees); }
 
+/// Of an axis there is none where a body does not turn.
+struct HelicalReading {
+  double turn = 0, speed = 0;             // [rad], [rad/s]
+  std::optional<HelicalAxis> since, now;  // since the start; now
+};
+
+HelicalReading measure(const ObservedHelicalAxis& observed, const Now& now) {
+  // Beneath, round-off and the tolerance of a step decide where an axis lies.
+  constexpr double kLeastTurn = 0.1 * kDegree, kLeastSpeed = 0.1 * kDegree;  // [rad], [rad/s]
+  const Configuration& configuration = now.configuration();
+  const auto b = static_cast<std::size_t>(observed.rigid);
+  const Pose& pose = now.pose(observed.rigid);
+  const RigidVelocity& velocity = configuration.velocities[b];
+  const Mat3 to_frame =
+      observed.frame < 0 ? Mat3(Mat3::Identity()) : Mat3(now.pose(observed.frame).R.transpose());
+  const Vec3 lever = pose.R * (observed.point - now.model.rigid_bodies[b].rest.p);
+  const Vec3 x = pose.p + lever, v = velocity.linear + velocity.angular.cross(lever);
+  const Vec3 q_now = position_in(observed.frame, now.model, configuration, x);
+  const Mat3 R = to_frame * pose.R;
+  Vec3 omega = to_frame * velocity.angular;
+  if (observed.frame >= 0)
+    omega -= to_frame * configuration.velocities[static_cast<std::size_t>(observed.frame)].angular;
+  HelicalReading reading{Eigen::AngleAxisd(R).angle(), omega.norm(), {}, {}};
+  if (reading.turn > kLeastTurn) reading.since = helical_axis(R, observed.point, q_now);
+  if (reading.speed > kLeastSpeed)
+    reading.now = instant_axis(omega, q_now, velocity_in(observed.frame, configuration, x, v));
+  return reading;
+}
+
+void list(const HelicalReading& reading, Columns& columns) {
+  const auto of = [](const std::optional<HelicalAxis>& axis, auto member) {
+    return axis ? std::optional((*axis).*member) : std::nullopt;
+  };
+  columns.number("angle", "deg", reading.turn / kDegree);
+  columns.length("slide", of(reading.since, &HelicalAxis::slide));
+  columns.vector("direction", "-", of(reading.since, &HelicalAxis::direction));
+  columns.place("center", of(reading.since, &HelicalAxis::center));
+  columns.number("speed", "deg/s", reading.speed / kDegree);
+  columns.speed("slide_now", of(reading.now, &HelicalAxis::slide));
+  columns.vector("direction_now", "-", of(reading.now, &HelicalAxis::direction));
+  columns.place("center_now", of(reading.now, &HelicalAxis::center));
+}
+
 ContactSummary measure(const ObservedContact& observed, const Now& now) {
   if (observed.contact < 0) return {};
   ContactSummary sum = summary_through(now.model, now.moment().contact, now.configuration(),
@@ -138,28 +213,62 @@ ContactSummary measure(const ObservedContact& observed, const Now& now) {
   if (now.model.contacts[observed.contact].a != observed.body) {
     sum.force *= -1;
     sum.moment *= -1;
+    std::swap(sum.center_on_a, sum.center_on_b);
   }
   return sum;
 }
 
+std::optional<Vec3> where_it_carries(const ContactSummary& sum, const Vec3& x) {
+  return sum.area > 0 ? std::optional(x) : std::nullopt;
+}
+
 // Shares read a force from the first three columns.
-void list(const ContactSummary& sum, Columns& columns) {
-  const bool carries = sum.area > 0;
-  const auto where = [&](const Vec3& x) { return carries ? std::optional(x) : std::nullopt; };
+void list_load(const ContactSummary& sum, Columns& columns) {
   columns.vector("force", "N", sum.force);
   columns.vector("moment", "N m", sum.moment);
-  columns.place("center", where(sum.center));
+  columns.place("center", where_it_carries(sum, sum.center));
   columns.area("area", sum.area);
   const auto pressure = [&](const char* what, double p) {
     columns.number(what, "Pa", sum.is_resolved ? std::optional(p) : std::nullopt);
   };
-  pressure("mean_pressure", carries ? sum.normal_force / sum.area : 0);
+  pressure("mean_pressure", sum.area > 0 ? sum.normal_force / sum.area : 0);
   pressure("max_pressure", sum.max_pressure);
   pressure("max_face_pressure", sum.max_face_pressure);
-  columns.length("max_penetration", sum.max_depth);
-  columns.place("max_penetration_at", where(sum.deepest));
-  columns.length("max_point_penetration", sum.max_point_depth);
 }
+
+void list(const ContactSummary& sum, Columns& columns) {
+  list_load(sum, columns);
+  columns.length("max_penetration", sum.max_depth);
+  columns.place("max_penetration_at", where_it_carries(sum, sum.deepest));
+  columns.length("max_point_penetration", sum.max_point_depth);
+  columns.place("center_at_start", where_it_carries(sum, sum.center_on_a));
+}
+
+struct ContactsReading {
+  ContactSummary sum;
+};
+
+ContactsReading measure(const ObservedContacts& observed, const Now& now) {
+  ContactSummary sum;
+  std::vector<ContactSummary> parts;
+  for (const ObservedContact& contact : observed.of) {
+    const ContactSummary& part = parts.emplace_back(measure(contact, now));
+    sum.force += part.force;
+    sum.normal_force += part.normal_force;
+    sum.center += part.normal_force * part.center;
+    sum.area += part.area;
+    sum.max_pressure = std::max(sum.max_pressure, part.max_pressure);
+    sum.max_face_pressure = std::max(sum.max_face_pressure, part.max_face_pressure);
+    sum.is_resolved = sum.is_resolved && part.is_resolved;
+  }
+  if (sum.normal_force > 0) sum.center /= sum.normal_force;
+  for (const ContactSummary& part : parts)
+    sum.moment += part.moment + (part.center - sum.center).cross(part.force);
+  return {sum};
+}
+
+// Shares read a force from the first three columns.
+void list(const ContactsReading& reading, Columns& columns) { list_load(reading.sum, columns); }
 
 struct MuscleReading {
   double force = 0;   // [N]
@@ -246,6 +355,19 @@ MomentArm measure(const ObservedMomentArm& observed, const Now& now) {
 
 void list(const MomentArm& arm, Columns& columns) { columns.length("moment_arm", arm.arm); }
 
+struct NetMoment {
+  double moment = 0;  // [N m]
+};
+
+NetMoment measure(const ObservedMuscleMoment& observed, const Now& now) {
+  double moment = 0;
+  for (const int line : observed.lines)
+    moment += now.line(line).tension * measure(ObservedMomentArm{line, observed.axis}, now).arm;
+  return {moment};
+}
+
+void list(const NetMoment& net, Columns& columns) { columns.number("moment", "N m", net.moment); }
+
 struct WrapReading {
   int edges = 0;
   double length = 0;               // [m]
@@ -327,6 +449,50 @@ ForceAndMoment measure(const ObservedAttachment& attachment, const Now& now) {
 void list(const ForceAndMoment& reading, Columns& columns) {
   columns.vector("force", "N", reading.force);
   columns.vector("moment", "N m", reading.moment);
+}
+
+struct StressReading {
+  double mean_von_mises = 0, max_von_mises = 0;       // [Pa]
+  double mean_pressure = 0;                           // [Pa], positive in compression
+  double least_principal = 0, largest_principal = 0;  // [Pa], negative in compression
+};
+
+/// Means are over the volume at rest.
+StressReading measure(const ObservedStress& observed, const Now& now) {
+  const auto t = static_cast<std::size_t>(observed.tissue);
+  const Tissue& tissue = now.model.tissues[t];
+  const Eigen::MatrixXd stress =
+      cauchy_stress(tissue, now.moment().tissues[t], now.configuration());
+  const Eigen::VectorXd von_mises = fem::von_mises(stress);
+  StressReading reading;
+  double volume = 0;
+  reading.least_principal = std::numeric_limits<double>::infinity();
+  reading.largest_principal = -reading.least_principal;
+  for (const int e : observed.elements) {
+    const auto s = stress.col(e);  // xx yy zz xy yz xz
+    Mat3 sigma;
+    sigma << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+    const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(sigma, Eigen::EigenvaluesOnly)
+                               .eigenvalues();  // increasing
+    const double V = tissue.elements.rest_volume()[static_cast<std::size_t>(e)];
+    volume += V;
+    reading.mean_von_mises += V * von_mises[e];
+    reading.mean_pressure -= V * sigma.trace() / 3;
+    reading.max_von_mises = std::max(reading.max_von_mises, von_mises[e]);
+    reading.least_principal = std::min(reading.least_principal, principal[0]);
+    reading.largest_principal = std::max(reading.largest_principal, principal[2]);
+  }
+  reading.mean_von_mises /= volume;
+  reading.mean_pressure /= volume;
+  return reading;
+}
+
+void list(const StressReading& stress, Columns& columns) {
+  columns.number("mean_von_mises", "Pa", stress.mean_von_mises);
+  columns.number("max_von_mises", "Pa", stress.max_von_mises);
+  columns.number("mean_pressure", "Pa", stress.mean_pressure);
+  columns.number("least_principal", "Pa", stress.least_principal);
+  columns.number("largest_principal", "Pa", stress.largest_principal);
 }
 
 struct Extent {

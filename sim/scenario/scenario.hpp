@@ -320,9 +320,24 @@ struct JointSide {
   Vec3 up = Vec3::Zero();
 };
 
-/// Position.
+/// Position, of a bone's frame or the world's: where the place would be, had the bone not moved.
 struct PointProbe {
   Anchor anchor;
+  std::string frame = {};  // a fixed or rigid body; empty: the world
+};
+
+/// Velocity of a place, and how far it has come: in a frame, as above.
+struct WayProbe {
+  Anchor anchor;
+  std::string frame = {};
+};
+
+/// The axis about which a fixed or rigid body has turned since the start, and turns now, in the
+/// frame of another or the world's.
+struct HelicalAxisProbe {
+  std::string body;
+  std::string frame = {};
+  Vec3 point = Vec3::Zero();  // [m], of the body, world at the start: the axis is shown near it
 };
 
 /// Rotation of a rigid body about an axis.
@@ -345,6 +360,14 @@ struct LineProbe {
 /// Moment arm of a muscle or ligament about an axis that goes with a fixed or rigid body.
 struct MomentArmProbe {
   std::string line;
+  std::string body;
+  Vec3 point = Vec3::Zero();  // [m], of the axis, world at the start
+  Vec3 axis = Vec3::UnitX();  // unit vector, world at the start
+};
+
+/// Moment of muscles on a fixed or rigid body about an axis that goes with it.
+struct MuscleMomentProbe {
+  std::vector<std::string> muscles;  // names of those that count
   std::string body;
   Vec3 point = Vec3::Zero();  // [m], of the axis, world at the start
   Vec3 axis = Vec3::UnitX();  // unit vector, world at the start
@@ -393,6 +416,17 @@ struct ShareProbe {
   Vec3 direction = Vec3::Zero();         // unit vector
 };
 
+/// Several contact probes as one: sums of forces and areas, the largest of pressures.
+struct ContactsProbe {
+  std::vector<std::string> of;  // names of contact probes
+};
+
+/// Stress in a tissue, or in a part of it.
+struct StressProbe {
+  std::string tissue;
+  std::optional<Region> region = {};  // of elements whose middle lies there at the start
+};
+
 /// Joint coordinates of two bodies.
 struct JointProbe {
   JointSide proximal, distal;
@@ -401,9 +435,10 @@ struct JointProbe {
 
 struct Probe {
   std::string name;
-  std::variant<PointProbe, AngleProbe, ContactProbe, LineProbe, MomentArmProbe, WrapProbe,
-               EnergyProbe, ReactionProbe, SupportProbe, AttachmentProbe, FibresProbe, ExtentProbe,
-               ShareProbe, JointProbe>
+  std::variant<PointProbe, WayProbe, AngleProbe, HelicalAxisProbe, ContactProbe, ContactsProbe,
+               LineProbe, MomentArmProbe, MuscleMomentProbe, WrapProbe, EnergyProbe, ReactionProbe,
+               SupportProbe, AttachmentProbe, FibresProbe, StressProbe, ExtentProbe, ShareProbe,
+               JointProbe>
       what;
   Location where = {};
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/scenario/name_pattern.hpp"
 #include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 
@@ -15,6 +16,7 @@ struct Named {
   Names lines;     // muscles and ligaments, but for
   Names fibres;    // muscles made of a tissue's fibres
   Names wrapping;  // those that wrap around bodies
+  Names muscles;   // with a line
   const std::vector<Support>& supports;
 };
 
@@ -91,8 +93,26 @@ JointSide read_joint_side(const Node& node, const Context& context) {
 /// What a probe of one kind observes.
 using Target = decltype(Probe::what);
 
+/// The frame that a place or an axis is seen in; "" without one: the world's.
+std::string read_frame(const TableReader& table, const Context& context) {
+  const Node* frame = table.find("frame");
+  return frame == nullptr ? "" : read_bone(*frame, context);
+}
+
 Target read_point(const TableReader& table, const Context& context, const Named&) {
-  return PointProbe{read_anchor(table, context)};
+  return PointProbe{read_anchor(table, context), read_frame(table, context)};
+}
+
+Target read_way(const TableReader& table, const Context& context, const Named&) {
+  return WayProbe{read_anchor(table, context), read_frame(table, context)};
+}
+
+Target read_helical_axis(const TableReader& table, const Context& context, const Named&) {
+  HelicalAxisProbe axis;
+  axis.body = read_bone(table.at("body"), context);
+  axis.frame = read_frame(table, context);
+  table.read("point", axis.point);
+  return axis;
 }
 
 Target read_angle(const TableReader& table, const Context& context, const Named&) {
@@ -129,6 +149,34 @@ Target read_moment_arm(const TableReader& table, const Context& context, const N
   return arm;
 }
 
+/// Muscles with a line that a pattern fits, each once.
+Names muscles_that_fit(const Node& node, const Context& context, const Named& named) {
+  Names found;
+  for (const Node& element : read_list(node, "names of muscles such as [\"l*\"]")) {
+    const std::string pattern = context.name(read_text(element));
+    bool fits_one = false;
+    for (const std::string& muscle : named.muscles) {
+      if (!fits(pattern, muscle)) continue;
+      fits_one = true;
+      if (!is_in(muscle, found)) found.push_back(muscle);
+    }
+    if (!fits_one)
+      fail(element, fmt::format("no muscle with a `path` is called `{}`{}", one_line(pattern),
+                                suggestion(pattern, named.muscles)));
+  }
+  return found;
+}
+
+Target read_muscle_moment(const TableReader& table, const Context& context, const Named& named) {
+  MuscleMomentProbe net;
+  const Node* muscles = table.find("muscles");
+  net.muscles = muscles == nullptr ? named.muscles : muscles_that_fit(*muscles, context, named);
+  net.body = read_bone(table.at("body"), context);
+  table.read("point", net.point);
+  table.read("axis", net.axis);
+  return net;
+}
+
 Target read_wrap(const TableReader& table, const Context& context, const Named& named) {
   WrapProbe wrap{read_line_reference(table.at("line"), context, named)};
   if (std::find(named.wrapping.begin(), named.wrapping.end(), wrap.line) == named.wrapping.end())
@@ -159,6 +207,17 @@ Target read_fibres_probe(const TableReader& table, const Context& context, const
   if (!body.material || !body.material->fibres)
     fail(node, fmt::format("expected a tissue with fibres, body `{}` has none", body.name));
   return FibresProbe{body.name};
+}
+
+Target read_contacts(const TableReader& table, const Context& context, const Named&) {
+  return ContactsProbe{read_probe_names(table.at("of"), context)};
+}
+
+Target read_stress(const TableReader& table, const Context& context, const Named&) {
+  StressProbe stress;
+  stress.tissue = read_body_of_kind(table.at("body"), context, Body::Kind::Tissue, "tissue");
+  table.read("region", stress.region, [&](const Node& n) { return read_region(n, context); });
+  return stress;
 }
 
 Target read_extent(const TableReader& table, const Context& context, const Named&) {
@@ -196,17 +255,24 @@ struct ProbeKind {
 };
 constexpr ProbeKind kProbeKinds[] = {
     {"point", read_point, true, "motion of a place"},
+    {"way", read_way, true, "velocity of a place, and how far it has come"},
     {"angle", read_angle, true, "rotation of a body"},
+    {"helical_axis", read_helical_axis, false,
+     "the axis about which a body has turned since the start, and turns now"},
     {"contact", read_contact, true, "what passes between two bodies"},
+    {"contacts", read_contacts, true, "what passes in several contact probes together"},
     {"line", read_line, true,
      "force and length of a muscle or ligament; activation of a muscle, strain of a ligament"},
     {"moment_arm", read_moment_arm, false,
      "moment of a tension of 1 N in a line on a body, about an axis that goes with it"},
+    {"muscle_moment", read_muscle_moment, false,
+     "moment of muscles on a body, about an axis that goes with it"},
     {"wrap", read_wrap, true, "where a line lies on the bodies that it wraps around"},
     {"energy", read_energy, true, "energies of the scene, work done and losses"},
     {"reaction", read_reaction, true, "force and moment on what holds a body or tissue"},
     {"attachment", read_attachment, true, "force and moment of a tissue on a bone at tied nodes"},
     {"fibres", read_fibres_probe, true, "stretch of a tissue's fibres from their free length"},
+    {"stress", read_stress, true, "stress in a tissue or a part of it"},
     {"extent", read_extent, false,
      "how far a tissue reaches along an axis that goes with a fixed or rigid body"},
     {"share", read_share, true, "forces of some probes by those of others"},
@@ -218,7 +284,18 @@ std::vector<Key> own_keys(std::string_view kind) {
   const Key line{"line", {form::Text{"name of a muscle or ligament"}}, kRequired, "the line"};
   const Key point{"point", {form::Vector{kLength}}, kRequired, "where it is at the start"};
   const KeyType names = {list_of({form::Text{"name of a probe with forces"}})};
-  if (kind == "point") return {body, point};
+  const Key frame{"frame",
+                  {form::Text{"name of a fixed or rigid body"}},
+                  otherwise("the world"),
+                  "seen from this body, in axes that go with it and are the world's at the start"};
+  if (kind == "point" || kind == "way") return {body, point, frame};
+  if (kind == "helical_axis")
+    return {body,
+            frame,
+            {"point",
+             {form::Vector{kLength}},
+             kRequired,
+             "of the body, at the start: the axis is shown where it is nearest to it"}};
   if (kind == "fibres") return {body};
   if (kind == "angle")
     return {body, {"axis", {form::Direction{}}, standard({1, 0, 0}), "about which it turns"}};
@@ -231,6 +308,26 @@ std::vector<Key> own_keys(std::string_view kind) {
              {form::Table{region_keys}},
              otherwise("all"),
              "counts only what passes through this part of the first body"}};
+  if (kind == "contacts")
+    return {{"of",
+             {list_of({form::Text{"name of a contact probe"}})},
+             kRequired,
+             "contact probes whose forces and areas are added, and of whose pressures the largest "
+             "counts"}};
+  if (kind == "muscle_moment")
+    return {{"muscles",
+             {list_of({form::Text{"name of a muscle"}})},
+             otherwise("all with a `path`"),
+             "those that count; `*` in a name stands for any characters"},
+            body,
+            point,
+            {"axis", {form::Direction{}}, kRequired, "the axis"}};
+  if (kind == "stress")
+    return {{"body", {form::Text{"name of a tissue"}}, kRequired, "the tissue"},
+            {"region",
+             {form::Table{region_keys}},
+             otherwise("all"),
+             "counts only elements whose middle lies there at the start"}};
   if (kind == "line" || kind == "wrap") return {line};
   if (kind == "moment_arm")
     return {line, body, point, {"axis", {form::Direction{}}, kRequired, "the axis"}};
@@ -294,26 +391,35 @@ Probe read_probe(const TableReader& table, const Context& context, const Named& 
 
 bool has_force(const Probe& probe) {
   return std::holds_alternative<ContactProbe>(probe.what) ||
+         std::holds_alternative<ContactsProbe>(probe.what) ||
          std::holds_alternative<AttachmentProbe>(probe.what) ||
          std::holds_alternative<ReactionProbe>(probe.what) ||
          std::holds_alternative<SupportProbe>(probe.what);
 }
 
-/// Shares are of probes that have a force.
+void check_named(const Probe& probe, const Names& names, const Names& allowed,
+                 std::string_view expected) {
+  for (const std::string& name : names)
+    if (!is_in(name, allowed))
+      throw InputError(
+          probe.where,
+          fmt::format("[[probe]] `{}`: expected names of {} probes, found `{}`{}", probe.name,
+                      expected, one_line(name), suggestion(name, allowed)));
+}
+
+/// Shares are of probes that have a force; contacts are put together of contact probes.
 void check_forces(const std::vector<Probe>& probes) {
-  Names with_force;
-  for (const Probe& probe : probes)
-    if (has_force(probe)) with_force.push_back(probe.name);
+  Names with_force, contacts;
   for (const Probe& probe : probes) {
-    const auto* share = std::get_if<ShareProbe>(&probe.what);
-    if (share == nullptr) continue;
-    for (const Names* names : {&share->part, &share->whole})
-      for (const std::string& name : *names)
-        if (std::find(with_force.begin(), with_force.end(), name) == with_force.end())
-          throw InputError(probe.where,
-                           fmt::format("[[probe]] `{}`: expected names of contact, attachment or "
-                                       "reaction probes, found `{}`{}",
-                                       probe.name, one_line(name), suggestion(name, with_force)));
+    if (has_force(probe)) with_force.push_back(probe.name);
+    if (std::holds_alternative<ContactProbe>(probe.what)) contacts.push_back(probe.name);
+  }
+  for (const Probe& probe : probes) {
+    if (const auto* share = std::get_if<ShareProbe>(&probe.what))
+      for (const Names* names : {&share->part, &share->whole})
+        check_named(probe, *names, with_force, "contact, attachment or reaction");
+    if (const auto* together = std::get_if<ContactsProbe>(&probe.what))
+      check_named(probe, together->of, contacts, "contact");
   }
 }
 
@@ -339,9 +445,11 @@ const form::Variants& probe_variants() {
 
 std::vector<Probe> read_probes(const TableReader& document, const Context& context,
                                const Scenario& read_so_far) {
-  Named named{{}, {}, {}, read_so_far.supports};
-  for (const Muscle& muscle : read_so_far.muscles)
+  Named named{{}, {}, {}, {}, read_so_far.supports};
+  for (const Muscle& muscle : read_so_far.muscles) {
     (muscle.tissue.empty() ? named.lines : named.fibres).push_back(muscle.name);
+    if (muscle.tissue.empty()) named.muscles.push_back(muscle.name);
+  }
   for (const Ligament& ligament : read_so_far.ligaments) named.lines.push_back(ligament.name);
   for (const Muscle& muscle : read_so_far.muscles)
     if (!muscle.wrap.empty()) named.wrapping.push_back(muscle.name);

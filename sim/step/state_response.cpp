@@ -1,5 +1,6 @@
 #include "sim/step/state_response.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -22,6 +23,9 @@ constexpr double kNearSpeed = 1e-6;  // [m/s]
 /// tissue bends easily, little is left of the forces long before.
 constexpr double kSolved = 3e-4;
 constexpr int kMostCorrections = 20;
+
+/// Of each column: what is left out where few stand for all.
+constexpr double kLeftOut = 1e-4;
 
 /// The largest of the blocks' displacements [m], or velocities [m/s].
 double largest_motion(const Model& model, const Eigen::VectorXd& blocks) {
@@ -78,6 +82,36 @@ NearbyStates nearby_states(const Model& model, const Eigen::VectorXd& y,
 ResponseSolver::ResponseSolver(const Model& model, Dynamics& dynamics)
     : model_(model), dynamics_(dynamics), solver_(make_linear_solver(model)) {}
 
+namespace {
+
+/// Columns that are combinations of few: basis * parts, up to kLeftOut of each.
+struct FewColumns {
+  Eigen::MatrixXd basis, parts;
+};
+
+/// By the principal directions of the columns, each taken at the same size.
+FewColumns few_columns(const Eigen::MatrixXd& columns) {
+  const Eigen::VectorXd size = columns.colwise().norm().cwiseMax(1e-300);
+  const Eigen::MatrixXd alike = columns * size.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(alike.transpose() * alike);
+  const Eigen::VectorXd squares =
+      gram.eigenvalues();  // increasing; their sum is the columns' number
+  Eigen::Index kept = 0;
+  double left = squares.cwiseMax(0).sum();
+  while (kept < squares.size() && left > kLeftOut * kLeftOut)
+    left -= squares[squares.size() - ++kept];
+  const Eigen::MatrixXd W = gram.eigenvectors().rightCols(kept);
+  return {alike * W, W.transpose() * size.asDiagonal()};
+}
+
+/// Rows that count alike, whatever their unit.
+double largest_column(const Eigen::MatrixXd& rows) {
+  const double largest = rows.colwise().norm().maxCoeff();
+  return largest > 0 ? largest : 1;
+}
+
+}  // namespace
+
 bool ResponseSolver::factor(const SystemScale& scale) {
   dynamics_.evaluate(y_.data(), t_, conditions_);
   for (const fem::Tangent tangent : {fem::Tangent::Consistent, fem::Tangent::Projected})
@@ -97,6 +131,31 @@ Eigen::VectorXd ResponseSolver::force_change(const Column& column) {
   dynamics_.evaluate(states.below.data(), t_, conditions_);
   change -= dynamics_.now().forces.head(rows);
   return change / states.apart;
+}
+
+/// What activations change of the forces of now() on the unknown blocks, a column an input [N, N
+/// m].
+Eigen::MatrixXd ResponseSolver::pulls(const Eigen::MatrixXd& activation) {
+  const Eigen::Index rows = 3 * model_.layout.num_unknown_blocks();
+  Eigen::MatrixXd by_muscle = Eigen::MatrixXd::Zero(rows, model_.layout.num_muscles);
+  const Moment& now = dynamics_.now();
+  for (std::size_t l = 0; l < model_.lines.size(); ++l) {
+    if (model_.lines[l].muscle < 0) continue;
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(now.forces.size());
+    add_line_force(path_of(now, l), now.configuration, now.lines[l].tension_per_activation, f);
+    by_muscle.col(model_.lines[l].muscle) += f.head(rows);
+  }
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(rows);
+  for (const Tissue& tissue : model_.tissues)
+    if (tissue.muscle >= 0)
+      by_muscle.col(tissue.muscle) = force_change(
+          {rest, rest, Eigen::VectorXd::Unit(model_.layout.num_muscles, tissue.muscle)});
+  for (auto column : by_muscle.colwise()) {
+    Eigen::VectorXd free = column;
+    keep_free_part(model_, free);
+    column = free;
+  }
+  return by_muscle * activation;
 }
 
 /// x with residual(x) = 0 from where it is, as far as corrections by the matrix make that smaller.
@@ -130,19 +189,24 @@ bool ResponseSolver::follow_equilibrium(const Eigen::VectorXd& y, double t,
   response.activation = excitation;
   if (model_.layout.num_unknown_blocks() == 0) return true;
   if (!factor({0, 0, 1})) return false;
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(response.velocity.rows());
-  for (Eigen::Index j = 0; j < excitation.cols(); ++j) {
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(response.velocity.rows()),
+                        same = Eigen::VectorXd::Zero(model_.layout.num_muscles);
+  FewColumns few = few_columns(pulls(excitation));
+  for (auto column : few.basis.colwise()) {
+    const Eigen::VectorXd pull = column;
     Eigen::VectorXd motion = rest;
-    const auto unbalanced = [&](const Eigen::VectorXd& x) {
-      return force_change({x, rest, excitation.col(j)});
+    const auto unbalanced = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+      return pull + force_change({x, rest, same});
     };
     if (!solve(unbalanced, motion, response.error)) return false;
-    response.motion.col(j) = motion;
+    column = motion;
   }
+  response.motion = few.basis * few.parts;
   return true;
 }
 
-// v' of implicit Euler: M (v' − v) = h Δf(x + h v', v', a').
+// v' of implicit Euler: M (v' − v) = h (Δf(x + h v', v') + ∂f/∂a a'). Muscles move a few bones, so
+// that few combinations of x, v and pulls stand for all inputs.
 bool ResponseSolver::follow_step(const Eigen::VectorXd& y, double t_before, double t,
                                  const Eigen::MatrixXd& excitation, StateResponse& response) {
   const double h = t - t_before;
@@ -157,18 +221,30 @@ bool ResponseSolver::follow_step(const Eigen::VectorXd& y, double t_before, doub
   }
   if (model_.layout.num_unknown_blocks() == 0) return true;
   if (!factor({1, h, h * h, h})) return false;
-  for (Eigen::Index j = 0; j < excitation.cols(); ++j) {
-    const Eigen::VectorXd before = response.velocity.col(j), x = response.motion.col(j);
-    Eigen::VectorXd velocity = before, inertia;
+  const Eigen::MatrixXd pull = pulls(response.activation);
+  const Eigen::Index n = pull.rows();
+  const double motions = largest_column(response.motion),
+               velocities = largest_column(response.velocity), forces = largest_column(pull);
+  Eigen::MatrixXd all(3 * n, pull.cols());
+  all << response.motion / motions, response.velocity / velocities, pull / forces;
+  const FewColumns few = few_columns(all);
+  const Eigen::VectorXd same = Eigen::VectorXd::Zero(model_.layout.num_muscles);
+  Eigen::MatrixXd velocity(n, few.basis.cols());
+  for (Eigen::Index k = 0; k < few.basis.cols(); ++k) {
+    const Eigen::VectorXd x = motions * few.basis.col(k).head(n),
+                          before = velocities * few.basis.col(k).segment(n, n),
+                          force = forces * few.basis.col(k).tail(n);
+    Eigen::VectorXd v_next = before, inertia;
     const auto unbalanced = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
-      const Eigen::VectorXd change = h * force_change({x + h * v, v, response.activation.col(j)});
+      const Eigen::VectorXd change = h * (force + force_change({x + h * v, v, same}));
       dynamics_.multiply_mass(v - before, inertia);
       return change - inertia;
     };
-    if (!solve(unbalanced, velocity, response.error)) return false;
-    response.velocity.col(j) = velocity;
-    response.motion.col(j) += h * velocity;
+    if (!solve(unbalanced, v_next, response.error)) return false;
+    velocity.col(k) = v_next;
   }
+  response.velocity = velocity * few.parts;
+  response.motion += h * response.velocity;
   return true;
 }
 

@@ -57,6 +57,7 @@ class ResponseSolver {
   };
   [[nodiscard]] bool factor(const SystemScale& scale);
   Eigen::VectorXd force_change(const Column& column);
+  Eigen::MatrixXd pulls(const Eigen::MatrixXd& activation);
   template <class Residual>
   [[nodiscard]] bool solve(const Residual& residual, Eigen::VectorXd& x, double& error);
 

@@ -12,6 +12,7 @@
 #include "sim/loads/surface_load.hpp"
 #include "sim/model/carried_tissue.hpp"
 #include "sim/model/driven_supports.hpp"
+#include "sim/model/relative_motion.hpp"
 #include "sim/scenario/curve.hpp"
 #include "sim/statics/contact_hooks.hpp"
 #include "sim/step/failure_diagnosis.hpp"
@@ -73,6 +74,7 @@ State Stepper::initial() {
   state.wraps = initial_wraps(model_);
   restart(state);
   state.energy.start = stored_energy().total();
+  state.ways = ways_that_begin(model_, dynamics_->now().configuration);
   note_extrema(dynamics_->now(), state);
   return state;
 }
@@ -375,6 +377,7 @@ void Stepper::account(State& after) {
                             carried_kinetic_energy(rigid, start_.poses[b], start_.velocities[b]);
   }
   if (has_driven_supports(model_)) ledger.motion_work += work_on_supports(after.t);
+  lengthen(model_, start_, now, after.ways);
   note_extrema(dynamics_->now(), after);
 }
 

@@ -24,8 +24,15 @@ using Eigen::VectorXd;
 /// The sum would not fall by more than this part of it, or than by the square of a thousandth of a
 /// spread.
 constexpr double kConverged = 3e-3, kNegligible = 1e-6;
-/// A step that is this short helps no more.
-constexpr double kShortest = 1.0 / 32;
+/// Where no change of excitations within this helps, there is nothing more to find: contact opens
+/// and closes along them.
+constexpr double kLeastReach = 1e-4;
+/// It has converged all the same where no more than this could be gained: a tenth of a spread a
+/// row.
+constexpr double kAsGood = 0.01;
+/// What a trial has to keep of the fall of the sum that slopes promise, for the next to reach as
+/// far, and to reach farther.
+constexpr double kKept = 0.1, kKeptWell = 0.5;
 
 bool counts_at(const TrackTarget& target, double t) {
   const std::vector<double>& times = target.value.time;
@@ -95,13 +102,15 @@ class Tracker {
     result.is_static = model_.is_static;
     sim::State state = run_.begin();
     VectorXd excitation = start_;
+    bool has_counted = false;
     try {
       for (double before = 0; before < duration_;) {
         const double time = next_time(before);
-        const VectorXd guess = before == 0 ? first_guess(time) : excitation;
+        const VectorXd guess = has_counted ? excitation : own_at(time);
         Iterate place = solve(state, {before, time, excitation, guess}, result);
         excitation = place.excitation;
         state = std::move(place.trial.state);
+        has_counted = has_counted || something_counts(time);
         before = time;
         if (options_.after_point) options_.after_point(result, duration_);
       }
@@ -129,7 +138,8 @@ class Tracker {
     return next > duration_ - 0.1 * interval_ ? duration_ : next;
   }
 
-  VectorXd first_guess(double time) const {
+  /// The scenario's own excitations.
+  VectorXd own_at(double time) const {
     VectorXd guess = start_;
     for (std::size_t u = 0; u < own_.size(); ++u)
       if (!own_[u].time.empty()) guess[static_cast<Index>(u)] = sim::value_at(own_[u], time);
@@ -146,6 +156,18 @@ class Tracker {
       times.push_back(next);
     }
     return times;
+  }
+
+  /// Of what an excitation at this time has to meet.
+  bool something_counts(double time) const {
+    const std::vector<double> times = times_to_look_at(time);
+    const auto counts = [&](const TrackTarget& target) {
+      return std::any_of(times.begin(), times.end(),
+                         [&](double t) { return counts_at(target, t); });
+    };
+    const auto is_measured = [](const TrackUnknown& u) { return !u.given->emg.time.empty(); };
+    return std::any_of(track_.targets.begin(), track_.targets.end(), counts) ||
+           std::any_of(unknowns_.begin(), unknowns_.end(), is_measured);
   }
 
   /// Misfits in spreads: of all samples, then of what was measured of excitations.
@@ -206,17 +228,24 @@ class Tracker {
     if (options_.after_trial) options_.after_trial(time, trial, sum);
   }
 
-  /// From `here` towards `next`, as far as the sum falls. The whole way is taken also where the sum
-  /// rises by less than a spread a row: along what targets do not determine they bend, and the next
-  /// iteration makes up for that. @return whether it went
-  bool go_on(const sim::State& state, Ramp ramp, const VectorXd& next, double rows, Iterate& here,
-             int& trials) {
-    for (double part = 1; part >= kShortest; part *= 0.5) {
-      ramp.to = here.excitation + part * (next - here.excitation);
+  /// From `here` to where slopes promise the least sum, with no excitation changed by more than
+  /// `reach`: nearer, until the sum falls. So what targets determine is mended also where slopes
+  /// are wrong along what they do not. @return whether it went
+  bool go_on(const sim::State& state, Ramp ramp, const ActivationProblem& problem, double& reach,
+             Iterate& here, int& trials) {
+    while (reach >= kLeastReach) {
+      ActivationProblem near = problem;
+      near.lowest = lowest_.cwiseMax((here.excitation.array() - reach).matrix());
+      near.highest = highest_.cwiseMin((here.excitation.array() + reach).matrix());
+      ramp.to = least_activation(near, track_.cost);
+      const double promised = here.sum - sum_of(problem, ramp.to);
+      const double way = (ramp.to - here.excitation).lpNorm<Eigen::Infinity>();
       ++trials;
       std::optional<Iterate> place = try_place(state, ramp);
       tell(ramp.t_to, trials, place ? std::optional(place->sum) : std::nullopt);
-      if (!place || !(place->sum < here.sum + (part == 1 ? rows : 0))) continue;
+      const double kept = place ? (here.sum - place->sum) / promised : 0;
+      reach = kept > kKeptWell ? std::min(1.0, 2 * reach) : kept > kKept ? reach : 0.25 * way;
+      if (!(kept > 0)) continue;
       here = std::move(*place);
       return true;
     }
@@ -231,20 +260,20 @@ class Tracker {
     point.trials = 1;
     Iterate here = place_at(state, ramp);
     tell(time, point.trials, here.sum);
-    Iterate best = here;
-    for (int k = 0;; ++k) {
+    double reach = 1;
+    point.converged = !something_counts(time);
+    for (int k = 0; !point.converged; ++k) {
       const ActivationProblem problem = problem_at(here, time);
-      const VectorXd next = least_activation(problem, track_.cost);
-      point.converged = here.sum - sum_of(problem, next) <= kConverged * here.sum + kNegligible;
-      const auto rows = static_cast<double>(problem.A.rows());
-      if (point.converged || k == options_.most_iterations ||
-          !go_on(state, ramp, next, rows, here, point.trials))
-        break;
-      if (here.sum < best.sum) best = here;
+      const double promised = here.sum - sum_of(problem, least_activation(problem, track_.cost));
+      point.converged = promised <= kConverged * here.sum + kNegligible;
+      if (point.converged || k == options_.most_iterations) break;
+      if (go_on(state, ramp, problem, reach, here, point.trials)) continue;
+      point.converged = promised <= kAsGood * static_cast<double>(problem.A.rows());
+      break;
     }
-    describe(best, point);
+    describe(here, point);
     result.points.push_back(std::move(point));
-    return best;
+    return here;
   }
 
   void describe(const Iterate& place, TrackPoint& point) const {

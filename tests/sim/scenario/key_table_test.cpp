@@ -196,7 +196,21 @@ name = "point"
 kind = "point"
 body = "free"
 point = "0 0 0 mm"
+frame = "skull"
 mirror = "x"
+[[probe]]
+name = "way"
+kind = "way"
+body = "free"
+point = "0 0 0 mm"
+frame = "skull"
+mirror = "x"
+[[probe]]
+name = "helical_axis"
+kind = "helical_axis"
+body = "free"
+point = "0 0 0 mm"
+frame = "skull"
 [[probe]]
 name = "angle"
 kind = "angle"
@@ -210,6 +224,11 @@ bodies = ["tissue", "free"]
 region = {}
 mirror = "x"
 [[probe]]
+name = "contacts"
+kind = "contacts"
+of = ["contact_left", "contact_right"]
+mirror = "x"
+[[probe]]
 name = "line"
 kind = "line"
 line = "toe"
@@ -218,6 +237,13 @@ mirror = "x"
 name = "arm"
 kind = "moment_arm"
 line = "toe"
+body = "free"
+point = "0 0 0 mm"
+axis = [0, 0, 1]
+[[probe]]
+name = "net"
+kind = "muscle_moment"
+muscles = ["*"]
 body = "free"
 point = "0 0 0 mm"
 axis = [0, 0, 1]
@@ -248,6 +274,12 @@ mirror = "x"
 name = "fibres"
 kind = "fibres"
 body = "of transversely-isotropic"
+mirror = "x"
+[[probe]]
+name = "stress"
+kind = "stress"
+body = "tissue"
+region = {}
 mirror = "x"
 [[probe]]
 name = "extent"

@@ -62,6 +62,11 @@ kind = "point"
 body = "plate"
 point = "0 0 12 mm"
 [[probe]]
+name = "way"
+kind = "way"
+body = "plate"
+point = "0 0 12 mm"
+[[probe]]
 name = "table_block"
 kind = "contact"
 bodies = ["table", "block"]
