@@ -309,6 +309,22 @@ TEST(KneeLaxity, LigamentsOfTissueHoldTheKneeAsTheirLinesDo) {
   EXPECT_LT(force("acl", 2).norm(), 150);
 }
 
+// Where nodes of both slide on bone, from 30 degrees to a turn outwards by 5 N m.
+TEST(KneeLaxity, LigamentsOfTissueAreTurnedOutwardsInFlexion) {
+  const ScenarioResults results =
+      coarse_knee("laxity.toml", {"duration=5 s", "choice.acl=tissue", "choice.mcl=tissue",
+                                  "curve.drawer.time=['0 s', '5 s']", "curve.drawer.value=[0, 0]",
+                                  "curve.turn.time=['0 s', '4 s', '5 s']",
+                                  "curve.turn.value=[0, 0, -5]", "curve.bend.time=['0 s', '5 s']",
+                                  "curve.bend.value=[0, 0]", "load.1.time=['0 s', '1 s', '4 s']",
+                                  "load.1.rotation=['0 0 0 deg', '0 0 0 deg', '-30 0 0 deg']"});
+  EXPECT_EQ(results.summary().at("outcome"), "finished");
+  const double outwards =
+      results.at("knee.internal_rotation [deg]", 4) - results.at("knee.internal_rotation [deg]", 5);
+  EXPECT_NEAR(outwards, 19, 6);  // of lines
+  EXPECT_LT(results.count("newton_iterations"), 400);
+}
+
 #ifdef ARTICULAR_MESHER
 /// Makes the tetrahedra of the recorded knee in meshes/ of the folder, of 4 mm.
 void mesh_recorded_knee(const TemporaryFolder& folder) {
