@@ -187,6 +187,36 @@ TEST(KneeExtension, HamstringsRelieveTheAclAndFlexTheKneeByTheirArms) {
               0.25 * by_arms);
 }
 
+// Menisci are wedges behind the condyles: they take a part of what draws the tibia forwards.
+TEST(KneeExtension, MenisciRelieveTheAcl) {
+  sim::Scenario scenario =
+      shipped_scenario("knee/extension.toml", {"duration=1 s", "choice.menisci=both"});
+  for (sim::Body& body : scenario.bodies)
+    for (sim::MeshFile& file : body.contact_meshes) file.faces.reset();
+  const ScenarioResults menisci = knee_test::run_with(coarse_anatomy(), scenario);
+  EXPECT_EQ(menisci.summary().at("outcome"), "finished");
+  const auto acl = [](const ScenarioResults& knee) {
+    return knee.at("acl_anterior.force [N]", 1) + knee.at("acl_posterior.force [N]", 1);
+  };
+  EXPECT_LT(acl(menisci), 0.9 * acl(right_knee()));
+  double forwards = 0;  // on the femur
+  for (const std::string side : {"medial", "lateral"})
+    forwards -= menisci.last("above_meniscus_" + side + ".force.y [N]");
+  EXPECT_GT(forwards, 15);
+}
+
+// The tendon leaves the shank forwards in extension and swings back with flexion, as in living
+// knees (DeFrate et al. 2007).
+TEST(KneeExtension, TheTendonSwingsBackwardsAsTheKneeFlexes) {
+  const auto angle_deg = [](double time) {
+    const Vec3 along = vector_at(right_knee(), "apex.position", "mm", time) -
+                       vector_at(right_knee(), "tuberosity.position", "mm", time);
+    return std::atan2(-along.y(), along.z()) * 180 / 3.14159265;
+  };
+  EXPECT_NEAR(angle_deg(1), 18, 6);
+  for (const int time : {2, 3, 4, 5, 6}) EXPECT_GT(angle_deg(time), angle_deg(time + 1)) << time;
+}
+
 // The ground's force passes farther and farther behind the knee; the quadriceps of the file leaves
 // the tibia's hold next to nothing of its moment and that of the hamstrings, which is 13 N m at 30
 // and 23 at 40 degrees.
