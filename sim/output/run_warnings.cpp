@@ -24,6 +24,9 @@ constexpr double kDeep = 0.5;
 constexpr double kSmallMotion = 0.5;
 /// Of an element: points so deep with no force at all lie between the nodes that would carry it.
 constexpr double kMissedDepth = 0.02;
+/// In a heap hundreds of contacts may have the same fault: more lines would hide the other
+/// warnings.
+constexpr std::size_t kMostNamed = 4;
 
 const std::string& name_of(const Model& model, int body) {
   return model.bodies[static_cast<std::size_t>(body)].name;
@@ -121,26 +124,32 @@ Carrying carrying(const ContactPairState& pair_state) {
 }
 
 /// Where few nodes carry a force, or none though points lie in the other body, it is the mesh's.
-void warn_of_unresolved_contacts(const Model& model, const Stepper& stepper,
-                                 std::vector<std::string>& warnings) {
+bool is_unresolved(const Model& model, const ContactPairState& contact, const Carrying& found) {
   const auto body = [&](int b) -> const BodyModel& {
     return model.bodies[static_cast<std::size_t>(b)];
   };
-  for (const ContactPairState* const pair_state : stepper.now().contact.pair_states()) {
-    const ContactModel& pair = pair_state->pair;
-    if (body(pair.a).tissue < 0 && body(pair.b).tissue < 0) continue;
-    const Carrying found = carrying(*pair_state);
-    const double missed =
-        kMissedDepth * std::max(body(pair.a).collider->size, body(pair.b).collider->size);
-    if (found.num_nodes >= kResolvedNodes) continue;
-    if (found.num_nodes == 0 && !(found.deepest_point > missed)) continue;
-    warnings.push_back(
-        fmt::format("the contact of `{}` and `{}` is not resolved at the end: {} of the nodes of "
-                    "`{}` carry it, "
-                    "and the force may be far off; expected smaller elements where they touch",
-                    body(pair.a).name, body(pair.b).name, found.num_nodes,
-                    body(pair.reversed ? pair.b : pair.a).name));
+  const BodyModel &a = body(contact.pair.a), &b = body(contact.pair.b);
+  if ((a.tissue < 0 && b.tissue < 0) || found.num_nodes >= kResolvedNodes) return false;
+  const double missed = kMissedDepth * std::max(a.collider->size, b.collider->size);
+  return found.num_nodes > 0 || found.deepest_point > missed;
+}
+
+void warn_of_unresolved_contacts(const Model& model, const Stepper& stepper,
+                                 std::vector<std::string>& warnings) {
+  std::size_t count = 0;
+  for (const ContactPairState* const contact : stepper.now().contact.pair_states()) {
+    const Carrying found = carrying(*contact);
+    if (!is_unresolved(model, *contact, found) || ++count > kMostNamed) continue;
+    const ContactModel& pair = contact->pair;
+    warnings.push_back(fmt::format(
+        "the contact of `{}` and `{}` is not resolved at the end: {} of the nodes of `{}` carry "
+        "it, and the force may be far off; expected smaller elements where they touch",
+        name_of(model, pair.a), name_of(model, pair.b), found.num_nodes,
+        name_of(model, pair.reversed ? pair.b : pair.a)));
   }
+  if (count > kMostNamed)
+    warnings.push_back(
+        fmt::format("{} more contacts are not resolved at the end either", count - kMostNamed));
 }
 
 }  // namespace

@@ -190,6 +190,38 @@ TEST(RunWarnings, APressThatIsLiftedAgainGivesNone) {
   EXPECT_EQ(all_warnings(run), "");
 }
 
+/// Cubes that stand on one corner, pressed into a floor by their weight: one node of each carries
+/// it.
+Scenario cubes_on_corners(int count) {
+  Scenario s = scene(1e-3);
+  s.contact = true;
+  s.bodies = {box_body("floor", Body::Kind::Fixed, {1, 1, 0.01}, {0, 0, -0.005})};
+  for (int i = 0; i < count; ++i) {
+    const std::string name = "cube " + std::to_string(i);
+    Body cube = box_body(name, Body::Kind::Tissue, Vec3::Constant(0.01), Vec3::Zero());
+    cube.material = neo_hookean(1e5, 0.3);
+    // The space diagonal stands upright.
+    const double angle = std::acos(1 / std::sqrt(3.0));
+    cube.placement.rotation = angle * Vec3::Ones().cross(Vec3::UnitZ()).normalized();
+    cube.placement.translation = {0.03 * i, 0, 0.005 * std::sqrt(3.0) - 1e-4};
+    s.bodies.push_back(cube);
+    s.contacts.push_back({"floor", name, {}});
+  }
+  return s;
+}
+
+// What more than a few contacts have in common is counted: other warnings have to be seen.
+TEST(RunWarnings, OfManyUnresolvedContactsSomeAreNamedAndTheRestCounted) {
+  for (const int count : {4, 7}) {
+    Simulation run(cubes_on_corners(count));
+    run.advance(1e-3);
+    const std::string told = all_warnings(run);
+    EXPECT_TRUE(has(told, "`floor` and `cube 3` is not resolved at the end: 1 of")) << told;
+    EXPECT_FALSE(has(told, "`cube 4`")) << told;
+    EXPECT_EQ(has(told, "\n3 more contacts are not resolved"), count == 7) << told;
+  }
+}
+
 // A run is stopped once most of its energy has come from nowhere, with the fastest body by name.
 TEST(RunWarnings, EnergyMadeOfNothingEndsARun) {
   Scenario s = scene(1e-3);
