@@ -195,7 +195,8 @@ TEST(RunWarnings, APressThatIsLiftedAgainGivesNone) {
 Scenario cubes_on_corners(int count) {
   Scenario s = scene(1e-3);
   s.contact = true;
-  s.bodies = {box_body("floor", Body::Kind::Fixed, {1, 1, 0.01}, {0, 0, -0.005})};
+  s.bodies = {box_body("floor", Body::Kind::Fixed, {0.3, 0.03, 0.01}, {0.1, 0, -0.005}, {30, 3, 1}),
+              stand("stand")};
   for (int i = 0; i < count; ++i) {
     const std::string name = "cube " + std::to_string(i);
     Body cube = box_body(name, Body::Kind::Tissue, Vec3::Constant(0.01), Vec3::Zero());
@@ -203,9 +204,10 @@ Scenario cubes_on_corners(int count) {
     // The space diagonal stands upright.
     const double angle = std::acos(1 / std::sqrt(3.0));
     cube.placement.rotation = angle * Vec3::Ones().cross(Vec3::UnitZ()).normalized();
-    cube.placement.translation = {0.03 * i, 0, 0.005 * std::sqrt(3.0) - 1e-4};
+    cube.placement.translation = {0.03 * i, 0, 0.005 * std::sqrt(3.0) - 4e-4};
     s.bodies.push_back(cube);
     s.contacts.push_back({"floor", name, {}});
+    s.attachments.push_back(attach(name, "stand", {-1, -1, 5e-3}, {1, 1, 1}));
   }
   return s;
 }
@@ -216,7 +218,7 @@ TEST(RunWarnings, OfManyUnresolvedContactsSomeAreNamedAndTheRestCounted) {
     Simulation run(cubes_on_corners(count));
     run.advance(1e-3);
     const std::string told = all_warnings(run);
-    EXPECT_TRUE(has(told, "`floor` and `cube 3` is not resolved at the end: 1 of")) << told;
+    EXPECT_TRUE(has(told, "`floor` and `cube 3` is not resolved at the end: ")) << told;
     EXPECT_FALSE(has(told, "`cube 4`")) << told;
     EXPECT_EQ(has(told, "\n3 more contacts are not resolved"), count == 7) << told;
   }
