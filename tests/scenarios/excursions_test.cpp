@@ -13,7 +13,7 @@ using sim::Vec3;
 /// Coarse steps, until the jaw rests at the end of its way.
 ScenarioResults excursion(const std::string& movement, std::vector<std::string> more = {}) {
   more.insert(more.end(), {"choice.movement=" + movement, "accuracy=fast", "integrator.step=6 ms",
-                           "duration=0.36 s"});
+                           "duration=0.96 s"});
   return run_scenario("mandible/excursions.toml", more);
 }
 

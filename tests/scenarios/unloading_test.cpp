@@ -48,12 +48,13 @@ TEST(JawUnloading, TheSpeedOfTheMusclesLimitsThatOfTheTeeth) {
   EXPECT_GT(travel(unlimited, 0.204), 2 * travel(results, 0.204));
 }
 
-// Closers that shorten too fast to pull leave the discs free to spring back, and they throw the jaw.
+// Closers that shorten too fast to pull leave the discs free to spring back, and they throw the
+// jaw.
 TEST(JawUnloading, DiscsThatGiveBackAllThatTheBitePutIntoThemThrowTheJaw) {
   const ScenarioResults damped = bite("0.212 s"),
-                        elastic = bite("0.212 s",
-                                       {"body.disc_left.material.stiffness_damping=0 s",
-                                        "body.disc_right.material.stiffness_damping=0 s"});
+                        elastic =
+                            bite("0.212 s", {"body.disc_left.material.stiffness_damping=0 s",
+                                             "body.disc_right.material.stiffness_damping=0 s"});
   EXPECT_GT(travel(elastic, 0.212), 1.1 * travel(damped, 0.212));
 }
 
