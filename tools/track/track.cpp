@@ -102,15 +102,13 @@ class Tracker {
     result.is_static = model_.is_static;
     sim::State state = run_.begin();
     VectorXd excitation = start_;
-    bool has_counted = false;
     try {
       for (double before = 0; before < duration_;) {
         const double time = next_time(before);
-        const VectorXd guess = has_counted ? excitation : own_at(time);
+        const VectorXd guess = before == 0 ? first_guess(time) : excitation;
         Iterate place = solve(state, {before, time, excitation, guess}, result);
         excitation = place.excitation;
         state = std::move(place.trial.state);
-        has_counted = has_counted || something_counts(time);
         before = time;
         if (options_.after_point) options_.after_point(result, duration_);
       }
@@ -138,8 +136,7 @@ class Tracker {
     return next > duration_ - 0.1 * interval_ ? duration_ : next;
   }
 
-  /// The scenario's own excitations.
-  VectorXd own_at(double time) const {
+  VectorXd first_guess(double time) const {
     VectorXd guess = start_;
     for (std::size_t u = 0; u < own_.size(); ++u)
       if (!own_[u].time.empty()) guess[static_cast<Index>(u)] = sim::value_at(own_[u], time);
@@ -156,18 +153,6 @@ class Tracker {
       times.push_back(next);
     }
     return times;
-  }
-
-  /// Of what an excitation at this time has to meet.
-  bool something_counts(double time) const {
-    const std::vector<double> times = times_to_look_at(time);
-    const auto counts = [&](const TrackTarget& target) {
-      return std::any_of(times.begin(), times.end(),
-                         [&](double t) { return counts_at(target, t); });
-    };
-    const auto is_measured = [](const TrackUnknown& u) { return !u.given->emg.time.empty(); };
-    return std::any_of(track_.targets.begin(), track_.targets.end(), counts) ||
-           std::any_of(unknowns_.begin(), unknowns_.end(), is_measured);
   }
 
   /// Misfits in spreads: of all samples, then of what was measured of excitations.
@@ -261,8 +246,7 @@ class Tracker {
     Iterate here = place_at(state, ramp);
     tell(time, point.trials, here.sum);
     double reach = 1;
-    point.converged = !something_counts(time);
-    for (int k = 0; !point.converged; ++k) {
+    for (int k = 0;; ++k) {
       const ActivationProblem problem = problem_at(here, time);
       const double promised = here.sum - sum_of(problem, least_activation(problem, track_.cost));
       point.converged = promised <= kConverged * here.sum + kNegligible;

@@ -114,20 +114,6 @@ TEST_F(Track, EmgDecidesWhereMotionDoesNot) {
   EXPECT_NEAR(found["pull_z"][4], 0.4, 2e-3);
 }
 
-// Until then the scene does what it does of its own.
-TEST_F(Track, LeavesExcitationsAloneUntilATargetCounts) {
-  ASSERT_EQ(track(kTwoMuscles + "[[target]]\ncolumn = \"bone.position.y [mm]\"\nspread = 0.01\n"
-                                "value = { time = [\"0.75 s\", \"1 s\"], value = [2, 2] }\n")
-                .exit_code,
-            0);
-  auto found = columns(folder_ / "out/t/excitations.csv");
-  EXPECT_NEAR(found["pull_y"][1], 0.3, 1e-12);
-  EXPECT_NEAR(found["pull_y"][2], 0.6, 1e-12);
-  EXPECT_NEAR(found["pull_z"][2], 0.2, 1e-12);
-  const std::string targets = content(folder_ / "out/t/targets.csv");
-  EXPECT_NE(targets.find("0.75,bone.position.y [mm],mm,2,"), std::string::npos) << targets;
-}
-
 // A force is a target like any other. pull_y alone has 3 N where it has them.
 TEST_F(Track, MeetsForces) {
   ASSERT_EQ(
@@ -217,44 +203,6 @@ TEST_F(Track, LookingAheadFollowsATwinInTime) {
              got = columns(folder_ / "again/history.csv").at("bone.position.y [mm]");
   ASSERT_EQ(got.size(), wanted.size());
   for (std::size_t k = 0; k < wanted.size(); ++k) EXPECT_NEAR(got[k], wanted[k], 0.05) << k;
-}
-
-// The mouth opens by some 8 mm: bone on bone, to be quick. Ways of incisors and condyles are those
-// of a run with known excitations. Which openers do it they do not tell, but that openers do.
-TEST_F(Track, OpensTheJawAsItsTwinDid) {
-  const std::string jaw = ARTICULAR_SOURCE_DIR "/scenarios/mandible/opening.toml",
-                    set =
-                        "--set choice.disc=none --set accuracy=fast --set integrator.step='5 ms' "
-                        "--set duration='0.15 s' --set output.frames=false ";
-  ASSERT_EQ(program("run '" + jaw + "' --out twin " + set).exit_code, 0);
-  const auto target = [](const std::string& column) {
-    return "[[target]]\ncolumn = \"" + column + "\"\nfile = \"twin/history.csv\"\nspread = 0.2\n";
-  };
-  folder_.file("t.toml", "scenario = \"" + jaw + "\"\ninterval = \"30 ms\"\n" +
-                             "[[muscle]]\nname = \"*ip\"\ntogether = true\n" +
-                             "[[muscle]]\nname = \"*ad\"\ntogether = true\n" +
-                             "[[muscle]]\nname = \"*gh\"\ntogether = true\n" +
-                             "[[muscle]]\nname = \"*at\"\ntogether = true\n" +
-                             target("incisor.position.z [mm]") +
-                             target("condyle_left.position.y [mm]"));
-  const ProgramResult found = program("track t.toml " + set);
-  ASSERT_EQ(found.exit_code, 0) << found.err;
-  const ProgramResult again =
-      program("run '" + jaw + "' --set @out/t/excitations.txt --out again " + set);
-  ASSERT_EQ(again.exit_code, 0) << again.err;
-  const auto wanted = columns(folder_ / "twin/history.csv"),
-             got = columns(folder_ / "again/history.csv");
-  for (const char* column : {"incisor.position.z [mm]", "condyle_left.position.y [mm]"}) {
-    const std::vector<double>&w = wanted.at(column), &g = got.at(column);
-    ASSERT_EQ(g.size(), w.size());
-    for (std::size_t k = 0; k < w.size(); ++k) EXPECT_NEAR(g[k], w[k], 0.4) << column << " " << k;
-  }
-  EXPECT_GT(
-      wanted.at("incisor.position.z [mm]").front() - wanted.at("incisor.position.z [mm]").back(),
-      4);
-  auto muscles = columns(folder_ / "out/t/excitations.csv");
-  EXPECT_GT(muscles["lad"].back() + muscles["lgh"].back(), 0.1);
-  EXPECT_LT(muscles["lat"].back(), 0.05);
 }
 
 /// The block of TOML behind a sentence of a page.
