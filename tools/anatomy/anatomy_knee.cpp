@@ -65,6 +65,8 @@ Anatomy knee_anatomy(const KneeResolution& resolution, const KneeShape& shape) {
   for (const Compartment* c : {&medial, &lateral}) {
     const std::string side = c->side > 0 ? "medial" : "lateral";
     anatomy.meshes["femoral_cartilage_" + side + ".vtu"] = femoral_cartilage(*c, resolution);
+    anatomy.meshes["femoral_cartilage_back_" + side + ".vtu"] =
+        femoral_cartilage_back(*c, resolution);
     anatomy.meshes["tibial_cartilage_" + side + ".vtu"] = tibial_cartilage(*c, resolution);
     anatomy.meshes["meniscus_" + side + ".vtu"] = meniscus(*c, resolution);
     anatomy.landmarks.push_back({"anterior horn " + side, "meniscus_" + side, horn(*c, -1)});

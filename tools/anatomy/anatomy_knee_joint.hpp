@@ -42,8 +42,9 @@ constexpr double kCompartmentX = 23;    // middles of condyles and plateaus, fro
 constexpr double kJointGap = 0.1;       // between the cartilages at the start
 constexpr double kPlateauSlopeDeg = 3;  // plateaus, posteriorly down
 
-/// Cartilage of a condyle reaches from kFrontDeg to kBackDeg (of phi).
-constexpr double kFrontDeg = -42, kBackDeg = 100;
+/// Cartilage of a condyle reaches from kFrontDeg to kBackDeg (of phi), and a strip behind it to
+/// kBackEndDeg: what touches beyond 60 degrees of flexion.
+constexpr double kFrontDeg = -42, kBackDeg = 100, kBackEndDeg = 125;
 
 /// Arc length along the sagittal profile from phi = 0, and back.
 double profile_length(const Compartment& c, double phi);

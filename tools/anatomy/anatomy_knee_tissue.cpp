@@ -13,16 +13,31 @@
 namespace articular::anatomy {
 namespace {
 
+constexpr double kCondyleRound = 0.3;  // outline of a condyle's layer: 0 rectangle, 1 ellipse
+
 Mesh femoral_layer(const Compartment& c, const CellGrid& grid, double full) {
-  constexpr double kRound = 0.3;  // outline: 0 rectangle, 1 ellipse
   const double front = profile_length(c, kFrontDeg * kDeg);
   const double back = profile_length(c, kBackDeg * kDeg);
   return grid.fill([&](double u, double v, double w) {
-    const double alpha = c.coronal_angle * u * std::sqrt(1 - kRound * v * v / 2);
-    const double along = v * std::sqrt(1 - kRound * u * u / 2);
+    const double alpha = c.coronal_angle * u * std::sqrt(1 - kCondyleRound * v * v / 2);
+    const double along = v * std::sqrt(1 - kCondyleRound * u * u / 2);
     const double phi = profile_angle(c, (front + back) / 2 + (back - front) / 2 * along);
     const CartilagePlace place = femoral_place(c, phi, alpha);
     return condyle_point(c, phi, alpha, (1 - w) * full * rim_taper(place.u, place.v));
+  });
+}
+
+/// From the layer's back edge on.
+Mesh back_layer(const Compartment& c, const CellGrid& grid, double full) {
+  const double front = profile_length(c, kFrontDeg * kDeg);
+  const double back = profile_length(c, kBackDeg * kDeg);
+  const double end = profile_length(c, kBackEndDeg * kDeg);
+  return grid.fill([&](double u, double v, double w) {
+    const double alpha = c.coronal_angle * u * std::sqrt(1 - kCondyleRound / 2);
+    const double edge =
+        (front + back) / 2 + (back - front) / 2 * std::sqrt(1 - kCondyleRound * u * u / 2);
+    const double phi = profile_angle(c, edge + (end - edge) * (v + 1) / 2);
+    return condyle_point(c, phi, alpha, (1 - w) * full * rim_taper(u, 1));
   });
 }
 
@@ -71,6 +86,15 @@ Mesh femoral_cartilage(const Compartment& c, const KneeResolution& resolution) {
   const CellGrid grid{even_cells(2 * c.coronal_radius * c.coronal_angle, h, 4),
                       even_cells(length, h, 4), resolution.layers};
   return femoral_layer(c, grid, femoral_full_thickness(c));
+}
+
+Mesh femoral_cartilage_back(const Compartment& c, const KneeResolution& resolution) {
+  check_resolution(resolution);
+  const double h = resolution.size_mm;
+  const double length = profile_length(c, kBackEndDeg * kDeg) - profile_length(c, kBackDeg * kDeg);
+  const CellGrid grid{even_cells(2 * c.coronal_radius * c.coronal_angle, h, 4),
+                      even_cells(length, h, 2), resolution.layers};
+  return back_layer(c, grid, femoral_full_thickness(c));
 }
 
 Mesh tibial_cartilage(const Compartment& c, const KneeResolution& resolution) {

@@ -19,6 +19,10 @@ void check_resolution(const KneeResolution& resolution);
 Mesh femoral_cartilage(const Compartment& c, const KneeResolution& resolution);
 Mesh tibial_cartilage(const Compartment& c, const KneeResolution& resolution);
 
+/// The strip that goes on behind femoral_cartilage(), as thick as that is along its back edge. It
+/// has no node in common with it.
+Mesh femoral_cartilage_back(const Compartment& c, const KneeResolution& resolution);
+
 /// Fraction of the cartilage's full thickness and place in the layer at a point of a condyle.
 struct CartilagePlace {
   double u, v;  // |u|, |v| <= 1 on the cartilage

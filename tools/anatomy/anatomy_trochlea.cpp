@@ -14,8 +14,8 @@ constexpr double kLateralEdge = -18, kMedialEdge = 15;
 constexpr double kRise = 3.2, kRiseBeginDeg = -45, kRiseEndDeg = -75;
 /// Half the width of the cartilage at its top and at its end.
 constexpr double kTopWidth = 21, kEndWidth = 27;
-/// In the middle it goes on to the notch.
-constexpr double kTongueDeg = 9.5, kTongueWidth = 9;
+/// Between the condyles it goes on to the notch.
+constexpr double kTongueDeg = 19.5, kTongueWidth = 11;
 constexpr double kTopRoundDeg = 8;  // its upper corners are lower
 
 double eased(double t) {
