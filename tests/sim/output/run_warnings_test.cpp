@@ -190,8 +190,8 @@ TEST(RunWarnings, APressThatIsLiftedAgainGivesNone) {
   EXPECT_EQ(all_warnings(run), "");
 }
 
-/// Cubes that stand on one corner, pressed into a floor by their weight: one node of each carries
-/// it.
+/// Cubes that are held with one corner in a floor: it is all that is in it, and no node carries a
+/// force.
 Scenario cubes_on_corners(int count) {
   Scenario s = scene(1e-3);
   s.contact = true;
