@@ -68,11 +68,11 @@ double deepest_of_muscles(const sim::Model& model, const sim::Moment& now) {
 TEST(JawWithMuscles, MusclesClenchAsTissueDoesAndAreMirrorImages) {
   const sim::Scenario scenario = shipped_scenario(
       "mandible/muscles.toml",
-      {"duration=0.021 s", "curve.closers.time=['0 s', '0.02 s']", "curve.closers.value=[0, 0.3]"});
+      {"duration=0.036 s", "curve.closers.time=['0 s', '0.02 s']", "curve.closers.value=[0, 0.3]"});
   const sim::Model model = sim::build_model(scenario);
   sim::Stepper stepper(model, sim::step_settings(scenario));
   sim::State state = stepper.initial();
-  while (state.t < 0.0209) stepper.step(state, state.t + 3e-3);
+  while (state.t < 0.0359) stepper.step(state, state.t + 3e-3);
   ASSERT_EQ(model.tissues.size(), 4U);
   for (std::size_t t = 0; t < model.tissues.size(); ++t) {
     SCOPED_TRACE(model.bodies[static_cast<std::size_t>(model.tissues[t].body)].name);
