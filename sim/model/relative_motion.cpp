@@ -49,7 +49,8 @@ void lengthen(const Model& model, const Configuration& before, const Configurati
 // (I − R) c = d_⊥, whose solution square to the axis is c = (d_⊥ + cot(θ/2) a × d)/2.
 HelicalAxis helical_axis(const Mat3& R, const Vec3& q, const Vec3& q_now) {
   const Eigen::AngleAxisd turn(R);
-  const Vec3 d = q_now - q, a = turn.axis();
+  const Vec3& a = turn.axis();
+  const Vec3 d = q_now - q;
   HelicalAxis axis{a, q, turn.angle(), a.dot(d)};
   axis.center += 0.5 * (d - axis.slide * a + a.cross(d) / std::tan(0.5 * axis.turn));
   return axis;

@@ -94,8 +94,8 @@ FewColumns few_columns(const Eigen::MatrixXd& columns) {
   const Eigen::VectorXd size = columns.colwise().norm().cwiseMax(1e-300);
   const Eigen::MatrixXd alike = columns * size.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(alike.transpose() * alike);
-  const Eigen::VectorXd squares =
-      gram.eigenvalues();  // increasing; their sum is the columns' number
+  // Increasing; their sum is the number of columns.
+  const Eigen::VectorXd& squares = gram.eigenvalues();
   Eigen::Index kept = 0;
   double left = squares.cwiseMax(0).sum();
   while (kept < squares.size() && left > kLeftOut * kLeftOut)
