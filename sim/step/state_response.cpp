@@ -65,25 +65,6 @@ NearbyStates states_along(const Model& model, const Eigen::VectorXd& y,
   return {moved(-part), moved(part), 2 * part};
 }
 
-}  // namespace
-
-StateResponse no_response(const Model& model, Eigen::Index inputs) {
-  const Eigen::Index rows = 3 * model.layout.num_unknown_blocks();
-  return {Eigen::MatrixXd::Zero(rows, inputs), Eigen::MatrixXd::Zero(rows, inputs),
-          Eigen::MatrixXd::Zero(model.layout.num_muscles, inputs), 0};
-}
-
-NearbyStates nearby_states(const Model& model, const Eigen::VectorXd& y,
-                           const StateResponse& response, Eigen::Index input) {
-  return states_along(model, y, response.motion.col(input), response.velocity.col(input),
-                      response.activation.col(input));
-}
-
-ResponseSolver::ResponseSolver(const Model& model, Dynamics& dynamics)
-    : model_(model), dynamics_(dynamics), solver_(make_linear_solver(model)) {}
-
-namespace {
-
 /// Columns that are combinations of few: basis * parts, up to kLeftOut of each.
 struct FewColumns {
   Eigen::MatrixXd basis, parts;
@@ -111,6 +92,21 @@ double largest_column(const Eigen::MatrixXd& rows) {
 }
 
 }  // namespace
+
+StateResponse no_response(const Model& model, Eigen::Index inputs) {
+  const Eigen::Index rows = 3 * model.layout.num_unknown_blocks();
+  return {Eigen::MatrixXd::Zero(rows, inputs), Eigen::MatrixXd::Zero(rows, inputs),
+          Eigen::MatrixXd::Zero(model.layout.num_muscles, inputs), 0};
+}
+
+NearbyStates nearby_states(const Model& model, const Eigen::VectorXd& y,
+                           const StateResponse& response, Eigen::Index input) {
+  return states_along(model, y, response.motion.col(input), response.velocity.col(input),
+                      response.activation.col(input));
+}
+
+ResponseSolver::ResponseSolver(const Model& model, Dynamics& dynamics)
+    : model_(model), dynamics_(dynamics), solver_(make_linear_solver(model)) {}
 
 bool ResponseSolver::factor(const SystemScale& scale) {
   dynamics_.evaluate(y_.data(), t_, conditions_);

@@ -37,6 +37,8 @@ const std::vector<std::string> kLigaments{"acl_anterior.force [N]",
                                           "capsule_medial_outer.force [N]",
                                           "capsule_lateral_inner.force [N]",
                                           "capsule_lateral_outer.force [N]"};
+/// The recorded knee has no capsule.
+const std::vector<std::string> kRecordedLigaments(kLigaments.begin(), kLigaments.end() - 4);
 
 /// @param duration   [s], 1000 N each
 /// @param cartilage  the word of that choice
@@ -61,6 +63,13 @@ TEST(KneeAxialLoad, IsTheSameByEitherTree) {
 double sum_of(const ScenarioResults& results, const std::vector<std::string>& columns) {
   double sum = 0;
   for (const std::string& column : columns) sum += results.column(column).back();
+  return sum;
+}
+
+double sum_at(const ScenarioResults& results, const std::vector<std::string>& columns,
+              double time) {
+  double sum = 0;
+  for (const std::string& column : columns) sum += results.at(column, time);
   return sum;
 }
 
@@ -240,18 +249,13 @@ TEST(KneeAxialLoad, WithATornRootTheMeniscusIsPressedOut) {
 
 // Passive flexion is easy, and the knee gives way as measured ones do (sources:
 // scenarios/SOURCES.md). The fit had other elements.
-/// The recorded knee has no capsule.
-const std::vector<std::string> kRecordedLigaments(kLigaments.begin(), kLigaments.end() - 4);
-
 TEST(KneeLaxity, TheKneeBendsEasilyAndItsDrawerIsNearlyAsMeasured) {
   const ScenarioResults results = coarse_knee("laxity.toml", {});
   const struct {
     double rest, drawer, spread;  // [s], [mm]
   } angles[] = {{1, 4.0, 1.4}, {16, 6.0, 2.5}, {31, 4.7, 2.4}, {46, 3.8, 2.5}};
   for (const auto& [rest, drawer, spread] : angles) {
-    double together = 0;
-    for (const std::string& ligament : kLigaments) together += results.at(ligament, rest);
-    EXPECT_LT(together, 130) << rest;
+    EXPECT_LT(sum_at(results, kLigaments, rest), 130) << rest;
     EXPECT_LT(std::abs(results.at("femur.moment.x [N m]", rest)), 1) << rest;
     const double forwards =
         results.at("knee.anterior [mm]", rest + 1) - results.at("knee.anterior [mm]", rest);
@@ -260,9 +264,7 @@ TEST(KneeLaxity, TheKneeBendsEasilyAndItsDrawerIsNearlyAsMeasured) {
   EXPECT_EQ(results.count("rejected_motion"), 0);
   // On to 100 degrees, as easily.
   EXPECT_NEAR(results.last("knee.flexion [deg]"), 100, 1e-6);
-  double together = 0;
-  for (const std::string& ligament : kLigaments) together += results.last(ligament);
-  EXPECT_LT(together, 130);
+  EXPECT_LT(sum_of(results, kLigaments), 130);
   EXPECT_LT(std::abs(results.last("femur.moment.x [N m]")), 1);
 }
 
@@ -385,9 +387,7 @@ TEST(KneeLaxity, OnARecordedKneeTheFittedLigamentsHoldTrue) {
     double rest, drawer, spread;  // [s], [mm]
   } angles[] = {{1, 4.0, 1.4}, {16, 6.0, 2.5}};
   for (const auto& [rest, drawer, spread] : angles) {
-    double together = 0;
-    for (const std::string& ligament : kRecordedLigaments) together += results.at(ligament, rest);
-    EXPECT_LT(together, 110) << rest;
+    EXPECT_LT(sum_at(results, kRecordedLigaments, rest), 110) << rest;
     EXPECT_LT(std::abs(results.at("femur.moment.x [N m]", rest)), 1) << rest;
     EXPECT_NEAR(results.at("knee.anterior [mm]", rest + 1) - results.at("knee.anterior [mm]", rest),
                 drawer, 1.4 * spread)

@@ -13,15 +13,25 @@
 namespace articular::anatomy {
 namespace {
 
-constexpr double kCondyleRound = 0.3;  // outline of a condyle's layer: 0 rectangle, 1 ellipse
+/// A place of a condyle: angle in the coronal plane, and arc length along the sagittal profile.
+struct CondyleSpread {
+  double alpha, length;
+};
 
-Mesh femoral_layer(const Compartment& c, const CellGrid& grid, double full) {
+/// Of a place of the layer, |u|, |v| <= 1; its back edge is v = 1.
+CondyleSpread femoral_spread(const Compartment& c, double u, double v) {
+  constexpr double kRound = 0.3;  // outline: 0 rectangle, 1 ellipse
   const double front = profile_length(c, kFrontDeg * kDeg);
   const double back = profile_length(c, kBackDeg * kDeg);
+  const double along = v * std::sqrt(1 - kRound * u * u / 2);
+  return {c.coronal_angle * u * std::sqrt(1 - kRound * v * v / 2),
+          (front + back) / 2 + (back - front) / 2 * along};
+}
+
+Mesh femoral_layer(const Compartment& c, const CellGrid& grid, double full) {
   return grid.fill([&](double u, double v, double w) {
-    const double alpha = c.coronal_angle * u * std::sqrt(1 - kCondyleRound * v * v / 2);
-    const double along = v * std::sqrt(1 - kCondyleRound * u * u / 2);
-    const double phi = profile_angle(c, (front + back) / 2 + (back - front) / 2 * along);
+    const auto [alpha, length] = femoral_spread(c, u, v);
+    const double phi = profile_angle(c, length);
     const CartilagePlace place = femoral_place(c, phi, alpha);
     return condyle_point(c, phi, alpha, (1 - w) * full * rim_taper(place.u, place.v));
   });
@@ -29,13 +39,9 @@ Mesh femoral_layer(const Compartment& c, const CellGrid& grid, double full) {
 
 /// From the layer's back edge on.
 Mesh back_layer(const Compartment& c, const CellGrid& grid, double full) {
-  const double front = profile_length(c, kFrontDeg * kDeg);
-  const double back = profile_length(c, kBackDeg * kDeg);
   const double end = profile_length(c, kBackEndDeg * kDeg);
   return grid.fill([&](double u, double v, double w) {
-    const double alpha = c.coronal_angle * u * std::sqrt(1 - kCondyleRound / 2);
-    const double edge =
-        (front + back) / 2 + (back - front) / 2 * std::sqrt(1 - kCondyleRound * u * u / 2);
+    const auto [alpha, edge] = femoral_spread(c, u, 1);
     const double phi = profile_angle(c, edge + (end - edge) * (v + 1) / 2);
     return condyle_point(c, phi, alpha, (1 - w) * full * rim_taper(u, 1));
   });

@@ -8,38 +8,20 @@
 
 #include "fem/material/any_material.hpp"
 #include "sim/base/error.hpp"
+#include "tests/sim/support/pressed_block.hpp"
 #include "tests/sim/support/probes.hpp"
 #include "tests/sim/support/scenario_file.hpp"
 #include "tests/sim/support/temporary_folder.hpp"
 
 namespace articular::sim::history_test {
 
-constexpr double kSide = 0.02;      // of the block [m]
-constexpr double kStiffness = 1e7;  // of the contact [Pa/m]
-
-ContactProbe half(const std::string& first, const std::string& second, double sign) {
-  const Vec3 low(sign > 0 ? 0 : -1, -1, -1), high(sign > 0 ? 1 : 0, 1, 1);
-  Region region;
-  region.box = {low, high};
-  return {first, second, region};
-}
-
-/// A tissue block on a wall under a plate, wider than it, that comes down by 0.2 mm and turns.
+/// The plate comes down by 0.2 mm and turns.
 Scenario press(Scenario::Analysis analysis, double turn) {
-  Scenario s = scene(analysis == Scenario::Analysis::Static ? 1 : 0.02);
-  s.analysis = analysis;
-  s.contact = true;
-  s.bodies = {
-      box_body("block", Body::Kind::Tissue, {kSide, kSide, kSide}, Vec3::Zero(), {4, 4, 2}),
-      box_body("plate", Body::Kind::Fixed, {2 * kSide, 2 * kSide, kSide}, {0, 0, kSide}, {6, 6, 1}),
-      stand("wall")};
-  s.bodies[0].material = linear(20e3, 0);
-  s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, -0.49 * kSide})};
-  s.contacts = {{"plate", "block", {}}};
   MotionLoad down = shift("plate", 0.2, {0, 0, -2e-4});
   down.motion.rotation = {Vec3::Zero(), Vec3(0, turn, 0)};
   down.motion.about = Vec3(0, 0, kSide / 2);
-  s.loads = {down};
+  Scenario s = pressed_block(analysis == Scenario::Analysis::Static ? 1 : 0.02, down);
+  s.analysis = analysis;
   for (const auto& [first, second] : {std::pair("block", "plate"), std::pair("plate", "block")}) {
     const std::string name = first;
     s.probes.push_back({name, ContactProbe{first, second}});

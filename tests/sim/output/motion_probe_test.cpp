@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "tests/sim/support/pressed_block.hpp"
 #include "tests/sim/support/probes.hpp"
 #include "tests/sim/support/scenario_file.hpp"
 
@@ -136,30 +137,10 @@ TEST(MuscleMomentProbe, IsTheSumOfForcesTimesArms) {
   EXPECT_NEAR(Probes(run)("one.moment [N m]"), -5 * 0.01, 1e-12);
 }
 
-constexpr double kSide = 0.02;      // of the block [m]
-constexpr double kStiffness = 1e7;  // of the contact [Pa/m]
-
-ContactProbe half(const std::string& first, const std::string& second, double sign) {
-  const Vec3 low(sign > 0 ? 0 : -1, -1, -1), high(sign > 0 ? 1 : 0, 1, 1);
-  Region region;
-  region.box = {low, high};
-  return {first, second, region};
-}
-
-/// A tissue block that does not spread stands on a wall, and a wider plate comes down on it by
-/// 0.2 mm and shifts by 1 mm. Pressure is even.
+/// The plate comes down on the block by 0.2 mm and shifts by 1 mm.
 Scenario press() {
-  Scenario s = scene(1);
+  Scenario s = pressed_block(1, shift("plate", 1, {1e-3, 0, -2e-4}));
   s.analysis = Scenario::Analysis::Static;
-  s.contact = true;
-  s.bodies = {
-      box_body("block", Body::Kind::Tissue, {kSide, kSide, kSide}, Vec3::Zero(), {4, 4, 2}),
-      box_body("plate", Body::Kind::Fixed, {2 * kSide, 2 * kSide, kSide}, {0, 0, kSide}, {6, 6, 1}),
-      stand("wall")};
-  s.bodies[0].material = linear(20e3, 0);
-  s.attachments = {attach("block", "wall", {-1, -1, -1}, {1, 1, -0.49 * kSide})};
-  s.contacts = {{"plate", "block", {}}};
-  s.loads = {shift("plate", 1, {1e-3, 0, -2e-4})};
   return s;
 }
 
