@@ -167,7 +167,7 @@ void SmoothedElasticity::for_each_domain_octet(const StencilBatches::Chunk& chun
                                                const Positions& x, double activation,
                                                Function function) const {
   const StencilKernels& kernels = stencil_kernels(instruction_set_);
-  const BatchedLaw law(instruction_set_, (*materials_)[chunk.material]);
+  const BatchedLaw law(instruction_set_, (*materials_)[chunk.material], activation);
   for (int i = chunk.begin; i < chunk.elements; ++i) {
     const StencilBatch batch = stencils_.batch(i);
     Eight F[9];
@@ -176,7 +176,7 @@ void SmoothedElasticity::for_each_domain_octet(const StencilBatches::Chunk& chun
                    i,
                    batch,
                    {F, 1 - smoothing_.plain_share, nullptr},
-                   {domain_fibres_, stencils_.index(i), activation}});
+                   {domain_fibres_, stencils_.index(i)}});
   }
 }
 
@@ -187,13 +187,12 @@ void SmoothedElasticity::for_each_element_octet(const StencilBatches::Chunk& chu
                                                 const Positions& x, double share, Pressure pressure,
                                                 double activation, Function function) const {
   const StencilKernels& kernels = stencil_kernels(instruction_set_);
-  const BatchedLaw law(instruction_set_, (*materials_)[chunk.material]);
+  const BatchedLaw law(instruction_set_, (*materials_)[chunk.material], activation);
   for (int i = chunk.elements; i < chunk.end; ++i) {
     const StencilBatch batch = stencils_.batch(i);
     Eight F[9], p;
     kernels.deformation_gradient(batch, x.data(), F);
-    function(Octet{
-        law, i, batch, {F, share, pressure(i, p)}, {fibres_, stencils_.index(i), activation}});
+    function(Octet{law, i, batch, {F, share, pressure(i, p)}, {fibres_, stencils_.index(i)}});
   }
 }
 

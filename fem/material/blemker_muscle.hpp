@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "fem/material/fibre_shear.hpp"
 #include "fem/material/muscle_fibre.hpp"
 
@@ -45,11 +47,24 @@ class BlemkerMuscle {
 
   using Local = SplitMaterial<Reinforced<FibreShear, MuscleFibre>, Theta>;
   Local along(const Vec3& a0, double activation) const {
-    const FibreShear ground(c_.G1, c_.G2, c_.c10 + activation * c_.active_c10, a0.normalized());
+    const FibreShear ground(c_.G1, c_.G2, c10(activation), a0.normalized());
     return {{ground, fibre_, a0, activation}, c_.kappa};
   }
 
+  /// At a constant activation in [0, 1]; refers to this.
+  std::optional<SplitBatchLaw> fibred_batch_law(double activation) const {
+    return SplitBatchLaw{.distortion = SplitBatchLaw::Distortion::Polynomial,
+                         .c = {c10(activation), 0, 0},
+                         .fibres = {.exist = true,
+                                    .activation = activation,
+                                    .shear_along = c_.G1,
+                                    .shear_across = c_.G2,
+                                    .of_stretch = fibre_curve(fibre_)}};
+  }
+
  private:
+  double c10(double activation) const { return c_.c10 + activation * c_.active_c10; }
+
   MuscleFibre fibre_;
   Constants c_;
 };

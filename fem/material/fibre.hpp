@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/material/batch_law.hpp"
 #include "fem/material/fibre_invariants.hpp"
 #include "fem/material/split_material.hpp"
 
@@ -21,6 +22,24 @@ concept FibreLaw = requires(const L& law, double stretch, double activation) {
   { law.tension(stretch, activation) } -> std::same_as<double>;    // dW/dλ [Pa], per rest area
   { law.stiffness(stretch, activation) } -> std::same_as<double>;  // d²W/dλ² [Pa]
 };
+
+/// Refers to the law.
+template <FibreLaw L>
+FibreCurve fibre_curve(const L& law) {
+  return {.law = &law,
+          .energy =
+              [](const void* any, double stretch, double activation) {
+                return static_cast<const L*>(any)->energy(stretch, activation);
+              },
+          .tension =
+              [](const void* any, double stretch, double activation) {
+                return static_cast<const L*>(any)->tension(stretch, activation);
+              },
+          .stiffness =
+              [](const void* any, double stretch, double activation) {
+                return static_cast<const L*>(any)->stiffness(stretch, activation);
+              }};
+}
 
 /// A material whose elements each have a direction of fibres, and which may pull along it.
 template <class M>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "fem/material/active_fibre.hpp"
 #include "fem/material/mooney_rivlin.hpp"
 #include "fem/material/prestretch.hpp"
@@ -40,6 +42,17 @@ class TransverselyIsotropic {
   double bulk_modulus() const { return kappa_; }                    // [Pa]
   double shear_modulus() const { return ground_.shear_modulus(); }  // [Pa]
   double prestretch() const { return prestretch_; }                 // [-]
+
+  /// At a constant activation in [0, 1]; refers to this. None where the fibres are stretched at
+  /// rest.
+  std::optional<SplitBatchLaw> fibred_batch_law(double activation) const {
+    if (prestretch_ != 1) return std::nullopt;
+    SplitBatchLaw law = ground_.split_batch_law();
+    law.fibres = {
+        .exist = true, .activation = activation, .of_isochoric_stretch = fibre_curve(fibre_)};
+    if (active_.max_stress() > 0) law.fibres.of_stretch = fibre_curve(active_);
+    return law;
+  }
 
   using Passive = Reinforced<IsochoricMooneyRivlin, ToeLinearFibre>;
   using Free = Reinforced<Passive, ActiveFibre>;

@@ -18,10 +18,10 @@ class BatchedLaw {
   struct Fibres {
     const FibreDirections& directions;
     const EightIndices& column;
-    double activation;  // in [0, 1]
   };
 
-  BatchedLaw(InstructionSet set, const AnyMaterial& material);
+  /// @param activation  in [0, 1]
+  BatchedLaw(InstructionSet set, const AnyMaterial& material, double activation);
 
   /// As PointKernels have it, for the first `count` points; the others are of no meaning.
   void energy_density(const EightPoints& points, int count, const Fibres& fibres, Eight& W) const;
@@ -30,7 +30,14 @@ class BatchedLaw {
                Eight* C) const;
 
  private:
+  template <class Evaluate>
+  void for_each_point(const EightPoints& points, int count, const Fibres& fibres,
+                      Evaluate evaluate) const;
+  template <class Evaluate>
+  void with_fibres(const EightPoints& points, const Fibres& fibres, Evaluate evaluate) const;
+
   const AnyMaterial& material_;
+  double activation_;
   std::optional<SplitBatchLaw> law_;
   const PointKernels* kernels_ = nullptr;  // where there is a law_
 };

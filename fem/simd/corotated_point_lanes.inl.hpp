@@ -18,8 +18,9 @@ struct CorotatedPointLanes {
     double share;
     Lanes pressure;
   };
-  static State at(const Matrix& F, double share, const double* pressure) {
-    return {F, polar(F), share, pressure == nullptr ? Lanes{} : load(pressure)};
+  static State at(const Matrix& F, const EightPoints& points, int first) {
+    return {F, polar(F), points.share,
+            points.pressure == nullptr ? Lanes{} : load(points.pressure->lane + first)};
   }
 
   Lanes energy_density(const State& s) const {

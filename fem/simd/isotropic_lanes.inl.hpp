@@ -3,6 +3,7 @@
 // Part of point_kernels.inl.hpp: laws of the invariants I1 = |F|², I2 = |cof F|² and J = det F, a
 // register of points at once.
 
+#include "fem/simd/point_kernels.hpp"
 #include "fem/simd/polar_lanes.inl.hpp"
 
 namespace articular::fem::ARTICULAR_INSTRUCTION_SET {
@@ -139,9 +140,13 @@ struct IsotropicLanes {
     double share;
     const double* pressure;  // of the first lane, or null
   };
-  static State at(const Matrix& F, double share, const double* pressure) {
+  static State at(const Matrix& F, const EightPoints& points, int first) {
     const Matrix cof = cofactor(F);
-    return {F, cof, {squared_norm(F), squared_norm(cof), dot(F[0], cof[0])}, share, pressure};
+    return {F,
+            cof,
+            {squared_norm(F), squared_norm(cof), dot(F[0], cof[0])},
+            points.share,
+            points.pressure == nullptr ? nullptr : points.pressure->lane + first};
   }
 
   Lanes energy_density(const State& s) const {
@@ -151,16 +156,23 @@ struct IsotropicLanes {
     return W;
   }
 
-  Matrix first_piola(const State& s) const {
-    const Slopes d = slopes(s);
+  Slopes slopes(const State& s) const {
+    Slopes d;
+    if (s.share != 0) energy.add_slopes(s.i, s.share, d);
+    if (s.pressure != nullptr) Theta::add_slopes(s.i.J, load(s.pressure), d);
+    return d;
+  }
+
+  Matrix first_piola(const State& s) const { return first_piola(s, slopes(s)); }
+  static Matrix first_piola(const State& s, const Slopes& d) {
     Matrix P = (2 * d.I1) * s.F + d.J * s.cof;
     if constexpr (Energy::kHasI2) P = P + d.I2 * second_invariant_gradient(s);
     return P;
   }
 
+  void tangent(const State& s, Tangent81& C) const { tangent(s, slopes(s), C); }
   /// Of the gradients 2F, D = ∂I2/∂F and cof F, and of the second derivatives of I1, I2 and J.
-  void tangent(const State& s, Tangent81& C) const {
-    const Slopes d = slopes(s);
+  static void tangent(const State& s, const Slopes& d, Tangent81& C) {
     const Matrix& F = s.F;
     Matrix D;
     Symmetric FtF, FFt;
@@ -252,13 +264,6 @@ struct IsotropicLanes {
   }
 
  private:
-  Slopes slopes(const State& s) const {
-    Slopes d;
-    if (s.share != 0) energy.add_slopes(s.i, s.share, d);
-    if (s.pressure != nullptr) Theta::add_slopes(s.i.J, load(s.pressure), d);
-    return d;
-  }
-
   /// ∂I2/∂F = 2 (I1 F − F FᵀF)
   static Matrix second_invariant_gradient(const State& s) {
     const Matrix FFtF = s.F * (transposed(s.F) * s.F);

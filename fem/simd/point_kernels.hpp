@@ -9,9 +9,10 @@ namespace articular::fem {
 /// Eight deformation gradients side by side, and what part each takes in a material's energy:
 /// share Ψ_d(F) + p Θ(F).
 struct EightPoints {
-  const Eight* F;         // 9, column-major
-  double share;           // [-]; 0: the distortion is not looked at
-  const Eight* pressure;  // [Pa]; null: the dilatation is not looked at
+  const Eight* F;                // 9, column-major
+  double share;                  // [-]; 0: the distortion is not looked at
+  const Eight* pressure;         // [Pa]; null: the dilatation is not looked at
+  const Eight* fibre = nullptr;  // 3, see FibreDirections; only laws with fibres look at it
 };
 
 /// The laws of tissue and their derivatives at eight points. All results are written, not added.
@@ -20,8 +21,11 @@ struct PointKernels {
   void (*first_piola)(const SplitBatchLaw&, const EightPoints&, Eight* P);     // 9 [Pa]
   /// ∂P/∂F: entry (m, n) of the symmetric 9x9 matrix in C[m + 9 n] [Pa].
   void (*tangent)(const SplitBatchLaw&, const EightPoints&, Eight* C);
-  /// The nearest positive semidefinite matrix to the sum of both parts.
+  /// The nearest positive semidefinite matrix to the sum of both parts; null for laws with fibres.
   void (*projected_tangent)(const SplitBatchLaw&, const EightPoints&, Eight* C);
+  /// Whether C of point k is not positive semidefinite up to round-off, in bit k; also where it is
+  /// not a number.
+  unsigned (*indefinite)(const Eight* C);
 };
 
 /// @param set  one that the machine has

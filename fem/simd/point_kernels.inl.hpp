@@ -4,6 +4,7 @@
 // which name it: ARTICULAR_INSTRUCTION_SET.
 
 #include "fem/simd/corotated_point_lanes.inl.hpp"
+#include "fem/simd/fibre_lanes.inl.hpp"
 #include "fem/simd/isotropic_lanes.inl.hpp"
 #include "fem/simd/point_kernels.hpp"
 
@@ -26,8 +27,7 @@ inline void for_each_state(const SplitBatchLaw& numbers, const EightPoints& poin
                            const Use& use) {
   const Law law(numbers);
   for (int first = 0; first < kPoints; first += kWidth) {
-    const double* pressure = points.pressure == nullptr ? nullptr : points.pressure->lane + first;
-    use(law, Law::at(load_matrix(points.F, first), points.share, pressure), first);
+    use(law, Law::at(load_matrix(points.F, first), points, first), first);
   }
 }
 
@@ -63,9 +63,51 @@ void tangent(const SplitBatchLaw& numbers, const EightPoints& points, Eight* C) 
   });
 }
 
+/// By LDLᵀ of C + ε |C| 1, as projected_tangent.cpp does it.
+unsigned indefinite(const Eight* C) {
+  unsigned result = 0;
+  for (int first = 0; first < kPoints; first += kWidth) {
+    const auto entry = [&](int m, int n) { return load(C[m + 9 * n].lane + first); };
+    Lanes squared_norm{};
+    for (int k = 0; k < 81; ++k) squared_norm += entry(k, 0) * entry(k, 0);
+    const Lanes shift = 1e-13 * sqrt(squared_norm);
+    Lanes L[9][9], d[9];
+    Mask fails{};
+    for (int j = 0; j < 9; ++j) {
+      Lanes scaled[9]{};  // d_k L_jk
+      d[j] = entry(j, j) + shift;
+      for (int k = 0; k < j; ++k) {
+        scaled[k] = d[k] * L[j][k];
+        d[j] -= scaled[k] * L[j][k];
+      }
+      fails |= ~(d[j] > 0);
+      const Lanes inverse = 1 / d[j];
+      for (int i = j + 1; i < 9; ++i) {
+        Lanes sum = entry(i, j);
+        for (int k = 0; k < j; ++k) sum -= scaled[k] * L[i][k];
+        L[i][j] = inverse * sum;
+      }
+    }
+    result |= bits(fails) << first;
+  }
+  return result;
+}
+
+/// Null where a law has no closed form of it.
+template <class Law>
+constexpr auto projected_tangent_of() {
+  if constexpr (requires(const Law& law, Tangent81& C) {
+                  law.projected_tangent(Law::at({}, {}, 0), C);
+                }) {
+    return &tangent<Law, true>;
+  } else {
+    return nullptr;
+  }
+}
+
 template <class Law>
 constexpr PointKernels point_kernels_of{energy_density<Law>, first_piola<Law>, tangent<Law, false>,
-                                        tangent<Law, true>};
+                                        projected_tangent_of<Law>(), indefinite};
 
 template <class Energy>
 const PointKernels& kernels_with_theta(const SplitBatchLaw& law) {
@@ -74,10 +116,24 @@ const PointKernels& kernels_with_theta(const SplitBatchLaw& law) {
              : point_kernels_of<IsotropicLanes<Energy, LogVolumeTheta>>;
 }
 
+template <class Energy, bool kShear>
+const PointKernels& kernels_with_fibres(const SplitBatchLaw& law) {
+  return law.theta == SplitBatchLaw::Theta::Volume
+             ? point_kernels_of<FibreLanes<Energy, VolumeTheta, kShear>>
+             : point_kernels_of<FibreLanes<Energy, LogVolumeTheta, kShear>>;
+}
+
+const PointKernels& kernels_with_fibres(const SplitBatchLaw& law) {
+  if (law.fibres.shear_along != 0) return kernels_with_fibres<PolynomialEnergy<false>, true>(law);
+  return law.c[2] == 0 ? kernels_with_fibres<PolynomialEnergy<false>, false>(law)
+                       : kernels_with_fibres<PolynomialEnergy<true>, false>(law);
+}
+
 }  // namespace
 
 const PointKernels& point_kernels(const SplitBatchLaw& law) {
   using enum SplitBatchLaw::Distortion;
+  if (law.fibres.exist) return kernels_with_fibres(law);
   if (law.distortion == Corotated) return point_kernels_of<CorotatedPointLanes>;
   if (law.distortion == NeoHookean) return kernels_with_theta<NeoHookeanEnergy>(law);
   if (law.distortion == CoupledNeoHookean)

@@ -22,7 +22,8 @@ constexpr double kMuchLost = 0.05, kMuchMade = 0.01;
 constexpr double kDeep = 0.5;
 /// Of |F − I|: a beam whose end is turned by 20 degrees is off by some per cent.
 constexpr double kSmallMotion = 0.5;
-/// Of an element: points so deep with no force at all lie between the nodes that would carry it.
+/// Of the smaller element: points so deep with no force at all lie between the nodes that would
+/// carry it.
 constexpr double kMissedDepth = 0.02;
 /// In a heap hundreds of contacts may have the same fault: more lines would hide the other
 /// warnings.
@@ -130,7 +131,7 @@ bool is_unresolved(const Model& model, const ContactPairState& contact, const Ca
   };
   const BodyModel &a = body(contact.pair.a), &b = body(contact.pair.b);
   if ((a.tissue < 0 && b.tissue < 0) || found.num_nodes >= kResolvedNodes) return false;
-  const double missed = kMissedDepth * std::max(a.collider->size, b.collider->size);
+  const double missed = kMissedDepth * std::min(a.collider->size, b.collider->size);
   return found.num_nodes > 0 || found.deepest_point > missed;
 }
 

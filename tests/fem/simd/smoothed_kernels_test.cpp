@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
@@ -255,6 +256,19 @@ TEST_P(SmoothedKernels, PointByPointInMeshesOfAnySize) {
   }
 }
 
+// Cross sections of fibres get half as wide again one way as the other, and ligaments go beyond
+// their toe.
+TEST_P(SmoothedKernels, LargeStrains) {
+  const Mat3 Q = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), kFibre).toRotationMatrix();
+  const Mat3 stretch = Q * Vec3(1.08, 1.25, 0.8).asDiagonal() * Q.transpose();
+  for (const InstructionSet set : instruction_sets()) {
+    Problem problem = random_problem({2, 2, 1}, 0.1, {GetParam()});
+    problem.x = stretch * problem.mesh.X +
+                2e-4 * Random().matrix<Positions>(3, problem.mesh.X.cols());  // [m]
+    expect_point_by_point(problem, set, 1e-11);
+  }
+}
+
 TEST_P(SmoothedKernels, SharesOfNoneAndOfAll) {
   for (const InstructionSet set : instruction_sets()) {
     for (const double share : {0.0, 1.0}) {
@@ -294,6 +308,39 @@ TEST_P(SmoothedKernels, InvertedElements) {
       BlockMatrix K = elasticity.make_matrix();
       elasticity.add_stiffness(problem.x, p, tangent, 1, K);
       EXPECT_FALSE(fem::dense(K).allFinite());
+    }
+  }
+}
+
+// Energy, force and stiffness are linear in how many fibres there are: what one more of them adds
+// is always the same.
+TEST(SmoothedKernelsOfFibres, EachFibreAddsTheSame) {
+  for (const LawExample& law : all_laws()) {
+    if (!law.fibred) continue;
+    const Problem problem = random_problem({2, 1, 1}, 0.1, {law});
+    Positions x = 1.05 * problem.x;  // taut
+    for (const InstructionSet set : instruction_sets()) {
+      double W[3];
+      Positions f[3];
+      Eigen::MatrixXd K[3];
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 fibre = (i + 1.0) * kFibre;
+        const SmoothedElasticity elasticity(problem.mesh.X, problem.mesh.tets, law.material, {},
+                                            fibre.replicate(1, problem.mesh.tets.cols()), set);
+        const Eigen::VectorXd p = Eigen::VectorXd::Zero(elasticity.num_pressures());
+        W[i] = elasticity.energy(x, p, kActivation);
+        f[i] = Positions::Zero(3, x.cols());
+        elasticity.add_internal_force(x, p, f[i], kActivation);
+        BlockMatrix matrix = elasticity.make_matrix();
+        elasticity.add_stiffness(x, p, Tangent::Consistent, 1, matrix, kActivation);
+        K[i] = dense(matrix);
+      }
+      EXPECT_GT(std::abs(W[2] - W[1]), 1e-6 * std::abs(W[1])) << law.name;
+      EXPECT_GT((f[2] - f[1]).norm(), 1e-3 * f[1].norm()) << law.name;
+      EXPECT_GT((K[2] - K[1]).norm(), 1e-3 * K[1].norm()) << law.name;
+      EXPECT_NEAR(W[2] - W[1], W[1] - W[0], 1e-12 * std::abs(W[2])) << law.name;
+      EXPECT_LE((f[2] - 2 * f[1] + f[0]).norm(), 1e-12 * f[2].norm()) << law.name;
+      EXPECT_LE((K[2] - 2 * K[1] + K[0]).norm(), 1e-12 * K[2].norm()) << law.name;
     }
   }
 }

@@ -192,11 +192,12 @@ TEST(RunWarnings, APressThatIsLiftedAgainGivesNone) {
 
 /// Cubes that are held with one corner in a floor: it is all that is in it, and no node carries a
 /// force.
-Scenario cubes_on_corners(int count) {
+Scenario cubes_on_corners(int count, const Eigen::Vector3i& floor_cells = {30, 3, 1}) {
   Scenario s = scene(1e-3);
   s.contact = true;
-  s.bodies = {box_body("floor", Body::Kind::Fixed, {0.3, 0.03, 0.01}, {0.1, 0, -0.005}, {30, 3, 1}),
-              stand("stand")};
+  s.bodies = {
+      box_body("floor", Body::Kind::Fixed, {0.3, 0.03, 0.01}, {0.1, 0, -0.005}, floor_cells),
+      stand("stand")};
   for (int i = 0; i < count; ++i) {
     const std::string name = "cube " + std::to_string(i);
     Body cube = box_body(name, Body::Kind::Tissue, Vec3::Constant(0.01), Vec3::Zero());
@@ -222,6 +223,14 @@ TEST(RunWarnings, OfManyUnresolvedContactsSomeAreNamedAndTheRestCounted) {
     EXPECT_FALSE(has(told, "`cube 4`")) << told;
     EXPECT_EQ(has(told, "\n3 more contacts are not resolved"), count == 7) << told;
   }
+}
+
+// How large the floor's elements are says nothing about what a cube bears.
+TEST(RunWarnings, ACubeInAFloorOfLargeElementsIsNotMissed) {
+  Simulation run(cubes_on_corners(1, {1, 1, 1}));
+  run.advance(1e-3);
+  EXPECT_TRUE(has(all_warnings(run), "`floor` and `cube 0` is not resolved at the end: "))
+      << all_warnings(run);
 }
 
 // A run is stopped once most of its energy has come from nowhere, with the fastest body by name.

@@ -1,0 +1,229 @@
+#pragma once
+
+// Part of point_kernels.inl.hpp: fibres in a polynomial ground substance (see
+// transversely_isotropic.hpp and blemker_muscle.hpp), a register of points at once. The curves of
+// the fibres are called point after point.
+
+#include "fem/simd/isotropic_lanes.inl.hpp"
+
+namespace articular::fem::ARTICULAR_INSTRUCTION_SET {
+namespace {
+
+struct ValueSlopeCurvature {
+  Lanes value, slope, curvature;
+};
+
+/// acosh²(y), by the series and the closed form of fibre_shear.hpp.
+inline ValueSlopeCurvature squared_acosh(Lanes y) {
+  constexpr int kTerms = 14;
+  const Lanes z = y - 1;
+  ValueSlopeCurvature near{};
+  double coefficient[kTerms + 1];
+  coefficient[1] = 2;
+  for (int n = 2; n <= kTerms; ++n) {
+    coefficient[n] = -coefficient[n - 1] * (n - 1.0) * (n - 1.0) / (n * (2.0 * n - 1));
+  }
+  for (int n = kTerms; n >= 1; --n) {
+    near.value = (near.value + coefficient[n]) * z;
+    near.slope = near.slope * z + n * coefficient[n];
+    if (n > 1) near.curvature = near.curvature * z + n * (n - 1) * coefficient[n];
+  }
+  const Lanes s2 = y * y - 1, s = sqrt(s2), a = log(y + s);
+  const Mask is_near = z < 0.1;
+  return {is_near ? near.value : a * a, is_near ? near.slope : 2 * a / s,
+          is_near ? near.curvature : 2 * (1 - y * a / s) / s2};
+}
+
+inline Lanes evaluate(FibreCurve::Function function, const FibreBatchLaw& law,
+                      const FibreCurve& curve, Lanes stretch) {
+  Lanes result;
+  for (int lane = 0; lane < kWidth; ++lane) {
+    result[lane] = function(curve.law, stretch[lane], law.activation);
+  }
+  return result;
+}
+
+/// kShear: it resists shear along and across the fibres by itself.
+template <class Energy, class Theta, bool kShear>
+struct FibreLanes {
+  using Ground = IsotropicLanes<Energy, Theta>;
+  Ground ground;
+  const FibreBatchLaw& fibres;
+  explicit FibreLanes(const SplitBatchLaw& law) : ground(law), fibres(law.fibres) {}
+
+  struct State {
+    typename Ground::State ground;
+    Vector a, b, w;  // a unit vector along the fibre at rest, F a, Fᵀ F a
+    Lanes density;   // of the fibres [-]
+    Lanes I4, I5, stretch;
+  };
+  static State at(const Matrix& F, const EightPoints& points, int first) {
+    State s;
+    s.ground = Ground::at(F, points, first);
+    const Vector fibre{load(points.fibre[0].lane + first), load(points.fibre[1].lane + first),
+                       load(points.fibre[2].lane + first)};
+    s.density = sqrt(dot(fibre, fibre));
+    s.a = (1 / s.density) * fibre;
+    s.b = F * s.a;
+    s.w = transposed(F) * s.b;
+    s.I4 = dot(s.b, s.b);
+    s.I5 = dot(s.w, s.w);
+    s.stretch = sqrt(s.I4);
+    return s;
+  }
+
+  Lanes energy_density(const State& s) const {
+    Lanes W = ground.energy_density(s.ground);
+    if (s.ground.share == 0) return W;
+    Lanes of_fibre{};
+    for_each_curve(s, [&](const FibreCurve& curve, Lanes stretch, bool) {
+      of_fibre += evaluate(curve.energy, fibres, curve, stretch);
+    });
+    W += s.ground.share * s.density * of_fibre;
+    if constexpr (kShear) {
+      const Lanes of_shear = fibres.shear_along * (s.I5 / (s.I4 * s.I4) - 1) +
+                             fibres.shear_across * squared_acosh(cosh_B2(s)).value;
+      W += s.ground.share * of_shear;
+    }
+    return W;
+  }
+
+  Matrix first_piola(const State& s) const {
+    const FibreSlopes d = slopes(s);
+    Matrix P = Ground::first_piola(s.ground, d.ground) + outer(s.b, (2 * d.I4) * s.a);
+    if constexpr (kShear) P = P + d.I5 * fifth_invariant_gradient(s);
+    return P;
+  }
+
+  /// The blocks are those of invariants.cpp. Of I4 and I5 they are
+  ///   2 a_j a_l 1   and   2 (δ_jl b bᵀ + a_l b f_jᵀ + a_j f_l bᵀ + a_j a_l B + (w_j a_l + a_j w_l)
+  ///   1).
+  void tangent(const State& s, Tangent81& C) const {
+    const FibreSlopes d = slopes(s);
+    Ground::tangent(s.ground, d.ground, C);
+    const Matrix &F = s.ground.F, &cof = s.ground.cof;
+    const Matrix g4 = outer(s.b, all(2) * s.a);
+    Matrix g5, FFt;
+    if constexpr (kShear) {
+      g5 = fifth_invariant_gradient(s);
+      FFt = F * transposed(F);
+    }
+    for (int l = 0; l < 3; ++l) {
+      Vector by_4 = d.I4_I4 * g4[l] + d.I4_J * cof[l], by_cof = d.I4_J * g4[l], by_5{}, by_F{};
+      if constexpr (kShear) {
+        by_4 = by_4 + (2 * d.I1_I4) * F[l] + d.I4_I5 * g5[l];
+        by_5 = (2 * d.I1_I5) * F[l] + d.I4_I5 * g4[l] + d.I5_I5 * g5[l] + d.I5_J * cof[l];
+        by_F = (2 * d.I1_I4) * g4[l] + (2 * d.I1_I5) * g5[l];
+        by_cof = by_cof + d.I5_J * g5[l];
+      }
+      for (int j = l; j < 3; ++j) {
+        Matrix B = C.block[j + 3 * l] + outer(g4[j], by_4) + outer(cof[j], by_cof);
+        Lanes on_diagonal = 2 * d.I4 * s.a[j] * s.a[l];
+        if constexpr (kShear) {
+          const Lanes c = 2 * d.I5;
+          B = B + outer(g5[j], by_5) + outer(F[j], by_F) + outer((c * s.a[l]) * s.b, F[j]) +
+              outer((c * s.a[j]) * F[l], s.b) + (c * s.a[j] * s.a[l]) * FFt;
+          if (j == l) B = B + outer(c * s.b, s.b);
+          on_diagonal += c * (s.w[j] * s.a[l] + s.a[j] * s.w[l]);
+        }
+        for (int k = 0; k < 3; ++k) B[k][k] += on_diagonal;
+        C.block[j + 3 * l] = B;
+        if (j != l) C.block[l + 3 * j] = transposed(B);
+      }
+    }
+  }
+
+ private:
+  /// Derivatives of the energy; those of I2 with the invariants of the fibre are zero.
+  struct FibreSlopes {
+    Slopes ground;
+    Lanes I4{}, I5{}, I1_I4{}, I1_I5{}, I4_I4{}, I4_I5{}, I4_J{}, I5_I5{}, I5_J{};
+  };
+
+  /// λ̄
+  static Lanes isochoric_stretch(const State& s) {
+    return inverse_cube_root(s.ground.i.J) * s.stretch;
+  }
+
+  /// Calls use(curve, stretch, is_isochoric) for the curves that there are.
+  template <class Use>
+  void for_each_curve(const State& s, const Use& use) const {
+    if (fibres.of_stretch.law != nullptr) use(fibres.of_stretch, s.stretch, false);
+    if (fibres.of_isochoric_stretch.law != nullptr)
+      use(fibres.of_isochoric_stretch, isochoric_stretch(s), true);
+  }
+
+  FibreSlopes slopes(const State& s) const {
+    FibreSlopes d;
+    d.ground = ground.slopes(s.ground);
+    if (s.ground.share == 0) return d;
+    const Lanes share = s.ground.share * s.density;
+    for_each_curve(s, [&](const FibreCurve& curve, Lanes stretch, bool is_isochoric) {
+      const Lanes tension = share * evaluate(curve.tension, fibres, curve, stretch);
+      const Lanes stiffness = share * evaluate(curve.stiffness, fibres, curve, stretch);
+      add_stretch(s, stretch, tension, stiffness, is_isochoric, d);
+    });
+    if constexpr (kShear) add_shear(s, d);
+    return d;
+  }
+
+  /// Of a term W(q) with q = √I4, or q = J^(−1/3) √I4.
+  static void add_stretch(const State& s, Lanes q, Lanes tension, Lanes stiffness,
+                          bool is_isochoric, FibreSlopes& d) {
+    const Lanes by_4 = 0.5 * q / s.I4;
+    d.I4 += tension * by_4;
+    d.I4_I4 += (stiffness * by_4 - 0.5 * tension / s.I4) * by_4;
+    if (!is_isochoric) return;
+    const Lanes inverse_J = 1 / s.ground.i.J, by_J = (-1.0 / 3) * q * inverse_J;
+    d.ground.J += tension * by_J;
+    d.I4_J += ((-1.0 / 3) * tension * inverse_J + stiffness * by_J) * by_4;
+    d.ground.J_J += ((-4.0 / 3) * tension * inverse_J + stiffness * by_J) * by_J;
+  }
+
+  /// y = (I1 I4 − I5)/(2 J √I4)
+  static Lanes cosh_B2(const State& s) {
+    return (s.ground.i.I1 * s.I4 - s.I5) * (0.5 / (s.ground.i.J * s.stretch));
+  }
+
+  /// Of G1 (I5/I4² − 1) + G2 acosh²(y).
+  void add_shear(const State& s, FibreSlopes& d) const {
+    const double G1 = s.ground.share * fibres.shear_along,
+                 G2 = s.ground.share * fibres.shear_across;
+    const Lanes inverse_I4 = 1 / s.I4, inverse_J = 1 / s.ground.i.J;
+    const Lanes along = G1 * inverse_I4 * inverse_I4;
+    d.I4 -= 2 * along * s.I5 * inverse_I4;
+    d.I5 += along;
+    d.I4_I4 += 6 * along * s.I5 * inverse_I4 * inverse_I4;
+    d.I4_I5 -= 2 * along * inverse_I4;
+
+    const Lanes scale = 0.5 * inverse_J / s.stretch, y = cosh_B2(s);
+    const Lanes y_1 = s.I4 * scale, y_4 = s.ground.i.I1 * scale - 0.5 * y * inverse_I4,
+                y_5 = -scale, y_J = -y * inverse_J;
+    const ValueSlopeCurvature B2_squared = squared_acosh(y);
+    const Lanes slope = G2 * B2_squared.slope, curvature = G2 * B2_squared.curvature;
+    d.ground.I1 += slope * y_1;
+    d.I4 += slope * y_4;
+    d.I5 += slope * y_5;
+    d.ground.J += slope * y_J;
+    const Lanes by_J = curvature * y_J - slope * inverse_J;
+    d.ground.I1_I1 += curvature * y_1 * y_1;
+    d.I1_I4 += 0.5 * slope * scale + curvature * y_1 * y_4;
+    d.I1_I5 += curvature * y_1 * y_5;
+    d.ground.I1_J += by_J * y_1;
+    d.I4_I4 += slope * (0.75 * y * inverse_I4 - s.ground.i.I1 * scale) * inverse_I4 +
+               curvature * y_4 * y_4;
+    d.I4_I5 += 0.5 * slope * scale * inverse_I4 + curvature * y_4 * y_5;
+    d.I4_J += by_J * y_4;
+    d.I5_I5 += curvature * y_5 * y_5;
+    d.I5_J += by_J * y_5;
+    d.ground.J_J += (curvature * y_J - 2 * slope * inverse_J) * y_J;
+  }
+
+  /// ∂I5/∂F
+  static Matrix fifth_invariant_gradient(const State& s) {
+    return outer(s.b, all(2) * s.w) + outer(s.ground.F * s.w, all(2) * s.a);
+  }
+};
+
+}  // namespace
+}  // namespace articular::fem::ARTICULAR_INSTRUCTION_SET
