@@ -29,9 +29,10 @@ struct Compartment {
   // rises to the eminence.
   double half_width, half_depth, sagittal_curvature, eminence_radius;
   double tibial_thickness;
-  // Meniscus: half axes of the outer rim, angle from its middle to the horns, width in front, in
-  // the middle and behind, height of the rim.
-  double rim_width, rim_depth, horn_angle;
+  // Meniscus: half axes of the outer rim, angle from its middle to the ends of the horns, angles in
+  // front and behind from which on they go straight towards their roots; width in front, in the
+  // middle and behind, height of the rim.
+  double rim_width, rim_depth, horn_angle, straight_front, straight_back;
   double front_width, middle_width, back_width, rim_height;
 };
 

@@ -21,9 +21,19 @@ constexpr double kEdgeHeight = 0.75, kEdgeRound = 0.3, kEdgeRelief = 0.25;
 constexpr double kRimRound = 1, kRimBend = 0.6, kRimLift = 0.2, kBendWay = 2.5;
 constexpr double kRimBlend = 0.6;  // width over which the upper face gets level
 
-/// Ray from a compartment's middle to the outer rim. psi: 0 at the middle of the rim, < 0 in front.
-Eigen::Vector2d rim_ray(const Compartment& c, double psi) {
-  return {c.side * c.rim_width * std::cos(psi), c.rim_depth * std::sin(psi)};
+/// From above.
+struct RimPlace {
+  Eigen::Vector2d point, inward;  // on the outer rim; across it, of length 1
+};
+
+/// An ellipse, and straight on from it along the horns. psi: 0 at the middle of the rim, < 0 in
+/// front.
+RimPlace rim_place(const Compartment& c, double psi) {
+  const double bent = std::clamp(psi, -c.straight_front, c.straight_back);
+  const Eigen::Vector2d middle(c.side * kCompartmentX, 0);
+  const Eigen::Vector2d ray(c.side * c.rim_width * std::cos(bent), c.rim_depth * std::sin(bent));
+  const Eigen::Vector2d along(-c.side * c.rim_width * std::sin(bent), c.rim_depth * std::cos(bent));
+  return {middle + ray + (psi - bent) * along, -ray.normalized()};
 }
 
 /// From 0 to 1, level at both ends; t in [0, 1].
@@ -54,7 +64,7 @@ class MeniscusSection {
  public:
   /// @param size  of the elements along the surfaces
   MeniscusSection(const Compartment& c, double size, double psi)
-      : c_(c), ray_(rim_ray(c, psi)), horn_(horn_share(c, psi)) {
+      : c_(c), rim_(rim_place(c, psi)), horn_(horn_share(c, psi)) {
     // A chord of length l of a circle of radius R leaves it by l²/8R; of a square's diagonal h²/4R.
     const double plateau_radius = std::min(1 / std::abs(c.sagittal_curvature), c.eminence_radius);
     const auto chord = [&](double radius) { return kClearance + size * size / (4 * radius); };
@@ -79,10 +89,7 @@ class MeniscusSection {
 
  private:
   /// From above. @param along  from the inner edge outwards
-  Eigen::Vector2d plan(double along) const {
-    const Eigen::Vector2d middle(c_.side * kCompartmentX, 0);
-    return middle + ray_ * (1 - (width_ - along) / ray_.norm());
-  }
+  Eigen::Vector2d plan(double along) const { return rim_.point + (width_ - along) * rim_.inward; }
   double along_plateau(const Eigen::Vector2d& p) const {
     return plateau_height(c_, p.x(), p.y()) + lower_;
   }
@@ -101,7 +108,7 @@ class MeniscusSection {
   }
 
   const Compartment& c_;
-  Eigen::Vector2d ray_;
+  RimPlace rim_;
   double horn_;
   double upper_ = 0, lower_ = 0;   // clearance of both faces
   double width_ = 0, narrow_ = 1;  // roundings of a narrow section are smaller by this factor
@@ -130,8 +137,9 @@ FibreDirections rim_fibres(const Mesh& mesh, const CellGrid& grid) {
 Mesh meniscus(const Compartment& c, const KneeResolution& resolution) {
   check_resolution(resolution);
   const double h = resolution.size_mm;
-  constexpr double kLength = 75;  // along its middle, about
-  const CellGrid grid{even_cells(kLength, h, 8), even_cells(c.middle_width, h, 4),
+  constexpr double kLength = 75;   // along its middle, about
+  constexpr int kLeastCells = 22;  // with fewer, tetrahedra at the inner edge of a bend are flat
+  const CellGrid grid{even_cells(kLength, h, kLeastCells), even_cells(c.middle_width, h, 4),
                       resolution.layers};
   Mesh mesh = grid.fill([&](double u, double v, double w) -> Vec3 {
     return MeniscusSection(c, h, u * c.horn_angle).place(v, w);
