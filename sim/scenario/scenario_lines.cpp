@@ -94,9 +94,10 @@ void read_dynamics(const TableReader& table, Muscle& muscle) {
   table.read("max_velocity", muscle.max_velocity);
   table.read("force_length", muscle.force_length);
   if (!muscle.force_length)
-    table.refuse({"passive_fraction", "max_velocity", "optimal_length", "max_length_ratio",
-                  "tendon_ratio", "force_length_curve"},
-                 "with force_length = false the force depends on activation alone");
+    table.refuse(
+        {"passive_fraction", "max_velocity", "optimal_length", "max_length_ratio", "tendon_ratio"},
+        "with force_length = false the force depends on activation alone");
+  // Not refused: one override switches off what the curve says.
   table.read("force_length_curve", muscle.force_length_curve);
   table.read("activation_time", muscle.activation_time);
   table.read("deactivation_time", muscle.deactivation_time);

@@ -475,11 +475,6 @@ INSTANTIATE_TEST_SUITE_P(
                 muscle("force_length = false\n@max_velocity = \"10 1/s\"\n"),
                 "muscle `temporalis`: `max_velocity` does not belong here: with force_length = "
                 "false the force depends on activation alone"},
-        Mistake{
-            "CurveWithoutForceLength",
-            muscle("force_length = false\n@force_length_curve = \"parabola\"\n"),
-            "muscle `temporalis`: `force_length_curve` does not belong here: with force_length = "
-            "false the force depends on activation alone"},
         Mistake{"ToeOfALinearLigament", ligament("stiffness = \"1 N/m\"\n@toe_strain = 0.03\n"),
                 "ligament `capsule`: `toe_strain` does not belong here: a ligament with "
                 "`stiffness` is linear; "
