@@ -383,8 +383,9 @@ class Builder {
     line.muscle = static_cast<int>(model_.muscles.size());
     MuscleModel m{muscle, muscle.optimal_length.value_or(line.start_length),
                   static_cast<int>(model_.lines.size())};
-    const double rest =
-        active_force_length(line.start_length, m.optimal_length, muscle.tendon_ratio).value;
+    const double rest = active_force_length(muscle.force_length_curve, line.start_length,
+                                            m.optimal_length, muscle.tendon_ratio)
+                            .value;
     if (muscle.force_length && rest < kLeastForceAtRest)
       model_.warnings.push_back(
           prefix(muscle.where) +

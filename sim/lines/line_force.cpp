@@ -18,7 +18,7 @@ void muscle_tension(const MuscleModel& muscle, double activation, LineState& s) 
     s.tension = s.active = a * m.max_force;
     return;
   }
-  const ValueSlope fl = active_force_length(s.length, l0, m.tendon_ratio);
+  const ValueSlope fl = active_force_length(m.force_length_curve, s.length, l0, m.tendon_ratio);
   const ValueSlope fv = force_velocity(s.rate / speed);
   const ValueSlope fp = passive_force_length(s.length, l0, m.max_length_ratio);
   const double passive = m.max_force * m.passive_fraction;

@@ -4,14 +4,29 @@
 #include <cmath>
 #include <numbers>
 
-namespace articular::sim {
+#include "fem/material/muscle_fibre.hpp"
 
-ValueSlope active_force_length(double length, double optimal_length, double tendon_ratio) {
-  const double fibre = optimal_length * (1 - tendon_ratio);
-  const double n = (length - tendon_ratio * optimal_length) / fibre;
+namespace articular::sim {
+namespace {
+
+ValueSlope cosine(double n) {
   if (n <= 0.5 || n >= 1.5) return {};
   const double angle = 2 * std::numbers::pi * n;
-  return {0.5 * (1 + std::cos(angle)), -std::numbers::pi * std::sin(angle) / fibre};
+  return {0.5 * (1 + std::cos(angle)), -std::numbers::pi * std::sin(angle)};
+}
+
+ValueSlope parabola(double n) {
+  return {fem::MuscleFibre::active(n), fem::MuscleFibre::active_slope(n)};
+}
+
+}  // namespace
+
+ValueSlope active_force_length(Muscle::ForceLengthCurve curve, double length, double optimal_length,
+                               double tendon_ratio) {
+  const double fibre = optimal_length * (1 - tendon_ratio);
+  const double n = (length - tendon_ratio * optimal_length) / fibre;
+  const ValueSlope by_n = curve == Muscle::ForceLengthCurve::Cosine ? cosine(n) : parabola(n);
+  return {by_n.value, by_n.slope / fibre};
 }
 
 ValueSlope passive_force_length(double length, double optimal_length, double max_ratio) {

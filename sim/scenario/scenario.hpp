@@ -221,6 +221,7 @@ struct Anchor {
 };
 
 struct Muscle {
+  enum class ForceLengthCurve { Cosine, Parabola };  // see sim/lines/muscle_law.hpp
   std::string name;
   std::string tissue;             // whose fibres it activates; empty: a line, for which the rest is
   std::vector<Anchor> path;       // from origin to insertion, via points between; at least 2
@@ -229,10 +230,11 @@ struct Muscle {
   std::optional<double> optimal_length;  // [m]; default: length of the path at the start
   double max_length_ratio =
       1.3;  // length at which the passive force reaches its maximum / optimal length
-  double tendon_ratio = 0;           // tendon length / optimal length (Peck)
-  double passive_fraction = 0.015;   // passive force at maximal length / max_force
-  double max_velocity = 10;          // [optimal lengths of the fibres, without tendon / s]
-  bool force_length = true;          // false: activation times max_force, at any length and speed
+  double tendon_ratio = 0;          // tendon length / optimal length (Peck)
+  double passive_fraction = 0.015;  // passive force at maximal length / max_force
+  double max_velocity = 10;         // [optimal lengths of the fibres, without tendon / s]
+  bool force_length = true;         // false: activation times max_force, at any length and speed
+  ForceLengthCurve force_length_curve = ForceLengthCurve::Cosine;
   double activation_time = 0.015;    // [s]
   double deactivation_time = 0.050;  // [s]
   Curve excitation;                  // 0..1; empty = 0

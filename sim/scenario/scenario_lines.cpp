@@ -59,26 +59,33 @@ void append(const std::vector<Key>& keys, KeyTable& table) {
 }
 
 std::vector<Key> dynamics_keys() {
-  return {{"passive_fraction",
-           {form::Number{kNotNegative}},
-           standard(0.015),
-           "greatest passive force per `max_force`"},
-          {"max_velocity",
-           {form::Quantity{kRate, kPositive}},
-           standard("10 1/s"),
-           "largest speed of shortening, in optimal lengths of the fibres per second"},
-          {"force_length",
-           {form::Boolean{}},
-           standard(true),
-           "`false`: force is activation times `max_force`"},
-          {"activation_time",
-           {form::Quantity{kTime, kPositive}},
-           standard("15 ms"),
-           "time constant of activation"},
-          {"deactivation_time",
-           {form::Quantity{kTime, kPositive}},
-           standard("50 ms"),
-           "time constant of its decay"}};
+  return {
+      {"passive_fraction",
+       {form::Number{kNotNegative}},
+       standard(0.015),
+       "greatest passive force per `max_force`"},
+      {"max_velocity",
+       {form::Quantity{kRate, kPositive}},
+       standard("10 1/s"),
+       "largest speed of shortening, in optimal lengths of the fibres per second"},
+      {"force_length",
+       {form::Boolean{}},
+       standard(true),
+       "`false`: force is activation times `max_force`"},
+      {"force_length_curve",
+       {form::Choice{{{"cosine", Muscle::ForceLengthCurve::Cosine},
+                      {"parabola", Muscle::ForceLengthCurve::Parabola}}}},
+       standard("cosine"),
+       "active force over the length of the fibres: none beyond 0.5 and 1.5, or 0.4 and 1.6, of "
+       "their optimum"},
+      {"activation_time",
+       {form::Quantity{kTime, kPositive}},
+       standard("15 ms"),
+       "time constant of activation"},
+      {"deactivation_time",
+       {form::Quantity{kTime, kPositive}},
+       standard("50 ms"),
+       "time constant of its decay"}};
 }
 
 /// The parameters that a muscle and a table of muscles share.
@@ -90,6 +97,8 @@ void read_dynamics(const TableReader& table, Muscle& muscle) {
     table.refuse(
         {"passive_fraction", "max_velocity", "optimal_length", "max_length_ratio", "tendon_ratio"},
         "with force_length = false the force depends on activation alone");
+  // Not refused: one override switches off what the curve says.
+  table.read("force_length_curve", muscle.force_length_curve);
   table.read("activation_time", muscle.activation_time);
   table.read("deactivation_time", muscle.deactivation_time);
 }
@@ -108,7 +117,7 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
   table.exactly_one({"path", "tissue"});
   if (const Node* tissue = table.find("tissue")) {
     table.refuse({"wrap", "max_force", "optimal_length", "max_length_ratio", "tendon_ratio",
-                  "passive_fraction", "max_velocity", "force_length"},
+                  "passive_fraction", "max_velocity", "force_length", "force_length_curve"},
                  "the muscle is made of a tissue's fibres, whose material says how they pull");
     const Body& body = read_body_reference(*tissue, context);
     if (!body.material || !body.material->fibres)

@@ -68,4 +68,16 @@ TEST(JawUnloading, AMolarIsBittenOnHarderThanIncisorsByTheirLevers) {
   EXPECT_GT(molars.last("joint_right.force.z [N]"), molars.last("joint_left.force.z [N]"));
 }
 
+// A bar that is held keeps the jaw where a free opening brings it, by a force fore or aft. One that
+// gives way takes none, and the closers draw the condyles back into their fossae.
+TEST(JawUnloading, OnABarThatGivesWayTheJawBitesStraightUpAndItsCondylesGoBack) {
+  const ScenarioResults held = bite("0.2 s"),
+                        giving = bite("0.2 s", {"choice.bar=incisors, gives way"});
+  EXPECT_EQ(giving.summary().at("outcome"), "finished");
+  EXPECT_GT(giving.last("bite.force.z [N]"), 50);
+  EXPECT_LT(std::abs(giving.last("bite.force.y [N]")), 1);
+  const std::string condyle = "condyle_left.position.y [mm]";
+  EXPECT_GT(giving.last(condyle), held.last(condyle) + 3);
+}
+
 }  // namespace articular::unloading_test

@@ -40,19 +40,33 @@ LineState muscle_at(const Model& model, double stretch, double rate) {
 
 TEST(LineState, AMusclesTensionIsItsActiveAndItsPassiveForce) {
   const Simulation run(mass_on_muscle());
+  const auto curve = Muscle::ForceLengthCurve::Cosine;
   for (const double stretch : {-0.01, 0.0, 0.005, 0.02, 0.05})
     for (const double rate : {-0.2, 0.0, 0.1}) {
       const LineState state = muscle_at(run.model, stretch, rate);
       const double length = kLength + stretch;
       EXPECT_NEAR(state.length, length, 1e-15);
       EXPECT_NEAR(state.rate, rate, 1e-15);
-      const double active = kActivation * kForce * active_force_length(length, kLength, 0.2).value *
+      const double active = kActivation * kForce *
+                            active_force_length(curve, length, kLength, 0.2).value *
                             force_velocity(rate / (6 * 0.8 * kLength)).value;
       const double passive = 0.05 * kForce * passive_force_length(length, kLength, 1.4).value;
       EXPECT_NEAR(state.active, active, 1e-12 * kForce);
       EXPECT_NEAR(state.tension, active + passive, 1e-12 * kForce);
       EXPECT_NEAR(state.tension_per_activation * kActivation, active, 1e-12 * kForce);
     }
+}
+
+// At 1.3 lengths of a fibre the curves are far apart: ½(1 + cos 2.6π) and 1 − 4·0.3².
+TEST(LineState, AMusclePullsByTheCurveThatItWasGiven) {
+  for (const auto& [curve, factor] : {std::pair{Muscle::ForceLengthCurve::Cosine, 0.345492},
+                                      std::pair{Muscle::ForceLengthCurve::Parabola, 0.64}}) {
+    Scenario scenario = mass_on_muscle();
+    scenario.muscles[0].force_length_curve = curve;
+    const Simulation run(scenario);
+    const LineState state = muscle_at(run.model, 0.3 * 0.8 * kLength, 0);
+    EXPECT_NEAR(state.active, kActivation * kForce * factor, 1e-6 * kForce);
+  }
 }
 
 TEST(LineState, AMusclesStiffnessAndViscosityAreDerivativesOfItsTension) {

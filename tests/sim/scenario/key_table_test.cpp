@@ -94,6 +94,7 @@ tendon_ratio = 0.2
 passive_fraction = 0.02
 max_velocity = "5 1/s"
 force_length = true
+force_length_curve = "parabola"
 activation_time = "10 ms"
 deactivation_time = "40 ms"
 excitation = { time = ["0 s", "1 s"], value = [0, 1] }
@@ -110,6 +111,7 @@ bodies = { hyoid = "skull" }
 passive_fraction = 0.02
 max_velocity = "5 1/s"
 force_length = true
+force_length_curve = "parabola"
 activation_time = "10 ms"
 deactivation_time = "40 ms"
 optimal_length = { m1 = "8 mm" }
@@ -611,6 +613,7 @@ bodies = ["bone", "muscle"]
   EXPECT_EQ(scenario.muscles[0].passive_fraction, muscle.passive_fraction);
   EXPECT_EQ(scenario.muscles[0].max_velocity, muscle.max_velocity);
   EXPECT_EQ(scenario.muscles[0].force_length, muscle.force_length);
+  EXPECT_EQ(scenario.muscles[0].force_length_curve, muscle.force_length_curve);
   EXPECT_EQ(scenario.muscles[0].activation_time, muscle.activation_time);
   EXPECT_EQ(scenario.muscles[0].deactivation_time, muscle.deactivation_time);
   EXPECT_EQ(scenario.ligaments[0].toe_strain, Ligament().toe_strain);
