@@ -13,6 +13,10 @@ namespace {
 constexpr double kClearance = 0.02;  // beside what chords of elements need
 /// Horns leave the condyle and the plateau, between which nothing may squeeze them.
 constexpr double kHornRelief = 1, kHornRise = 0.3;
+/// Over kEndWay towards the end of a horn both faces bend to its middle, by this part of what is
+/// higher than the inner edge. Else the root, which pulls the end down, presses an edge into the
+/// plateau.
+constexpr double kEndWay = 7, kEndThinning = 0.5;
 
 /// The inner edge: its height, how far its middle stands out, how far each face has left its
 /// cartilage there. The outer rim: how far its middle stands out, by how much the upper and the
@@ -24,6 +28,7 @@ constexpr double kRimBlend = 0.6;  // width over which the upper face gets level
 /// From above.
 struct RimPlace {
   Eigen::Vector2d point, inward;  // on the outer rim; across it, of length 1
+  double to_end;                  // along a straight horn
 };
 
 /// An ellipse, and straight on from it along the horns. psi: 0 at the middle of the rim, < 0 in
@@ -33,7 +38,8 @@ RimPlace rim_place(const Compartment& c, double psi) {
   const Eigen::Vector2d middle(c.side * kCompartmentX, 0);
   const Eigen::Vector2d ray(c.side * c.rim_width * std::cos(bent), c.rim_depth * std::sin(bent));
   const Eigen::Vector2d along(-c.side * c.rim_width * std::sin(bent), c.rim_depth * std::cos(bent));
-  return {middle + ray + (psi - bent) * along, -ray.normalized()};
+  return {middle + ray + (psi - bent) * along, -ray.normalized(),
+          (c.horn_angle - std::abs(psi)) * along.norm()};
 }
 
 /// From 0 to 1, level at both ends; t in [0, 1].
@@ -64,7 +70,10 @@ class MeniscusSection {
  public:
   /// @param size  of the elements along the surfaces
   MeniscusSection(const Compartment& c, double size, double psi)
-      : c_(c), rim_(rim_place(c, psi)), horn_(horn_share(c, psi)) {
+      : c_(c),
+        rim_(rim_place(c, psi)),
+        horn_(horn_share(c, psi)),
+        end_(fade(rim_.to_end, kEndWay)) {
     // A chord of length l of a circle of radius R leaves it by l²/8R; of a square's diagonal h²/4R.
     const double plateau_radius = std::min(1 / std::abs(c.sagittal_curvature), c.eminence_radius);
     const auto chord = [&](double radius) { return kClearance + size * size / (4 * radius); };
@@ -84,7 +93,9 @@ class MeniscusSection {
     const double t = (v + 1) / 2, along = width_ * t * (1 - kGrading + kGrading * t);
     const double round = kEdgeRound * (1 - t) * (1 - t) - kRimRound * t * t;
     const Eigen::Vector2d p = plan(along + narrow_ * round * (2 * w - 1) * (2 * w - 1));
-    return {p.x(), p.y(), (1 - w) * floor(p, along) + w * ceiling(p, along)};
+    const double bottom = floor(p, along), height = ceiling(p, along) - bottom;
+    const double thinner = kEndThinning * end_ * std::max(height - kEdgeHeight, 0.0);
+    return {p.x(), p.y(), bottom + thinner / 2 + w * (height - thinner)};
   }
 
  private:
@@ -109,7 +120,7 @@ class MeniscusSection {
 
   const Compartment& c_;
   RimPlace rim_;
-  double horn_;
+  double horn_, end_;
   double upper_ = 0, lower_ = 0;   // clearance of both faces
   double width_ = 0, narrow_ = 1;  // roundings of a narrow section are smaller by this factor
 };

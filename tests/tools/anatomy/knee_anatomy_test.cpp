@@ -299,6 +299,40 @@ TEST(KneeAnatomy, SectionsOfAMeniscusHaveNoSharpEdgeAndThePublishedSize) {
   }
 }
 
+// Roots pull the ends of horns down. Unless the lower face leaves the plateau before the end, the
+// last edge digs in as others do.
+TEST(KneeAnatomy, LowerFacesOfHornsRiseRoundlyToTheirEnds) {
+  for (const Compartment* c : kBoth) {
+    constexpr double kSize = 1;
+    const Mesh mesh = meniscus(*c, {kSize, 2});
+    const CellGrid grid{even_cells(75, kSize, 8), even_cells(c->middle_width, kSize, 4), 2};
+    const auto above_plateau = [&](int i, int j) {
+      const Vec3 p = mesh.X_mm.col(grid.node(i, j, 0));
+      return p.z() - plateau_height(*c, p.x(), p.y());
+    };
+    const auto along = [&](int i, int to, int j) {
+      return (mesh.X_mm.col(grid.node(i, j, 0)) - mesh.X_mm.col(grid.node(to, j, 0)))
+          .head<2>()
+          .norm();
+    };
+    for (const int end : {0, grid.nu}) {
+      const int inwards = end == 0 ? 1 : -1, middle = grid.nv / 2;
+      SCOPED_TRACE(name_of(*c) + (end == 0 ? " anterior" : " posterior"));
+      for (int j = middle; j <= grid.nv; ++j)
+        EXPECT_GT(above_plateau(end, j) - above_plateau(end + 5 * inwards, j), 0.5) << j;
+      double before = 0;  // no corner between elements is sharper than 165 degrees
+      for (int k = 5; k > 0; --k) {
+        const int i = end + k * inwards, next = i - inwards;
+        const double slope = std::atan((above_plateau(next, middle) - above_plateau(i, middle)) /
+                                       along(i, next, middle));
+        EXPECT_LT(slope - before, 15 * kDegree) << k;
+        before = slope;
+      }
+      EXPECT_GT(before, 10 * kDegree);  // at the end
+    }
+  }
+}
+
 TEST(KneeAnatomy, FibresOfAMeniscusRunAlongItsRim) {
   for (const Compartment* c : kBoth) {
     const Mesh& mesh = part(default_knee(), "meniscus", *c);
