@@ -6,4 +6,8 @@ namespace articular::fem {
 /// semidefinite (for solvers that need it far from equilibrium).
 enum class Tangent { Consistent, Projected };
 
+/// A tangent whose lowest eigenvalue lies above minus this part of its norm is positive
+/// semidefinite up to round-off: rigid rotations put zeros there.
+inline constexpr double kRoundOffOfProjection = 1e-13;  // [-]
+
 }  // namespace articular::fem

@@ -31,7 +31,6 @@ struct FibreCurve {
 
 /// What fibres add to the polynomial of a SplitBatchLaw.
 struct FibreBatchLaw {
-  bool exist = false;
   double activation = 0;                     // in [0, 1]
   double shear_along = 0, shear_across = 0;  // G1, G2 of fibre_shear.hpp [Pa]
   FibreCurve of_stretch = {}, of_isochoric_stretch = {};
@@ -40,12 +39,12 @@ struct FibreBatchLaw {
 /// A law that is split into distortion and dilatation (see split_material.hpp), as plain numbers,
 /// for the kernels of point_kernels.hpp.
 struct SplitBatchLaw {
-  enum class Distortion { Corotated, NeoHookean, CoupledNeoHookean, Polynomial };
+  enum class Distortion { Corotated, NeoHookean, CoupledNeoHookean, Polynomial, Fibred };
   enum class Theta { Volume, LogVolume };  // of Corotated: neither, but that of its rotation
   Distortion distortion;
   Theta theta = Theta::Volume;
   /// Corotated and both NeoHookean: μ, λ of the distortion. Polynomial: c10, c20, c01 of
-  /// c10 (Ī1 − 3) + c20 (Ī1 − 3)² + c01 (Ī2 − 3). [Pa]
+  /// c10 (Ī1 − 3) + c20 (Ī1 − 3)² + c01 (Ī2 − 3); Fibred: the same, with fibres. [Pa]
   double c[3];
   FibreBatchLaw fibres = {};
 };

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "fem/material/fibre_shear.hpp"
 #include "fem/material/muscle_fibre.hpp"
 
@@ -52,14 +50,13 @@ class BlemkerMuscle {
   }
 
   /// At a constant activation in [0, 1]; refers to this.
-  std::optional<SplitBatchLaw> fibred_batch_law(double activation) const {
-    return SplitBatchLaw{.distortion = SplitBatchLaw::Distortion::Polynomial,
-                         .c = {c10(activation), 0, 0},
-                         .fibres = {.exist = true,
-                                    .activation = activation,
-                                    .shear_along = c_.G1,
-                                    .shear_across = c_.G2,
-                                    .of_stretch = fibre_curve(fibre_)}};
+  SplitBatchLaw fibred_batch_law(double activation) const {
+    return {.distortion = SplitBatchLaw::Distortion::Fibred,
+            .c = {c10(activation), 0, 0},
+            .fibres = {.activation = activation,
+                       .shear_along = c_.G1,
+                       .shear_across = c_.G2,
+                       .of_stretch = fibre_curve(fibre_)}};
   }
 
  private:

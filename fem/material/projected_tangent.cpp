@@ -6,10 +6,7 @@
 namespace articular::fem {
 
 Mat9 projected(const Mat9& tangent) {
-  // One whose lowest eigenvalue lies above minus this part of its norm is positive semidefinite up
-  // to round-off: rigid rotations put zeros there.
-  constexpr double kRoundOff = 1e-13;  // [-]
-  const double round_off = kRoundOff * tangent.norm();
+  const double round_off = kRoundOffOfProjection * tangent.norm();
   const Eigen::LLT<Mat9> shifted(tangent + round_off * Mat9::Identity());
   if (shifted.info() == Eigen::Success) return tangent;
   const Eigen::SelfAdjointEigenSolver<Mat9> eigen(tangent);

@@ -48,8 +48,8 @@ class TransverselyIsotropic {
   std::optional<SplitBatchLaw> fibred_batch_law(double activation) const {
     if (prestretch_ != 1) return std::nullopt;
     SplitBatchLaw law = ground_.split_batch_law();
-    law.fibres = {
-        .exist = true, .activation = activation, .of_isochoric_stretch = fibre_curve(fibre_)};
+    law.distortion = SplitBatchLaw::Distortion::Fibred;
+    law.fibres = {.activation = activation, .of_isochoric_stretch = fibre_curve(fibre_)};
     if (active_.max_stress() > 0) law.fibres.of_stretch = fibre_curve(active_);
     return law;
   }

@@ -6,6 +6,7 @@
 #include "fem/material/any_material.hpp"
 #include "fem/material/point_law.hpp"
 #include "fem/material/projected_tangent.hpp"
+#include "fem/simd/stencil_kernels.hpp"
 
 namespace articular::fem {
 namespace {
@@ -61,7 +62,10 @@ void project(unsigned indefinite, int count, Eight* C) {
 }  // namespace
 
 BatchedLaw::BatchedLaw(InstructionSet set, const AnyMaterial& material, double activation)
-    : material_(material), activation_(activation), law_(split_batch_law(material, activation)) {
+    : set_(set),
+      material_(material),
+      activation_(activation),
+      law_(split_batch_law(material, activation)) {
   if (law_) kernels_ = &point_kernels(set, *law_);
 }
 
@@ -79,7 +83,7 @@ void BatchedLaw::for_each_point(const EightPoints& points, int count, const Fibr
 template <class Evaluate>
 void BatchedLaw::with_fibres(const EightPoints& points, const Fibres& fibres,
                              Evaluate evaluate) const {
-  if (!law_->fibres.exist) return evaluate(points);
+  if (law_->distortion != SplitBatchLaw::Distortion::Fibred) return evaluate(points);
   Eight direction[3];
   for (int lane = 0; lane < kBatchSize; ++lane) {
     const auto a0 = fibres.directions.col(fibres.column.lane[lane]);
@@ -123,25 +127,25 @@ void BatchedLaw::first_piola(const EightPoints& points, int count, const Fibres&
 void BatchedLaw::tangent(const EightPoints& points, int count, const Fibres& fibres,
                          Tangent tangent, Eight* C) const {
   const bool is_projected = tangent == Tangent::Projected;
+  if (law_ && is_projected && kernels_->projected_tangent != nullptr)
+    return kernels_->projected_tangent(*law_, points, C);
+  consistent_tangent(points, count, fibres, C);
+  if (is_projected) project(stencil_kernels(set_).indefinite(C), count, C);
+}
+
+void BatchedLaw::consistent_tangent(const EightPoints& points, int count, const Fibres& fibres,
+                                    Eight* C) const {
   if (law_) {
-    return with_fibres(points, fibres, [&](const EightPoints& all) {
-      if (is_projected && kernels_->projected_tangent != nullptr)
-        return kernels_->projected_tangent(*law_, all, C);
-      kernels_->tangent(*law_, all, C);
-      if (is_projected) project(kernels_->indefinite(C), count, C);
-    });
+    return with_fibres(points, fibres,
+                       [&](const EightPoints& all) { kernels_->tangent(*law_, all, C); });
   }
   for_each_point(points, count, fibres,
                  [&](const PointLaw& law, const Mat3& F, double pressure, int lane) {
-                   if (points.pressure == nullptr) {
-                     const Mat9 part = points.share * law.distortion_tangent(F, tangent);
-                     return store<81>(part, lane, C);
-                   }
-                   Mat9 sum = pressure * law.dilatation_hessian(F);
-                   if (points.share != 0) {
+                   Mat9 sum = Mat9::Zero();
+                   if (points.share != 0)
                      sum += points.share * law.distortion_tangent(F, Tangent::Consistent);
-                   }
-                   store<81>(is_projected ? projected(sum) : sum, lane, C);
+                   if (points.pressure != nullptr) sum += pressure * law.dilatation_hessian(F);
+                   store<81>(sum, lane, C);
                  });
 }
 

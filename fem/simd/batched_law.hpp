@@ -36,6 +36,10 @@ class BatchedLaw {
   template <class Evaluate>
   void with_fibres(const EightPoints& points, const Fibres& fibres, Evaluate evaluate) const;
 
+  void consistent_tangent(const EightPoints& points, int count, const Fibres& fibres,
+                          Eight* C) const;
+
+  InstructionSet set_;
   const AnyMaterial& material_;
   double activation_;
   std::optional<SplitBatchLaw> law_;

@@ -21,11 +21,9 @@ struct PointKernels {
   void (*first_piola)(const SplitBatchLaw&, const EightPoints&, Eight* P);     // 9 [Pa]
   /// ∂P/∂F: entry (m, n) of the symmetric 9x9 matrix in C[m + 9 n] [Pa].
   void (*tangent)(const SplitBatchLaw&, const EightPoints&, Eight* C);
-  /// The nearest positive semidefinite matrix to the sum of both parts; null for laws with fibres.
+  /// The nearest positive semidefinite matrix to the sum of both parts; null where a law has no
+  /// closed form of it.
   void (*projected_tangent)(const SplitBatchLaw&, const EightPoints&, Eight* C);
-  /// Whether C of point k is not positive semidefinite up to round-off, in bit k; also where it is
-  /// not a number.
-  unsigned (*indefinite)(const Eight* C);
 };
 
 /// @param set  one that the machine has

@@ -63,41 +63,11 @@ void tangent(const SplitBatchLaw& numbers, const EightPoints& points, Eight* C) 
   });
 }
 
-/// By LDLᵀ of C + ε |C| 1, as projected_tangent.cpp does it.
-unsigned indefinite(const Eight* C) {
-  unsigned result = 0;
-  for (int first = 0; first < kPoints; first += kWidth) {
-    const auto entry = [&](int m, int n) { return load(C[m + 9 * n].lane + first); };
-    Lanes squared_norm{};
-    for (int k = 0; k < 81; ++k) squared_norm += entry(k, 0) * entry(k, 0);
-    const Lanes shift = 1e-13 * sqrt(squared_norm);
-    Lanes L[9][9], d[9];
-    Mask fails{};
-    for (int j = 0; j < 9; ++j) {
-      Lanes scaled[9]{};  // d_k L_jk
-      d[j] = entry(j, j) + shift;
-      for (int k = 0; k < j; ++k) {
-        scaled[k] = d[k] * L[j][k];
-        d[j] -= scaled[k] * L[j][k];
-      }
-      fails |= ~(d[j] > 0);
-      const Lanes inverse = 1 / d[j];
-      for (int i = j + 1; i < 9; ++i) {
-        Lanes sum = entry(i, j);
-        for (int k = 0; k < j; ++k) sum -= scaled[k] * L[i][k];
-        L[i][j] = inverse * sum;
-      }
-    }
-    result |= bits(fails) << first;
-  }
-  return result;
-}
-
 /// Null where a law has no closed form of it.
 template <class Law>
 constexpr auto projected_tangent_of() {
-  if constexpr (requires(const Law& law, Tangent81& C) {
-                  law.projected_tangent(Law::at({}, {}, 0), C);
+  if constexpr (requires(const Law& law, const typename Law::State& state, Tangent81& C) {
+                  law.projected_tangent(state, C);
                 }) {
     return &tangent<Law, true>;
   } else {
@@ -107,7 +77,7 @@ constexpr auto projected_tangent_of() {
 
 template <class Law>
 constexpr PointKernels point_kernels_of{energy_density<Law>, first_piola<Law>, tangent<Law, false>,
-                                        projected_tangent_of<Law>(), indefinite};
+                                        projected_tangent_of<Law>()};
 
 template <class Energy>
 const PointKernels& kernels_with_theta(const SplitBatchLaw& law) {
@@ -133,11 +103,11 @@ const PointKernels& kernels_with_fibres(const SplitBatchLaw& law) {
 
 const PointKernels& point_kernels(const SplitBatchLaw& law) {
   using enum SplitBatchLaw::Distortion;
-  if (law.fibres.exist) return kernels_with_fibres(law);
   if (law.distortion == Corotated) return point_kernels_of<CorotatedPointLanes>;
   if (law.distortion == NeoHookean) return kernels_with_theta<NeoHookeanEnergy>(law);
   if (law.distortion == CoupledNeoHookean)
     return point_kernels_of<IsotropicLanes<CoupledNeoHookeanEnergy, LogVolumeTheta>>;
+  if (law.distortion == Fibred) return kernels_with_fibres(law);
   return law.c[2] == 0 ? kernels_with_theta<PolynomialEnergy<false>>(law)
                        : kernels_with_theta<PolynomialEnergy<true>>(law);
 }

@@ -5,7 +5,7 @@
 
 namespace articular::fem {
 
-/// Loops over the nodes of eight stencils that do not depend on the law. x, f: 3 a node. F, P and C
+/// Loops over eight stencils that do not depend on the law. x, f: 3 a node. F, P and C
 /// as in point_kernels.hpp. What is added is added in the order of the stencils.
 struct StencilKernels {
   /// F = Σ x_a ⊗ ∂N_a/∂X
@@ -20,6 +20,8 @@ struct StencilKernels {
   /// @param slot  of (a, c), 4 a + c
   void (*add_pressure_gradient)(const StencilBatch&, const Eight* P, const EightIndices* slot,
                                 double* G);
+  /// Bit k: C of point k is not positive semidefinite up to round-off, or not a number.
+  unsigned (*indefinite)(const Eight* C);
   void (*set_zero)(int num_pairs, const PairSums&);
   /// To both halves of a matrix K with 9 values a block. The first num_diagonal pairs are diagonal.
   void (*add_to_matrix)(const PairSums&, const PairSlots*, int num_diagonal, int num_pairs,

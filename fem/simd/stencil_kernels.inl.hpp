@@ -5,6 +5,7 @@
 
 #include <cstddef>
 
+#include "fem/base/tangent.hpp"
 #include "fem/simd/gather_lanes.inl.hpp"
 #include "fem/simd/pair_blocks.inl.hpp"
 #include "fem/simd/stencil_kernels.hpp"
@@ -104,9 +105,40 @@ void add_pressure_gradient(const StencilBatch& batch, const Eight* P_of, const E
   }
 }
 
+/// By LDLᵀ of C + ε |C| 1, as projected() has it by Cholesky.
+unsigned indefinite(const Eight* C) {
+  unsigned result = 0;
+  for (int first = 0; first < kBatchSize; first += kWidth) {
+    const auto entry = [&](int m, int n) { return load(C[m + 9 * n].lane + first); };
+    Lanes squared_norm{};
+    for (int k = 0; k < 81; ++k) squared_norm += entry(k, 0) * entry(k, 0);
+    const Lanes shift = kRoundOffOfProjection * sqrt(squared_norm);
+    Lanes L[9][9], d[9];
+    Mask fails{};
+    for (int j = 0; j < 9; ++j) {
+      Lanes scaled[9]{};  // d_k L_jk
+      d[j] = entry(j, j) + shift;
+      for (int k = 0; k < j; ++k) {
+        scaled[k] = d[k] * L[j][k];
+        d[j] -= scaled[k] * L[j][k];
+      }
+      fails |= ~(d[j] > 0);
+      const Lanes inverse = 1 / d[j];
+      for (int i = j + 1; i < 9; ++i) {
+        Lanes sum = entry(i, j);
+        for (int k = 0; k < j; ++k) sum -= scaled[k] * L[i][k];
+        L[i][j] = inverse * sum;
+      }
+    }
+    result |= bits(fails) << first;
+  }
+  return result;
+}
+
 }  // namespace
 
-const StencilKernels stencil_kernels{deformation_gradient,  add_force, add_stiffness,
-                                     add_pressure_gradient, set_zero,  add_to_matrix};
+const StencilKernels stencil_kernels{deformation_gradient,  add_force,  add_stiffness,
+                                     add_pressure_gradient, indefinite, set_zero,
+                                     add_to_matrix};
 
 }  // namespace articular::fem::ARTICULAR_INSTRUCTION_SET

@@ -23,6 +23,12 @@ run() {
   "$articular" run "scenarios/$scenario" --out "$out/$name" --overwrite "$@" > /dev/null
 }
 
+# error_bar RUN COLUMN FACTOR: that of a column at the end of a run with error bars, or nothing.
+error_bar() {
+  [ -f "$1/error_bars.csv" ] || return 0
+  awk -F, -v wanted="$2" -v factor="$3" '{ name = $1; sub(/ \[.*/, "", name) } name == wanted && $2 == "end" && $4 + 0 > 0 { printf " ± %.2g", factor * $4 }' "$1/error_bars.csv"
+}
+
 # verdict VALUE PUBLISHED SPREAD
 verdict() {
   awk -v x="$1" -v m="$2" -v s="$3" 'BEGIN {
