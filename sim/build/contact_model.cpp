@@ -43,6 +43,7 @@ struct Side {
   double layer = 0;       // compliance of the layer on it [m/Pa]
   double size = 0;        // mean height of the elements at the surface [m]
   double mean_face_area = 0;  // [m²]
+  bool is_fine = false;       // tissue whose surface can tell where within a face it is pressed
   double modulus = 0;         // of a punch, of tissue [Pa]
 };
 
@@ -57,6 +58,33 @@ constexpr double kMaxPenetration = 0.01;
 double mean_face_area(const Collider& collider) {
   return std::accumulate(collider.face_area.begin(), collider.face_area.end(), 0.0) /
          static_cast<double>(std::max<std::size_t>(1, collider.face_area.size()));
+}
+
+/// Whether most of a surface has them. Depths are averaged around nodes; where every node of a face
+/// is on a crease, as on a cube of one cell, a mean can't tell where within the face a load is
+/// carried. A block then stands as if its base ended a third of an element sooner, and tips.
+bool has_nodes_between_creases(const Collider& collider) {
+  std::vector<char> on_crease(collider.group_node.size(), 0);
+  const auto mark = [&](Eigen::Index face, int corner) {
+    on_crease[static_cast<std::size_t>(collider.groups(corner % 3, face))] = 1;
+  };
+  for (Eigen::Index f = 0; f < collider.groups.cols(); ++f)
+    for (int k = 0; k < 3; ++k)
+      if ((collider.rims[static_cast<std::size_t>(f)] >> k & 1U) != 0) {
+        mark(f, k + 1);
+        mark(f, k + 2);
+      }
+  double fine = 0, all = 0;  // [m²]
+  for (Eigen::Index f = 0; f < collider.groups.cols(); ++f) {
+    const auto groups = collider.groups.col(f);
+    const bool is_fine = std::any_of(groups.begin(), groups.end(), [&](int group) {
+      return on_crease[static_cast<std::size_t>(group)] == 0;
+    });
+    const double area = collider.face_area[static_cast<std::size_t>(f)];
+    all += area;
+    if (is_fine) fine += area;
+  }
+  return fine >= 0.5 * all;
 }
 
 Side side_of(const Model& model, const BodyModel& body) {
@@ -76,6 +104,7 @@ Side side_of(const Model& model, const BodyModel& body) {
   side.layer = body.collider->layer_compliance;
   side.size = body.collider->size;
   side.mean_face_area = mean_face_area(*body.collider);
+  side.is_fine = side.is_tissue && has_nodes_between_creases(*body.collider);
   return side;
 }
 
@@ -113,19 +142,21 @@ struct PairMaker {
     ContactModel contact;
     contact.a = a;
     contact.b = b;
+    contact.reversed = a != b && !is_nonmortar(A, B);
+    const Side& nonmortar = contact.reversed ? B : A;
     // In time two rigid bodies count depths point by point: there is no tissue whose facets
     // averages let give way, and where edges slip off each other stiff contact would make energy.
-    contact.averaged =
-        is_static || ((A.is_tissue || B.is_tissue) && response == Scenario::Response::Averaged);
+    const bool is_firm =
+        is_static || (nonmortar.is_tissue && response == Scenario::Response::Averaged);
+    contact.averaged = is_static || (is_firm && nonmortar.is_fine);
     contact.share = a == b ? 0.5 : 1;
-    contact.factor = contact.averaged ? factor_of_averages : factor_of_points;
+    contact.factor = is_firm ? factor_of_averages : factor_of_points;
     contact.soft_factor = kSoftFactor;
     contact.layers = A.layer + B.layer;
     contact.mean_stiffness = 1 / ((A.compliance + B.compliance) / contact.factor + contact.layers);
     contact.max_penetration = kMaxPenetration * std::min(A.size, B.size);
     // The depth of a layer is its own compression.
     contact.is_bounded = contact.layers == 0 && is_static;
-    contact.reversed = a != b && !is_nonmortar(A, B);
     contact.softening = contact.reversed ? B.softening : A.softening;
     contact.opposite = contact.reversed ? A.compliance : B.compliance;
     contact.law.friction = pair.friction;

@@ -112,13 +112,17 @@ void warn_of_small_strain_laws(const Model& model, const Configuration& now,
 
 /// How a contact's non-mortar side lies against the other body.
 struct Carrying {
-  Eigen::Index num_nodes = 0;  // that have a pressure
-  double deepest_point = 0;    // [m]
+  int num_nodes = 0;         // that have a pressure; point by point: not over a sliver alone
+  double deepest_point = 0;  // [m]
 };
 
-Carrying carrying(const ContactPairState& pair_state) {
+Carrying carrying(const Model& model, const ContactPairState& pair_state) {
+  const Eigen::VectorXd& around = sides_of(model, pair_state).triangles.group_area;
   Carrying result;
-  result.num_nodes = (pair_state.pressure.array() > 0).count();
+  for (const int group : pair_state.groups)
+    if (pair_state.pressure[group] > 0 &&
+        (pair_state.pair.averaged || pair_state.area[group] >= kLeastShare * around[group]))
+      ++result.num_nodes;
   for (const ContactPairState::Patch& entry : pair_state.patches())
     result.deepest_point = std::max(result.deepest_point, entry.patch.depth_max);
   return result;
@@ -139,7 +143,7 @@ void warn_of_unresolved_contacts(const Model& model, const Stepper& stepper,
                                  std::vector<std::string>& warnings) {
   std::size_t count = 0;
   for (const ContactPairState* const contact : stepper.now().contact.pair_states()) {
-    const Carrying found = carrying(*contact);
+    const Carrying found = carrying(model, *contact);
     if (!is_unresolved(model, *contact, found) || ++count > kMostNamed) continue;
     const ContactModel& pair = contact->pair;
     warnings.push_back(fmt::format(

@@ -32,6 +32,24 @@ double stiffness(double nu, bool is_static) {
 double column(double nu) { return constrained_modulus(kYoung, nu); }
 double punch(double nu) { return 2 * kYoung / (1 - nu * nu); }
 
+// Means need nodes between the creases of a surface. Without any, contact is as stiff all the same.
+TEST(ContactModel, TissueWithoutNodesBetweenItsCreasesTouchesPointByPoint) {
+  const auto contact = [](const Eigen::Vector3i& cells, bool is_static) {
+    Scenario s = contact_scene(1e-3);
+    if (is_static) s.analysis = Scenario::Analysis::Static;
+    s.contact_response = Scenario::Response::Averaged;
+    s.bodies = {box_body("block", Body::Kind::Tissue, Vec3::Constant(0.1), Vec3::Zero(), cells),
+                box_body("plate", Body::Kind::Fixed, {0.2, 0.2, 0.02}, {0, 0, 0.06}, {8, 8, 1})};
+    s.bodies[0].material = neo_hookean(kYoung, 0.3);
+    return build_model(s).contacts[0];
+  };
+  EXPECT_FALSE(contact({1, 1, 1}, false).averaged);
+  EXPECT_FALSE(contact({1, 1, 6}, false).averaged);
+  EXPECT_TRUE(contact({3, 3, 3}, false).averaged);
+  EXPECT_TRUE(contact({1, 1, 1}, true).averaged);  // statics has no other
+  EXPECT_EQ(contact({1, 1, 1}, false).factor, contact({3, 3, 3}, false).factor);
+}
+
 TEST(ContactModel, ThePunchModulusIsThatOfAHalfSpace) {
   for (const double nu : {0.0, 0.3, 0.49, 0.4999}) {
     const Model model = block_under_plate(nu, false);

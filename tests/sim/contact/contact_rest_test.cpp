@@ -136,4 +136,27 @@ TEST(ContactAtRest, RigidCubesOfOneCellStandOnEachOther) {
   EXPECT_NEAR(run.force_on(bone_of(run, "floor")).z(), -2 * weight, 1e-3 * weight);
 }
 
+// It stands while its middle is over what it stands on. A mean around its four lower corners would
+// let it tip as soon as a quarter of it stands out.
+TEST(ContactAtRest, ACubeOfOneCellTipsOverAnEdgeWhereItsMiddleIsBeyondIt) {
+  constexpr double kSide = 0.005;  // [m]
+  for (const double out : {0.4, 0.6}) {
+    Scenario s = contact_scene(1e-3);
+    s.bodies = {
+        box_body("table", Body::Kind::Fixed, {0.02, 0.02, 0.005}, {-0.01, 0, -0.0025}, {4, 4, 1}),
+        box_body("cube", Body::Kind::Tissue, Vec3::Constant(kSide),
+                 {(out - 0.5) * kSide, 0, 0.5 * kSide}, {1, 1, 1})};
+    s.bodies[1].material = neo_hookean(1e5, 0.3);
+    s.loads = {gravity({0, 0, -kGravity})};
+    Simulation run(s);
+    run.advance(0.1);
+    const double weight = 1000 * kSide * kSide * kSide * kGravity;
+    const double kinetic = kinetic_energy(run);
+    if (out < 0.5)
+      EXPECT_LT(kinetic, 1e-6 * weight * kSide);
+    else
+      EXPECT_GT(kinetic, 1e-2 * weight * kSide);
+  }
+}
+
 }  // namespace articular::sim::contact_rest_test
