@@ -172,6 +172,7 @@ SolverCounts Stepper::solver_counts() const {
 void Stepper::remember_start(const State& state) {
   lines_before_ = dynamics_->now().lines;
   forces_before_ = dynamics_->now().forces;
+  touched_before_ = dynamics_->now().contact.force_on_bodies();
   start_ = dynamics_->now().configuration;
   t_before_ = state.t;
   depths_before_ = dynamics_->now().contact.point_depths();
@@ -314,6 +315,14 @@ bool Stepper::try_load_step(State& state, double h) {
   return true;
 }
 
+/// Something touched the body when the step began, and nothing does at its end: the force went on
+/// over the depth of that contact, not over half of the way.
+bool Stepper::has_parted(int body) const {
+  const auto b = static_cast<std::size_t>(body);
+  const std::vector<double>& now = dynamics_->now().contact.force_on_bodies();
+  return b < touched_before_.size() && touched_before_[b] > 0 && now[b] == 0;
+}
+
 void Stepper::account(State& after) {
   const Configuration& now = dynamics_->now().configuration;
   EnergyLedger& ledger = after.energy;
@@ -356,20 +365,21 @@ void Stepper::account(State& after) {
   for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b) {
     const RigidBody& rigid = model_.rigid_bodies[b];
     if (!rigid.motion) continue;
+    const double before = has_parted(rigid.body) ? 0 : 0.5, then = 1 - before;
     if (rigid.unknown) {
       const Vec6 reaction = reaction_of(dynamics_->now(), static_cast<int>(b));
       ledger.motion_work -=
-          0.5 * (reactions_before_[b].dot(
-                     driven_way(rigid, t_before_, after.t, start_.poses[b].R, t_before_)) +
-                 reaction.dot(driven_way(rigid, t_before_, after.t, now.poses[b].R, after.t)));
+          before * reactions_before_[b].dot(
+                       driven_way(rigid, t_before_, after.t, start_.poses[b].R, t_before_)) +
+          then * reaction.dot(driven_way(rigid, t_before_, after.t, now.poses[b].R, after.t));
       continue;
     }
     const Eigen::AngleAxisd turn(now.poses[b].R * start_.poses[b].R.transpose());
-    const Eigen::VectorXd& f = dynamics_->now().forces;
-    const Vec3 force =
-        0.5 * (forces_before_.segment<3>(3 * rigid.block) + f.segment<3>(3 * rigid.block));
-    const Vec3 moment =
-        0.5 * (forces_before_.segment<3>(3 * rigid.block + 3) + f.segment<3>(3 * rigid.block + 3));
+    const auto mean = [&](int block) -> Vec3 {
+      return before * forces_before_.segment<3>(3 * block) +
+             then * dynamics_->now().forces.segment<3>(3 * block);
+    };
+    const Vec3 force = mean(rigid.block), moment = mean(rigid.block + 1);
     ledger.motion_work -=
         force.dot(now.poses[b].p - start_.poses[b].p) + moment.dot(turn.angle() * turn.axis());
     if (drives_tissue(model_, rigid))

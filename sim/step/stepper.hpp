@@ -101,6 +101,7 @@ class Stepper {
   bool try_time_step(State& state, double h);
   bool try_load_step(State& state, double h);
   SolverCounts solver_counts() const;
+  bool has_parted(int body) const;
   void account(State& after);
   double work_on_supports(double t) const;
   void stop_where_energy_is_made(const State& state) const;
@@ -135,7 +136,8 @@ class Stepper {
   std::vector<Vec6> reactions_before_;       // of held rigid bodies that are driven, by rigid body
   std::vector<Vec3> support_forces_before_;  // without inertia, by support
   Eigen::VectorXd forces_before_;
-  ContactDepths depths_before_;  // of any point
+  std::vector<double> touched_before_;  // force on bodies [N]
+  ContactDepths depths_before_;         // of any point
   double t_before_ = 0;
   double damping_before_ = 0;                // [W]
   double contact_power_before_ = 0;          // [W]

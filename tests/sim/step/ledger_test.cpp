@@ -300,4 +300,23 @@ TEST(Ledger, WhatDampersInContactTakeIsTheIntegralOfTheirPower) {
   EXPECT_NEAR(run.state.energy.contact_loss, expected, 2e-3 * expected);
 }
 
+// On the way that it goes on alone nothing presses on it. What contact stores is all that may be
+// missed: a trapezoid of the whole step is off by seven times that.
+TEST(Ledger, ADriveThatPartsFromWhatItPressesDoesNoMoreWork) {
+  const double way = 1e-5, time = 0.01, area = 4 * kSide * kSide;
+  Scenario s = driven_box(1e-3, Vec3::Zero());
+  Motion& motion = std::get<MotionLoad>(s.loads.back()).motion;
+  motion.time = {0, time, time + 1e-3};
+  motion.translation = {Vec3::Zero(), {0, 0, -way}, {0, 0, 20 * way}};
+  motion.rotation = {};
+  motion.interpolation = Motion::Interpolation::Linear;
+  Simulation run(s, contact_stiffness_of(kStiffness));
+  const auto stored = [&](double depth) { return 0.5 * kStiffness * depth * depth * area; };
+  run.advance(time);
+  const double pressed = stored(kDepth + way) - stored(kDepth);
+  EXPECT_NEAR(run.state.energy.motion_work, pressed, 1e-6 * pressed);
+  run.advance(2e-3);
+  EXPECT_NEAR(run.state.energy.motion_work, pressed, stored(kDepth + way));
+}
+
 }  // namespace articular::sim::ledger_test
