@@ -381,9 +381,10 @@ class Builder {
   void make_line_muscle(const Muscle& muscle) {
     Line line = make_line(muscle.name, muscle.path, muscle.wrap, muscle.where);
     line.muscle = static_cast<int>(model_.muscles.size());
-    MuscleModel m{muscle, muscle.optimal_length.value_or(line.start_length),
+    const double start_length = line.start_length + length_beyond(muscle, 0);
+    MuscleModel m{muscle, muscle.optimal_length.value_or(start_length),
                   static_cast<int>(model_.lines.size())};
-    const double rest = active_force_length(muscle.force_length_curve, line.start_length,
+    const double rest = active_force_length(muscle.force_length_curve, start_length,
                                             m.optimal_length, muscle.tendon_ratio)
                             .value;
     if (muscle.force_length && rest < kLeastForceAtRest)
@@ -391,7 +392,7 @@ class Builder {
           prefix(muscle.where) +
           fmt::format("muscle `{}` can give only {:.1f} % of its active force at rest (length "
                       "{:.1f} mm, optimal {:.1f} mm); does the table belong to this geometry?",
-                      muscle.name, 100 * rest, 1e3 * line.start_length, 1e3 * m.optimal_length));
+                      muscle.name, 100 * rest, 1e3 * start_length, 1e3 * m.optimal_length));
     model_.muscles.push_back(std::move(m));
     model_.lines.push_back(std::move(line));
   }

@@ -40,7 +40,7 @@ void refuse_far(const Anchor& anchor, const std::string& body, double distance, 
 /// Moves with the body wherever it lies.
 WeightedPoint point_of_rigid_body(const Anchor& anchor, const BodyModel& body,
                                   const RigidBody& rigid) {
-  if (body.triangles.cols() > 0 && body.X.cols() > 0) {
+  if (!anchor.beyond_mesh && body.triangles.cols() > 0 && body.X.cols() > 0) {
     const Vec3 x = anchor.point - rigid.rest.p;
     const double size = (body.X.rowwise().maxCoeff() - body.X.rowwise().minCoeff()).norm();
     const double to_node = std::sqrt((body.X.colwise() - x).colwise().squaredNorm().minCoeff());

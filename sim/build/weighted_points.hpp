@@ -19,7 +19,7 @@ std::vector<char> surface_nodes(const Tissue& tissue, const collision::Surface& 
 /// @param surfaces  one a tissue
 /// @param warnings  get one where a radius holds fewer than two nodes
 /// @throws InputError farther than an element from tissue, or a tenth of its size from a rigid
-///         body
+///         body, unless that goes on beyond its mesh
 WeightedPoint anchored_point(const Anchor& anchor, int body, const Model& model,
                              const std::vector<collision::Surface>& surfaces,
                              std::vector<std::string>& warnings);

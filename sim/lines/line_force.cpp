@@ -4,11 +4,14 @@
 
 #include "sim/lines/ligament_law.hpp"
 #include "sim/lines/muscle_law.hpp"
+#include "sim/scenario/curve.hpp"
 
 namespace articular::sim {
 namespace {
 
-void muscle_tension(const MuscleModel& muscle, double activation, LineState& s) {
+/// @param beyond_rate  of LineState::beyond [m/s]
+void muscle_tension(const MuscleModel& muscle, double activation, double beyond_rate,
+                    LineState& s) {
   const Muscle& m = muscle.given;
   // The tendon does not stretch: fibres take up the whole rate.
   const double l0 = muscle.optimal_length, speed = m.max_velocity * (1 - m.tendon_ratio) * l0;
@@ -18,14 +21,15 @@ void muscle_tension(const MuscleModel& muscle, double activation, LineState& s) 
     s.tension = s.active = a * m.max_force;
     return;
   }
-  const ValueSlope fl = active_force_length(m.force_length_curve, s.length, l0, m.tendon_ratio);
-  const ValueSlope fv = force_velocity(s.rate / speed);
-  const ValueSlope fp = passive_force_length(s.length, l0, m.max_length_ratio);
+  const double length = s.length + s.beyond;
+  const ValueSlope fl = active_force_length(m.force_length_curve, length, l0, m.tendon_ratio);
+  const ValueSlope fv = force_velocity((s.rate + beyond_rate) / speed);
+  const ValueSlope fp = passive_force_length(length, l0, m.max_length_ratio);
   const double passive = m.max_force * m.passive_fraction;
   s.tension_per_activation = m.max_force * fl.value * fv.value;
   s.active = a * s.tension_per_activation;
   s.tension = s.active + passive * fp.value;
-  s.stored = passive * passive_energy_length(s.length, l0, m.max_length_ratio);
+  s.stored = passive * passive_energy_length(length, l0, m.max_length_ratio);
   s.stiffness = std::max(0.0, m.max_force * a * fl.slope * fv.value + passive * fp.slope);
   s.viscosity = m.max_force * a * fl.value * fv.slope / speed;
 }
@@ -66,10 +70,13 @@ LineState line_state(const Model& model, const Line& line, std::span<const Weigh
     s.rate +=
         part.direction.dot(configuration.velocity(path[i + 1]) - configuration.velocity(path[i]));
   }
-  if (line.muscle >= 0)
-    muscle_tension(model.muscles[static_cast<std::size_t>(line.muscle)],
-                   configuration.activation[line.muscle], s);
-  else
+  if (line.muscle >= 0) {
+    const MuscleModel& muscle = model.muscles[static_cast<std::size_t>(line.muscle)];
+    s.beyond = length_beyond(muscle.given, configuration.t);
+    // In statics time only orders the loads.
+    const double rate = model.is_static ? 0 : slope_at(muscle.given.beyond, configuration.t);
+    muscle_tension(muscle, configuration.activation[line.muscle], rate, s);
+  } else
     ligament_tension(model.ligaments[static_cast<std::size_t>(line.ligament)], s);
   return s;
 }

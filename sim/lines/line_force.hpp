@@ -30,7 +30,8 @@ void for_each_pull(std::span<const WeightedPoint> path, const Configuration& con
 }
 
 struct LineState {
-  double length = 0, rate = 0;  // [m], [m/s]
+  double length = 0, rate = 0;  // of the path [m], [m/s]
+  double beyond = 0;            // [m] of a muscle's tendon past the end of the path
   double tension = 0;           // [N]
   double active = 0;     // [N] part of it that does the muscle's work; the rest is stored or damped
   double damping = 0;    // [N] part of it that a ligament's damper makes

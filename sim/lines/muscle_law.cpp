@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "fem/material/muscle_fibre.hpp"
+#include "sim/scenario/curve.hpp"
 
 namespace articular::sim {
 namespace {
@@ -20,6 +21,10 @@ ValueSlope parabola(double n) {
 }
 
 }  // namespace
+
+double length_beyond(const Muscle& muscle, double t) {
+  return muscle.beyond.time.empty() ? 0 : value_at(muscle.beyond, t);
+}
 
 ValueSlope active_force_length(Muscle::ForceLengthCurve curve, double length, double optimal_length,
                                double tendon_ratio) {

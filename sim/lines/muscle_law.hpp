@@ -10,6 +10,9 @@ using fem::ValueSlope;
 /// Of the lengthening rate in vmax, as fibres of tissue have it.
 using fem::force_velocity;
 
+/// Tendon of a line past the end of its path at a time [m].
+double length_beyond(const Muscle& muscle, double t);
+
 /// Active force–length factor of a line of length l [m] at n = (l − r l_opt) / (l_opt (1 − r)), the
 /// relative length of its fibres: the tendon of length r l_opt does not stretch. Slope [1/m].
 ///

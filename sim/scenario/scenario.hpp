@@ -218,6 +218,7 @@ struct Anchor {
   Vec3 point = Vec3::Zero();  // [m], world at the start
   double radius = 0;          // [m]
   Location where;
+  bool beyond_mesh = false;  // the rigid body goes on beyond its mesh, and the point lies there
 };
 
 struct Muscle {
@@ -226,6 +227,7 @@ struct Muscle {
   std::string tissue;             // whose fibres it activates; empty: a line, for which the rest is
   std::vector<Anchor> path;       // from origin to insertion, via points between; at least 2
   std::vector<std::string> wrap;  // fixed or rigid bodies that it wraps around
+  Curve beyond;                   // [m], tendon past the end of the path; empty = none
   double max_force = 0;           // [N], isometric, at full activation
   std::optional<double> optimal_length;  // [m]; default: length of the path at the start
   double max_length_ratio =

@@ -94,9 +94,9 @@ void read_dynamics(const TableReader& table, Muscle& muscle) {
   table.read("max_velocity", muscle.max_velocity);
   table.read("force_length", muscle.force_length);
   if (!muscle.force_length)
-    table.refuse(
-        {"passive_fraction", "max_velocity", "optimal_length", "max_length_ratio", "tendon_ratio"},
-        "with force_length = false the force depends on activation alone");
+    table.refuse({"passive_fraction", "max_velocity", "optimal_length", "max_length_ratio",
+                  "tendon_ratio", "beyond"},
+                 "with force_length = false the force depends on activation alone");
   // Not refused: one override switches off what the curve says.
   table.read("force_length_curve", muscle.force_length_curve);
   table.read("activation_time", muscle.activation_time);
@@ -109,6 +109,32 @@ Curve read_excitation(const Node& node, const Context& context) {
   return read_curve(node, kFraction, context);
 }
 
+const KeyTable& beyond_keys() {
+  static const KeyTable kTable{
+      "length over time",
+      {{"time", {list_of_times()}, kRequired, "times, in increasing order"},
+       {"length",
+        {list_of({form::Quantity{kLength, kNotNegative}})},
+        kRequired,
+        "as many lengths; linear between the times, constant outside"}}};
+  return kTable;
+}
+
+/// A length, or one over time.
+Curve read_beyond(const Node& node) {
+  if (node.table() == nullptr) return {{0}, {read_quantity(node, kLength, kNotNegative)}};
+  const TableReader table(node, beyond_keys(), fmt::format("`{}`", one_line(node.name)));
+  Curve curve;
+  curve.time = read_times(table.at("time"));
+  const Node& lengths = table.at("length");
+  for (const Node& element : read_list(lengths, "a list of lengths such as [\"10 mm\", \"12 mm\"]"))
+    curve.value.push_back(read_quantity(element, kLength, kNotNegative));
+  if (curve.value.size() != curve.time.size())
+    fail(lengths, fmt::format("expected as many lengths as times ({}), found {}", curve.time.size(),
+                              curve.value.size()));
+  return curve;
+}
+
 Muscle read_muscle(const TableReader& table, const Context& context) {
   const auto excitation = [&](const Node& n) { return read_excitation(n, context); };
   Muscle muscle;
@@ -116,9 +142,10 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
   muscle.name = read_name(table.at("name")) + side_suffix(table, context.side);
   table.exactly_one({"path", "tissue"});
   if (const Node* tissue = table.find("tissue")) {
-    table.refuse({"wrap", "max_force", "optimal_length", "max_length_ratio", "tendon_ratio",
-                  "passive_fraction", "max_velocity", "force_length", "force_length_curve"},
-                 "the muscle is made of a tissue's fibres, whose material says how they pull");
+    table.refuse(
+        {"wrap", "beyond", "max_force", "optimal_length", "max_length_ratio", "tendon_ratio",
+         "passive_fraction", "max_velocity", "force_length", "force_length_curve"},
+        "the muscle is made of a tissue's fibres, whose material says how they pull");
     const Body& body = read_body_reference(*tissue, context);
     if (!body.material || !body.material->fibres)
       fail(*tissue, fmt::format("body `{}` has no fibres", body.name));
@@ -129,6 +156,7 @@ Muscle read_muscle(const TableReader& table, const Context& context) {
   }
   muscle.path = read_path(table, context);
   table.read("wrap", muscle.wrap, [&](const Node& n) { return read_wrap(n, context); });
+  table.read("beyond", muscle.beyond, read_beyond);
   table.at("max_force");
   table.read("max_force", muscle.max_force);
   table.read("optimal_length", muscle.optimal_length);
@@ -345,7 +373,11 @@ const KeyTable& path_point_keys() {
        {"radius",
         {form::Quantity{kLength, kNotNegative}},
         standard("0 m"),
-        "tissue: spreads it over the surface nodes within"}}};
+        "tissue: spreads it over the surface nodes within"},
+       {"beyond_mesh",
+        {form::Boolean{}},
+        standard(false),
+        "fixed or rigid body: the point may lie farther from the mesh than a tenth of its size"}}};
   return kTable;
 }
 
@@ -359,6 +391,10 @@ const KeyTable& muscle_keys() {
           otherwise("or `tissue`"),
           "two or more points, from origin to insertion"},
          {"wrap", {names_of_bodies(0)}, kNone, "fixed and rigid bodies that the line goes around"},
+         {"beyond",
+          {form::Either{{{form::Quantity{kLength, kNotNegative}}, {form::Table{beyond_keys}}}}},
+          otherwise("none"),
+          "tendon past the end of the path, which counts in the muscle's length"},
          {"tissue",
           {form::Text{"name of a tissue"}},
           otherwise("or `path`"),

@@ -214,6 +214,10 @@ Anchor read_anchor(const TableReader& table, const Context& context) {
   if (anchor.radius > 0 && body.kind != Body::Kind::Tissue)
     fail(table.at("radius"),
          fmt::format("a radius spreads a point over tissue, and body `{}` is none", body.name));
+  if (table.knows("beyond_mesh")) table.read("beyond_mesh", anchor.beyond_mesh);
+  if (anchor.beyond_mesh && body.kind == Body::Kind::Tissue)
+    fail(table.at("beyond_mesh"),
+         fmt::format("only a bone goes on beyond its mesh, and body `{}` is tissue", body.name));
   return anchor;
 }
 

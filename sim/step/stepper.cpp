@@ -330,6 +330,9 @@ void Stepper::account(State& after) {
     const LineState &a = lines_before_[l], &b = dynamics_->now().lines[l];
     const double stretch = b.length - a.length;
     ledger.muscle_work -= 0.5 * (a.active + b.active) * stretch;
+    // What draws at the far end of a muscle stretches its passive part.
+    const double passive = 0.5 * (a.tension - a.active + b.tension - b.active);
+    ledger.muscle_work += passive * (b.beyond - a.beyond);
     ledger.ligament_loss += 0.5 * (a.damping + b.damping) * stretch;
   }
   for (std::size_t t = 0; t < model_.tissues.size(); ++t) {

@@ -1,13 +1,15 @@
 // The knees of scenarios/knee/ with a patella: extension.toml with coarse elements to 30 degrees,
-// squat.toml to 40.
+// squat.toml to 90.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "sim/scenario/curve.hpp"
 #include "tests/scenarios/coarse_knee.hpp"
 #include "tests/scenarios/mirrored_knee.hpp"
 #include "tests/scenarios/scenario_results.hpp"
@@ -217,14 +219,20 @@ TEST(KneeExtension, TheTendonSwingsBackwardsAsTheKneeFlexes) {
   for (const int time : {2, 3, 4, 5, 6}) EXPECT_GT(angle_deg(time), angle_deg(time + 1)) << time;
 }
 
+const ScenarioResults& squat() {
+  static const ScenarioResults results = run_scenario("knee/squat.toml", {});
+  return results;
+}
+
 // The ground's force passes farther and farther behind the knee; the quadriceps of the file leaves
-// the tibia's hold next to nothing of its moment and that of the hamstrings, which is 13 N m at 30
+// the tibia's hold next to nothing of its moment and that of the flexors, which is 13 N m at 30
 // and 23 at 40 degrees.
 TEST(KneeSquat, TheQuadricepsBalancesTheGround) {
-  const ScenarioResults knee = run_scenario("knee/squat.toml", {"duration=9 s"});
+  const ScenarioResults& knee = squat();
   EXPECT_EQ(knee.summary().at("outcome"), "finished");
+  EXPECT_NEAR(knee.last("knee.flexion [deg]"), 90, 1e-6);
   double before = 0;
-  for (const double time : {7.0, 9.0}) {
+  for (const double time : {7.0, 9.0, 13.0, 17.0, 19.0}) {
     EXPECT_LT(std::abs(knee.at("tibia.moment.x [N m]", time)), 0.3) << time;
     const double force = vector_at(knee, "patellofemoral.force", "N", time).norm();
     EXPECT_GT(force, before + 100) << time;
@@ -233,6 +241,30 @@ TEST(KneeSquat, TheQuadricepsBalancesTheGround) {
     EXPECT_GT(vector_at(knee, "tibiofemoral.force", "N", time).norm(), 700) << time;
     for (const char* const line : {"semimembranosus", "gastrocnemius_medial"})
       EXPECT_GT(knee.at(std::string(line) + ".force [N]", time), 50) << line;
+  }
+}
+
+// The heel goes down as the shank leans: the fibres have the length of the path and of what the
+// ankle adds, less the tendon.
+TEST(KneeSquat, TheGastrocnemiusPullsByTheLengthOfItsFibres) {
+  const sim::Scenario scenario = shipped_scenario("knee/squat.toml");
+  for (const sim::Muscle& muscle : scenario.muscles) {
+    if (!muscle.name.starts_with("gastrocnemius")) continue;
+    EXPECT_GT(sim::value_at(muscle.beyond, 19), sim::value_at(muscle.beyond, 1) + 0.015);
+    for (const double time : {1.0, 7.0, 13.0, 19.0}) {
+      const double optimal = *muscle.optimal_length,
+                   length = 1e-3 * squat().at(muscle.name + ".length [mm]", time) +
+                            sim::value_at(muscle.beyond, time);
+      const double n = 1 + (length / optimal - 1) / (1 - muscle.tendon_ratio);
+      ASSERT_GT(n, 0.6);
+      ASSERT_LT(n, 1.4);
+      const double active = 0.08 * (1 - 4 * (n - 1) * (n - 1)),
+                   passive = muscle.passive_fraction *
+                             std::max(0.0, (length / optimal - 1) / (muscle.max_length_ratio - 1));
+      EXPECT_NEAR(squat().at(muscle.name + ".force [N]", time),
+                  muscle.max_force * (active + passive), 1e-5 * muscle.max_force)
+          << muscle.name << time;
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/lines/muscle_law.hpp"
 #include "sim/mesh/chord_depth.hpp"
 #include "sim/mesh/triangle_tree.hpp"
 #include "sim/mesh/winding_number.hpp"
@@ -108,6 +109,11 @@ std::string line_head(const std::string& what, const std::string& rest) {
                      rest);
 }
 
+std::string beyond_path(const sim::Muscle& muscle) {
+  const double length = sim::length_beyond(muscle, 0);
+  return length > 0 ? fmt::format(", of which {:.2f} mm lie beyond the path", 1e3 * length) : "";
+}
+
 std::string muscles(const sim::Model& model, const sim::Moment& start,
                     const std::vector<Solid>& solids) {
   std::string text = line_head("muscle", "largest active force, optimal length");
@@ -116,8 +122,8 @@ std::string muscles(const sim::Model& model, const sim::Moment& start,
         muscle.line < 0
             ? fmt::format("  {:<28} the fibres of `{}`\n", muscle.given.name, muscle.given.tissue)
             : line_row(model.lines[static_cast<std::size_t>(muscle.line)], start, solids,
-                       fmt::format("{:.4g} N, {:.2f} mm", muscle.given.max_force,
-                                   1e3 * muscle.optimal_length));
+                       fmt::format("{:.4g} N, {:.2f} mm{}", muscle.given.max_force,
+                                   1e3 * muscle.optimal_length, beyond_path(muscle.given)));
   return text;
 }
 

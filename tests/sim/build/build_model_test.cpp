@@ -146,6 +146,16 @@ TEST(Model, ACurveIsLinearBetweenItsTimesAndConstantOutside) {
   EXPECT_EQ(value_at({}, 3), 1);
 }
 
+TEST(Model, ACurveRisesBetweenItsTimesAndNotOutside) {
+  const Curve curve{{1, 2, 4}, {0, 10, 50}};
+  EXPECT_EQ(slope_at(curve, 0.9), 0);
+  EXPECT_EQ(slope_at(curve, 1), 10);
+  EXPECT_EQ(slope_at(curve, 1.5), 10);
+  EXPECT_EQ(slope_at(curve, 2), 20);
+  EXPECT_EQ(slope_at(curve, 4), 0);
+  EXPECT_EQ(slope_at({}, 3), 0);
+}
+
 // A slip of the pen: both ends on the femur.
 TEST(BuildModel, ALineWithAllPointsOnOneBoneIsTold) {
   for (const std::string far : {"low", "high"}) {

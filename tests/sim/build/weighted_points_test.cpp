@@ -121,4 +121,13 @@ TEST_F(AnchoredPoint, OfARigidBodyIsWithinItOrNearItsSurface) {
   EXPECT_EQ(refusal({5, 5, 5}, 2), "");  // a body without a mesh has points anywhere
 }
 
+TEST_F(AnchoredPoint, OfABoneThatGoesOnBeyondItsMeshIsAnywhere) {
+  Anchor anchor;
+  anchor.point = {0.3, -5, 2};
+  anchor.beyond_mesh = true;
+  const WeightedPoint point = anchored_point(anchor, 1, model_, surfaces_, warnings_);
+  ASSERT_EQ(point.nodes.size(), 1U);
+  EXPECT_LT((model_.rigid_bodies[0].rest.p + point.nodes[0].local - anchor.point).norm(), 1e-15);
+}
+
 }  // namespace articular::sim::weighted_points_test

@@ -69,6 +69,49 @@ TEST(LineState, AMusclePullsByTheCurveThatItWasGiven) {
   }
 }
 
+/// A muscle whose path ends a part before its tendon does: with the path and as its whole length.
+Scenario mass_on_muscle_with(const Curve& beyond, bool is_static) {
+  Scenario scenario = mass_on_muscle();
+  scenario.analysis = is_static ? Scenario::Analysis::Static : Scenario::Analysis::Dynamic;
+  scenario.muscles[0].optimal_length = kLength;
+  scenario.muscles[0].beyond = beyond;
+  return scenario;
+}
+
+// By the length of the fibres it does not matter whether the path is drawn out or what lies beyond
+// it, and at rest at which speed.
+TEST(LineState, TendonBeyondThePathCountsInAMusclesLengthAndSpeed) {
+  const double more = 0.03, rate = 0.1;
+  const Simulation plain(mass_on_muscle());
+  const Simulation drawn(mass_on_muscle_with({{0, 1}, {more, more + rate}}, false));
+  for (const double own : {-0.2, 0.05}) {
+    const LineState expected = muscle_at(plain.model, more, own + rate);
+    const LineState state = muscle_at(drawn.model, 0, own);
+    EXPECT_NEAR(state.length, kLength, 1e-15);
+    EXPECT_EQ(state.beyond, more);
+    EXPECT_NEAR(state.active, expected.active, 1e-12 * kForce);
+    EXPECT_NEAR(state.tension, expected.tension, 1e-12 * kForce);
+    EXPECT_NEAR(state.stored, expected.stored, 1e-12 * kForce * kLength);
+    EXPECT_NEAR(state.stiffness, expected.stiffness, 1e-12 * kForce / kLength);
+    EXPECT_NEAR(state.viscosity, expected.viscosity, 1e-12 * kForce / kLength);
+  }
+}
+
+TEST(LineState, InStaticsWhatLiesBeyondThePathHasNoSpeed) {
+  const Simulation plain(mass_on_muscle());
+  const Simulation drawn(mass_on_muscle_with({{0, 1}, {0.03, 0.13}}, true));
+  EXPECT_NEAR(muscle_at(drawn.model, 0, 0).tension, muscle_at(plain.model, 0.03, 0).tension,
+              1e-12 * kForce);
+}
+
+TEST(LineState, AMuscleIsAtItsOptimumAtTheStartWithWhatLiesBeyondThePath) {
+  Scenario scenario = mass_on_muscle_with({{0}, {0.03}}, false);
+  scenario.muscles[0].optimal_length.reset();
+  const Simulation run(scenario);
+  EXPECT_NEAR(run.model.muscles[0].optimal_length, kLength + 0.03, 1e-15);
+  EXPECT_NEAR(muscle_at(run.model, 0, 0).active, kActivation * kForce, 1e-12 * kForce);
+}
+
 TEST(LineState, AMusclesStiffnessAndViscosityAreDerivativesOfItsTension) {
   const Simulation run(mass_on_muscle());
   const double h = 1e-6;

@@ -85,8 +85,9 @@ turned = "0 0 1 deg"
 mirror = "x"
 [[muscle]]
 name = "line"
-path = [{ body = "skull", point = "0 0 0 mm" }, { body = "tissue", point = "0 0 9 mm", radius = "1 mm" }]
+path = [{ body = "skull", point = "0 0 0 mm", beyond_mesh = true }, { body = "tissue", point = "0 0 9 mm", radius = "1 mm" }]
 wrap = ["skull"]
+beyond = { time = ["0 s", "1 s"], length = ["1 mm", "2 mm"] }
 max_force = "1 N"
 optimal_length = "9 mm"
 max_length_ratio = 1.5

@@ -448,6 +448,11 @@ INSTANTIATE_TEST_SUITE_P(
                 path("[{ body = \"skull\", point = \"0 0 0 m\", radius = @\"1 mm\" }, { body = "
                      "\"mandible\", point = \"0 0 1 m\" }]"),
                 "`radius`: a radius spreads a point over tissue, and body `skull` is none"},
+        Mistake{
+            "TissueBeyondItsMesh",
+            path("[{ body = \"disc_left\", point = \"0 0 0 m\", beyond_mesh = @true }, { body = "
+                 "\"mandible\", point = \"0 0 1 m\" }]"),
+            "`beyond_mesh`: only a bone goes on beyond its mesh, and body `disc_left` is tissue"},
         Mistake{"ExcitationAboveOne",
                 muscle("excitation = { time = [\"0 s\", \"1 s\"], value = [0, @1.1] }\n"),
                 "`value[1]` must lie between 0 and 1, found 1.1"},
@@ -464,6 +469,15 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{
             "TendonRatio", muscle("tendon_ratio = @1\n"),
             "`tendon_ratio`: a tendon as long as the muscle leaves no fibers, found the number 1"},
+        Mistake{"NegativeLengthBeyond", muscle("beyond = @\"-1 mm\"\n"),
+                "`beyond` must not be negative, found \"-1 mm\""},
+        Mistake{"LengthsBeyondForOtherTimes",
+                muscle("beyond = { time = [\"0 s\", \"1 s\"], length = @[\"1 mm\"] }\n"),
+                "`length`: expected as many lengths as times (2), found 1"},
+        Mistake{"LengthBeyondWithoutForceLength",
+                muscle("force_length = false\n@beyond = \"1 mm\"\n"),
+                "muscle `temporalis`: `beyond` does not belong here: with force_length = false the "
+                "force depends on activation alone"},
         Mistake{"MaxLengthRatio", muscle("max_length_ratio = @1.0\n"),
                 "`max_length_ratio` must be greater than 1, found 1"},
         Mistake{"Mirror", ligament("mirror = @\"y\"\nstiffness = \"1 N/m\"\n"),

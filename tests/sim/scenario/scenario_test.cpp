@@ -513,6 +513,28 @@ TEST_F(CompleteScenario, DamagedFilesAreReadOrRefusedWithTheirPlaces) {
   EXPECT_GT(refused, 100);
 }
 
+using LengthBeyond = ScenarioTest;
+
+TEST_F(LengthBeyond, IsALengthOrOneOverTime) {
+  const auto muscle = [&](const std::string& beyond) {
+    return read(kStart +
+                "[[muscle]]\nname = \"calf\"\nmax_force = \"1 N\"\npath = [{ body = \"skull\", "
+                "point "
+                "= \"0 0 0 mm\" }, { body = \"mandible\", point = \"0 0 9 m\", beyond_mesh = true "
+                "}]\n" +
+                beyond)
+        .muscles[0];
+  };
+  EXPECT_TRUE(muscle("").beyond.time.empty());
+  EXPECT_FALSE(muscle("").path[0].beyond_mesh);
+  EXPECT_TRUE(muscle("").path[1].beyond_mesh);
+  EXPECT_EQ(muscle("beyond = \"3 mm\"\n").beyond.value, std::vector<double>{3e-3});
+  const Curve curve =
+      muscle("beyond = { time = [\"1 s\", \"2 s\"], length = [\"0 mm\", \"12 mm\"] }\n").beyond;
+  EXPECT_EQ(curve.time, (std::vector<double>{1, 2}));
+  EXPECT_EQ(curve.value, (std::vector<double>{0, 12e-3}));
+}
+
 using Defaults = ScenarioTest;
 
 TEST_F(Defaults, AreThoseOfTheStructs) {

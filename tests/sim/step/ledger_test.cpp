@@ -133,6 +133,28 @@ TEST(Ledger, FibresLoseWhatTheirForceVelocityTakes) {
   EXPECT_GT(measured_order(error, 1e-3), 1.8);
 }
 
+// At rest a muscle is drawn at its far end, from its optimal length on by 20 mm: its passive force
+// rises to 1 N, and who draws gives the 10 mJ that it stores.
+TEST(Ledger, DrawingAMuscleBeyondItsPathGivesWhatItStores) {
+  const double length = 0.1, force = 40, duration = 0.02;
+  Scenario s = scene(1e-3);
+  s.bodies = {stand("low"), stand("high")};
+  Muscle muscle;
+  muscle.name = "muscle";
+  muscle.path = {anchor("low", Vec3::Zero()), anchor("high", {0, 0, length})};
+  muscle.beyond = {{0, duration}, {0, 0.02}};
+  muscle.optimal_length = length;
+  muscle.max_length_ratio = 1.4;
+  muscle.passive_fraction = 0.05;
+  muscle.max_force = force;
+  muscle.excitation = {{0}, {0}};
+  s.muscles = {muscle};
+  Simulation run(s);
+  run.advance(duration);
+  EXPECT_NEAR(run.state.energy.muscle_work, 0.01, 1e-9);
+  EXPECT_NEAR(run.stepper.now().lines[0].stored, 0.01, 1e-9);
+}
+
 // With all calcium there f = 1 − exp(−b (λ − λ0)): ∫ f dλ/λ is an exponential integral.
 TEST(Ledger, WorkOfFibresWithAForceLengthIsTheIntegralOverTheirActivation) {
   const double T = 1e5, b = 4.75 * 1.85, zero = 1.58 / 1.85;
