@@ -40,6 +40,11 @@ TEST(MandibleAnatomy, ShippedFilesAreWhatTheProgramMakes) {
     } else {
       EXPECT_EQ(file.triangles, mesh.triangles);
     }
+    if (mesh.fibres.cols() > 0) {
+      ASSERT_EQ(file.cell_vectors.size(), 1U);
+      EXPECT_EQ(file.cell_vectors[0].first, "fibres");
+      EXPECT_LT((file.cell_vectors[0].second - mesh.fibres).cwiseAbs().maxCoeff(), 1e-6);
+    }
   }
   const auto text_of = [](const char* name) {
     std::ifstream stream(scenario_folder() / "anatomy" / name, std::ios::binary);
