@@ -314,15 +314,32 @@ Mesh disc(double h, const FossaProfile& fossa) {
   constexpr double kArc = 14.3;       // length of that along the mid-surface [mm]
   constexpr double kThickness = 2.4;  // that gives two layers at 1.2 mm
   constexpr double kRound = 0.7;      // outline: 0 rectangle, 1 ellipse
+  constexpr double kZoneBegin = 10 * kDeg, kZoneEnd = 65 * kDeg;  // between the bands
   const CellGrid grid{even_cells(2 * kDiscHalfWidth, h, 4), even_cells(kArc, h, 4),
                       std::max(1, static_cast<int>(std::lround(kThickness / h)))};
-  return grid.fill([&fossa](double u, double v, double w) -> Vec3 {
+  const auto angle_at = [](double u, double v) {
+    return kMiddle + kHalfAngle * v * std::sqrt(1 - kRound * u * u / 2);
+  };
+  const auto place = [&](double u, double v, double w) -> Vec3 {
     const double x = kDiscHalfWidth * u * std::sqrt(1 - kRound * v * v / 2);
-    const double angle = kMiddle + kHalfAngle * v * std::sqrt(1 - kRound * u * u / 2);
+    const double angle = angle_at(u, v);
     const auto [inner, outer] = disc_radii(fossa, angle, x, std::max(std::abs(u), std::abs(v)));
     const double r = inner + (outer - inner) * w;
     return kCondyle + Vec3(x, -r * std::sin(angle), r * std::cos(angle));
-  });
+  };
+  Mesh mesh = grid.fill(place);
+  const Mesh unbent = grid.fill([](double u, double v, double w) { return Vec3(u, v, w); });
+  mesh.fibres.resize(3, mesh.tets.cols());
+  for (Eigen::Index e = 0; e < mesh.tets.cols(); ++e) {
+    const Vec3 q = unbent.X_mm(Eigen::all, unbent.tets.col(e)).rowwise().mean();
+    const double angle = angle_at(q.x(), q.y());
+    const bool in_zone = angle > kZoneBegin && angle < kZoneEnd;
+    constexpr double kStep = 1e-3;  // half a difference quotient
+    const double du = in_zone ? 0 : kStep, dv = in_zone ? kStep : 0;
+    mesh.fibres.col(e) =
+        (place(q.x() + du, q.y() + dv, q.z()) - place(q.x() - du, q.y() - dv, q.z())).normalized();
+  }
+  return mesh;
 }
 
 Mesh mirrored(const Mesh& mesh) {

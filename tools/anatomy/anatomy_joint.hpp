@@ -71,7 +71,8 @@ Mesh condyle_sheet(double h);
 /// them; normals into the joint.
 Mesh fossa_sheet(double h, const FossaProfile& fossa = usual_fossa());
 
-/// The disc: tetrahedra of edge h along the surface, two layers at h = 1.2 mm.
+/// The disc: tetrahedra of edge h along the surface, two layers at h = 1.2 mm. Fibres run fore and
+/// aft in the intermediate zone, and across in both bands.
 /// @throws std::invalid_argument for h outside [0.3, 2.5] mm
 Mesh disc(double h, const FossaProfile& fossa = usual_fossa());
 

@@ -40,6 +40,11 @@ TEST(MandibleAnatomy, ShippedFilesAreWhatTheProgramMakes) {
     } else {
       EXPECT_EQ(file.triangles, mesh.triangles);
     }
+    if (mesh.fibres.cols() > 0) {
+      ASSERT_EQ(file.cell_vectors.size(), 1U);
+      EXPECT_EQ(file.cell_vectors[0].first, "fibres");
+      EXPECT_LT((file.cell_vectors[0].second - mesh.fibres).cwiseAbs().maxCoeff(), 1e-6);
+    }
   }
   const auto text_of = [](const char* name) {
     std::ifstream stream(scenario_folder() / "anatomy" / name, std::ios::binary);
@@ -225,6 +230,31 @@ TEST(MandibleAnatomy, DiscHasThePublishedBands) {
   EXPECT_NEAR(posterior, 3, 0.3);
   EXPECT_NEAR(intermediate, 1.25, 0.25);
   EXPECT_NEAR(anterior, 2, 0.3);
+}
+
+// A fibre lies along the disc: not along the ray from the condyle, nor, in the zone, across it.
+TEST(MandibleAnatomy, FibresOfTheDiscRunForeAndAftBetweenItsBands) {
+  for (const double size : {0.9, 1.2, 1.8}) {
+    const Mesh mesh = disc(size), other = mirrored(mesh);
+    ASSERT_EQ(mesh.fibres.cols(), mesh.tets.cols());
+    int in_zone = 0;
+    for (Eigen::Index e = 0; e < mesh.tets.cols(); ++e) {
+      const Vec3 p = mesh.X_mm(Eigen::all, mesh.tets.col(e)).rowwise().mean() - kCondyle;
+      const Vec3 f = mesh.fibres.col(e);
+      EXPECT_NEAR(f.norm(), 1, 1e-12);
+      EXPECT_EQ(other.fibres.col(e), f.cwiseProduct(Vec3(-1, 1, 1)));
+      const double angle = std::atan2(-p.y(), p.z()) / kDegree;
+      if (std::abs(p.x()) > 6) continue;  // towards the rims fibres are curved
+      if (angle > 15 && angle < 60) {
+        ++in_zone;
+        EXPECT_LT(std::abs(f.x()), 0.35);
+        EXPECT_LT(std::abs(f.dot(Vec3(0, p.y(), p.z()).normalized())), 0.5);
+      } else if (angle < 5 || angle > 70) {
+        EXPECT_GT(std::abs(f.x()), 0.65);
+      }
+    }
+    EXPECT_GT(in_zone, mesh.tets.cols() / 10);
+  }
 }
 
 TEST(MandibleAnatomy, MusclesAttachToTheBones) {
