@@ -124,15 +124,9 @@ const KeyTable& beyond_keys() {
 Curve read_beyond(const Node& node) {
   if (node.table() == nullptr) return {{0}, {read_quantity(node, kLength, kNotNegative)}};
   const TableReader table(node, beyond_keys(), fmt::format("`{}`", one_line(node.name)));
-  Curve curve;
-  curve.time = read_times(table.at("time"));
-  const Node& lengths = table.at("length");
-  for (const Node& element : read_list(lengths, "a list of lengths such as [\"10 mm\", \"12 mm\"]"))
-    curve.value.push_back(read_quantity(element, kLength, kNotNegative));
-  if (curve.value.size() != curve.time.size())
-    fail(lengths, fmt::format("expected as many lengths as times ({}), found {}", curve.time.size(),
-                              curve.value.size()));
-  return curve;
+  return read_over_time(
+      table, "length", "a list of lengths such as [\"10 mm\", \"12 mm\"]",
+      [](const Node& element) { return read_quantity(element, kLength, kNotNegative); });
 }
 
 Muscle read_muscle(const TableReader& table, const Context& context) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -83,6 +84,11 @@ Anchor read_anchor(const TableReader& table, const Context& context);
 
 /// A table of `time` and `value`, or the name of one in [curve]. @param range  of the values
 Curve read_curve(const Node& node, const Range& range, const Context& context);
+/// The times of a table, and as many entries of a key.
+/// @param key       in the singular: errors name its plural
+/// @param expected  what the list should be
+Curve read_over_time(const TableReader& table, const char* key, const char* expected,
+                     const std::function<double(const Node&)>& read_value);
 
 /// [curve], each of which has to be a curve; nullptr if there is none.
 const Node* check_curves(const TableReader& document);

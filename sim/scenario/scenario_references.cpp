@@ -249,6 +249,19 @@ KeyType curve_or_name() {
   return {form::Either{{{form::Text{"name of a curve"}}, {form::Table{curve_keys}}}}};
 }
 
+Curve read_over_time(const TableReader& table, const char* key, const char* expected,
+                     const std::function<double(const Node&)>& read_value) {
+  Curve curve;
+  curve.time = read_times(table.at("time"));
+  const Node& values = table.at(key);
+  for (const Node& element : read_list(values, expected))
+    curve.value.push_back(read_value(element));
+  if (curve.value.size() != curve.time.size())
+    fail(values, fmt::format("expected as many {}s as times ({}), found {}", key, curve.time.size(),
+                             curve.value.size()));
+  return curve;
+}
+
 namespace {
 
 /// The curve of a name.
@@ -273,15 +286,8 @@ Curve read_curve_table(const Node& node, const Range& range) {
                            "0.1] }} or the name of one, found {}",
                            found(node)));
   const TableReader table(node, curve_keys(), fmt::format("`{}`", one_line(node.name)));
-  Curve curve;
-  curve.time = read_times(table.at("time"));
-  const Node& values = table.at("value");
-  for (const Node& element : read_list(values, "a list of numbers such as [0, 0.1]"))
-    curve.value.push_back(read_number(element, range));
-  if (curve.value.size() != curve.time.size())
-    fail(values, fmt::format("expected as many values as times ({}), found {}", curve.time.size(),
-                             curve.value.size()));
-  return curve;
+  return read_over_time(table, "value", "a list of numbers such as [0, 0.1]",
+                        [&](const Node& element) { return read_number(element, range); });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/base/stopwatch.hpp"
+#include "sim/contact/touch_left.hpp"
 #include "sim/loads/gravity.hpp"
 #include "sim/loads/surface_load.hpp"
 #include "sim/model/carried_tissue.hpp"
@@ -318,9 +319,8 @@ bool Stepper::try_load_step(State& state, double h) {
 /// Something touched the body when the step began, and nothing does at its end: the force went on
 /// over the depth of that contact, not over half of the way.
 bool Stepper::has_parted(int body) const {
-  const auto b = static_cast<std::size_t>(body);
-  const std::vector<double>& now = dynamics_->now().contact.force_on_bodies();
-  return b < touched_before_.size() && touched_before_[b] > 0 && now[b] == 0;
+  return touch_left(touched_before_, dynamics_->now().contact.force_on_bodies(),
+                    static_cast<std::size_t>(body)) == 0;
 }
 
 void Stepper::account(State& after) {

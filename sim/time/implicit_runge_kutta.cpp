@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "sim/contact/touch_left.hpp"
 #include "sim/model/angular_momentum.hpp"
 #include "sim/model/newton_weights.hpp"
 #include "sim/time/arkode.hpp"
@@ -188,10 +189,7 @@ void ImplicitRungeKutta::predict(const Eigen::VectorXd& acceleration, double h,
 /// step's acceleration leads: that was a blow. Newton's iteration from there would throw it back,
 /// deep into what it had touched.
 bool ImplicitRungeKutta::has_let_go() const {
-  const std::vector<double>& now = dynamics_.now().contact.force_on_bodies();
-  for (std::size_t b = 0; b < touched_.size(); ++b)
-    if (now[b] < kLeastLeft * touched_[b]) return true;
-  return false;
+  return least_touch_left(touched_, dynamics_.now().contact.force_on_bodies()) < kLeastLeft;
 }
 
 void set_scheme(void* arkode, Integrator::Scheme scheme) {

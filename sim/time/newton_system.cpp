@@ -6,6 +6,7 @@
 #include "sim/assembly/contact_imbalance.hpp"
 #include "sim/assembly/line_search.hpp"
 #include "sim/base/stopwatch.hpp"
+#include "sim/contact/touch_left.hpp"
 #include "sim/model/held_blocks.hpp"
 #include "sim/model/newton_weights.hpp"
 
@@ -69,10 +70,7 @@ bool NewtonSystem::needs_matrix(double gamma) const {
 }
 
 bool NewtonSystem::has_parted() const {
-  const std::vector<double>& now = dynamics_.now().contact.force_on_bodies();
-  for (std::size_t b = 0; b < touching_.size(); ++b)
-    if (touching_[b] > 0 && now[b] == 0) return true;
-  return false;
+  return least_touch_left(touching_, dynamics_.now().contact.force_on_bodies()) == 0;
 }
 
 bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, SolverCounts& counts) {
