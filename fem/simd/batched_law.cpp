@@ -128,7 +128,8 @@ void BatchedLaw::tangent(const EightPoints& points, int count, const Fibres& fib
                          Tangent tangent, Eight* C) const {
   const bool is_projected = tangent == Tangent::Projected;
   if (law_ && is_projected && kernels_->projected_tangent != nullptr)
-    return kernels_->projected_tangent(*law_, points, C);
+    return with_fibres(points, fibres,
+                       [&](const EightPoints& all) { kernels_->projected_tangent(*law_, all, C); });
   consistent_tangent(points, count, fibres, C);
   if (is_projected) project(stencil_kernels(set_).indefinite(C), count, C);
 }

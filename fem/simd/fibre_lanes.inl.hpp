@@ -133,6 +133,43 @@ struct FibreLanes {
     }
   }
 
+  /// Positive semidefinite. An energy W(q) of q = J^(−1/3) λ has the second derivative
+  ///   W'' q² ∇s ∇sᵀ + W' q [(1 − n nᵀ) ⊗ a aᵀ/λ² − ∂²ln J/3 + ∇s ∇sᵀ − ∇ln λ ∇ln λᵀ],  s = ln q,
+  /// with n along F a. The last two cancel unless the volume changes, and are left out; the part of
+  /// ln J is added to the ground's, and of each of the others the positive part is taken.
+  void projected_tangent(const State& s, Tangent81& C) const requires(!kShear) {
+    Slopes ground_slopes = ground.slopes(s.ground);
+    const Lanes zero{}, inverse_J = 1 / s.ground.i.J;
+    Lanes along{}, isochoric_along{}, across{};
+    if (s.ground.share != 0) {
+      const Lanes share = s.ground.share * s.density;
+      for_each_curve(s, [&](const FibreCurve& curve, Lanes q, bool is_isochoric) {
+        const Lanes pull = share * evaluate(curve.tension, fibres, curve, q) * q;
+        const Lanes stiffness = share * evaluate(curve.stiffness, fibres, curve, q) * q * q;
+        (is_isochoric ? isochoric_along : along) += max(zero, stiffness);
+        across += max(zero, pull) / s.I4;
+        if (!is_isochoric) return;
+        ground_slopes.J -= (1.0 / 3) * pull * inverse_J;
+        ground_slopes.J_J += (1.0 / 3) * pull * inverse_J * inverse_J;
+      });
+    }
+    Ground::projected_tangent(s.ground, ground_slopes, C);
+    const Vector n = (1 / s.stretch) * s.b;
+    const Matrix by_stretch = outer((1 / s.stretch) * n, s.a);
+    const Matrix by_isochoric = by_stretch - ((1.0 / 3) * inverse_J) * s.ground.cof;
+    for (int l = 0; l < 3; ++l) {
+      for (int j = l; j < 3; ++j) {
+        Matrix B = C.block[j + 3 * l] + outer(by_stretch[j], along * by_stretch[l]) +
+                   outer(by_isochoric[j], isochoric_along * by_isochoric[l]);
+        const Lanes aside = across * s.a[j] * s.a[l];
+        B = B - outer(n, aside * n);
+        for (int k = 0; k < 3; ++k) B[k][k] += aside;
+        C.block[j + 3 * l] = B;
+        if (j != l) C.block[l + 3 * j] = transposed(B);
+      }
+    }
+  }
+
  private:
   /// Derivatives of the energy; those of I2 with the invariants of the fibre are zero.
   struct FibreSlopes {

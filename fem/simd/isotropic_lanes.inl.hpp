@@ -218,8 +218,8 @@ struct IsotropicLanes {
 
   /// In the axes of F = U diag(σ) Vᵀ the tangent falls apart, as that of every isotropic law: a 3x3
   /// matrix of the stretches, and a twist and a flip in each plane [Smith 2018, sec. 4].
-  void projected_tangent(const State& s, Tangent81& C) const {
-    const Slopes d = slopes(s);
+  void projected_tangent(const State& s, Tangent81& C) const { projected_tangent(s, slopes(s), C); }
+  static void projected_tangent(const State& s, const Slopes& d, Tangent81& C) {
     const Polar p = polar(s.F);
     const Eigen3 e = eigen(p.T);
     const Matrix &U = e.vectors, V = transposed(p.R) * U;

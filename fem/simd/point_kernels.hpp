@@ -21,8 +21,9 @@ struct PointKernels {
   void (*first_piola)(const SplitBatchLaw&, const EightPoints&, Eight* P);     // 9 [Pa]
   /// ∂P/∂F: entry (m, n) of the symmetric 9x9 matrix in C[m + 9 n] [Pa].
   void (*tangent)(const SplitBatchLaw&, const EightPoints&, Eight* C);
-  /// The nearest positive semidefinite matrix to the sum of both parts; null where a law has no
-  /// closed form of it.
+  /// Positive semidefinite, and no softer where the volume is kept: of isotropic laws the nearest
+  /// to the sum of both parts, of fibres a sum of such (fibre_lanes.inl.hpp). Null where a law has
+  /// no closed form of it.
   void (*projected_tangent)(const SplitBatchLaw&, const EightPoints&, Eight* C);
 };
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "fem/element/smoothed_elasticity.hpp"
+#include "sim/assembly/turning_stiffness.hpp"
 #include "sim/lines/wrapped_stiffness.hpp"
 #include "sim/loads/surface_load.hpp"
 #include "sim/model/held_blocks.hpp"
@@ -311,9 +312,11 @@ NewtonEquations NewtonMatrix::assemble(const Moment& now, const SystemScale& sca
     else
       add_wrapped_stiffness(model_, model_.lines[l], now.paths[l], now.configuration, now.lines[l],
                             scale, tangent == fem::Tangent::Projected, common);
-  if (tangent == fem::Tangent::Consistent)  // a pressure's is not positive semidefinite
+  if (tangent == fem::Tangent::Consistent) {  // neither is positive semidefinite
+    add_turning_stiffness(now, scale.stiffness, common);
     for (const SurfaceLoadModel& load : model_.surface_loads)
       add_surface_stiffness(model_, load, now.configuration, scale.stiffness, common);
+  }
   friction_.clear();
   for (const ContactPairState* direction : now.contact.pair_states()) {
     if (direction->num_patches == 0) continue;

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "fem/sparse/pressure_term.hpp"
-#include "sim/assembly/turning_stiffness.hpp"
 #include "sim/model/newton_weights.hpp"
 
 namespace articular::sim {
@@ -241,16 +240,6 @@ struct Projected {
   Eigen::VectorXd drive;
 };
 
-/// The turns of a rigid body: what its forces add.
-void add_turning(const Model& model, const BodyMotions& body, const std::vector<Mat3>& turning,
-                 Eigen::Block<Eigen::MatrixXd, 3, 3> stiffness) {
-  const int rigid = model.bodies[static_cast<std::size_t>(body.body)].rigid;
-  if (rigid < 0) return;
-  Mat3 turns;  // by the motions
-  for (int k = 0; k < 3; ++k) turns.col(k) = body.moves[static_cast<std::size_t>(k) + 3][1];
-  stiffness += turns.transpose() * turning[static_cast<std::size_t>(rigid)] * turns;
-}
-
 /// Of each group. As they are not coupled, the same column of all takes one product.
 std::vector<Projected> projected(const std::vector<std::vector<int>>& groups,
                                  const std::vector<BodyMotions>& bodies, const Moment& now,
@@ -288,13 +277,6 @@ std::vector<Projected> projected(const std::vector<std::vector<int>>& groups,
       if (dot(body, k, columns) == 0) of_group.stiffness(j, j) = stiffest;  // held
     });
   }
-  const std::vector<Mat3> turning = turning_stiffness(now);
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    for (std::size_t i = 0; i < groups[g].size(); ++i) {
-      const auto turns = 6 * static_cast<Eigen::Index>(i) + 3;
-      add_turning(now.model, bodies[static_cast<std::size_t>(groups[g][i])], turning,
-                  result[g].stiffness.block<3, 3>(turns, turns));
-    }
   return result;
 }
 

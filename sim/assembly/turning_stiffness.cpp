@@ -1,5 +1,8 @@
 #include "sim/assembly/turning_stiffness.hpp"
 
+#include <vector>
+
+#include "sim/contact/contact_pair_state.hpp"
 #include "sim/lines/line_force.hpp"
 #include "sim/loads/gravity.hpp"
 #include "sim/scenario/curve.hpp"
@@ -39,12 +42,22 @@ void add_weights_of_held_bodies(const Model& model, const Configuration& now, Tu
   }
 }
 
+void add_contact(const Moment& now, Turning& turning) {
+  for (const ContactPairState* pair_state : now.contact.pair_states())
+    for_each_patch_that_carries(
+        now.model, *pair_state, [&](const auto& nodes, const Vec18& forces) {
+          for (std::size_t i = 0; i < nodes.size(); ++i)
+            turning.add(*nodes[i], forces.segment<3>(3 * static_cast<Eigen::Index>(i)));
+        });
+}
+
 }  // namespace
 
-std::vector<Mat3> turning_stiffness(const Moment& now) {
+void add_turning_stiffness(const Moment& now, double scale, fem::BlockMatrix& A) {
   const Model& model = now.model;
   const Configuration& configuration = now.configuration;
   const auto num_rigid = static_cast<std::size_t>(model.layout.num_rigid);
+  if (num_rigid == 0 || scale == 0) return;
   Turning turning{configuration, std::vector<Mat3>(num_rigid, Mat3::Zero())};
   for (std::size_t l = 0; l < model.lines.size(); ++l)
     for_each_pull(
@@ -58,7 +71,11 @@ std::vector<Mat3> turning_stiffness(const Moment& now) {
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
       turning.add(tissue.nodes[i], -now.tissues[t].force.col(static_cast<Eigen::Index>(i)));
   }
-  return turning.K;
+  add_contact(now, turning);
+  for (std::size_t r = 0; r < num_rigid; ++r) {
+    const int block = model.rigid_bodies[r].block + 1;
+    A.block(A.slot(block, block)) += scale * turning.K[r];
+  }
 }
 
 }  // namespace articular::sim

@@ -103,4 +103,17 @@ double stored_energy(const ContactPairState& pair_state, const Eigen::Matrix3Xi&
 Vec18 forces_on_nodes(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
                       const Eigen::Matrix3Xi& groups);
 
+/// Calls use(nodes, forces) for every patch that carries, with its six nodes and the forces on
+/// them.
+template <class Use>
+void for_each_patch_that_carries(const Model& model, const ContactPairState& pair_state,
+                                 Use&& use) {
+  const ContactSides side = sides_of(model, pair_state);
+  const auto& groups = side.triangles.groups;
+  for (const ContactPairState::Patch& entry : pair_state.patches())
+    if (carries(pair_state, entry.triangle, groups))
+      use(nodes_of(side.triangles, side.faces, entry.triangle, entry.face),
+          forces_on_nodes(pair_state, entry, groups));
+}
+
 }  // namespace articular::sim

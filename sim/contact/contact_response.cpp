@@ -212,18 +212,15 @@ void ContactResponse::drop_multipliers() {
 void ContactResponse::add_force(const Configuration& configuration, Eigen::VectorXd& f) {
   force_on_bodies_.assign(model_.bodies.size(), 0);
   for (const ContactPairState* pair_state : near_) {
-    const ContactSides side = sides_of(model_, *pair_state);
-    const auto& groups = side.triangles.groups;
     Vec3 on_triangles = Vec3::Zero();
-    for (const ContactPairState::Patch& entry : pair_state->patches()) {
-      if (!carries(*pair_state, entry.triangle, groups)) continue;
-      const Vec18 forces = forces_on_nodes(*pair_state, entry, groups);
-      const auto nodes = nodes_of(side.triangles, side.faces, entry.triangle, entry.face);
-      for (std::size_t i = 0; i < 6; ++i)
+    const auto add = [&](const auto& nodes, const Vec18& forces) {
+      for (std::size_t i = 0; i < nodes.size(); ++i)
         sim::add_force(configuration, *nodes[i],
                        forces.segment<3>(3 * static_cast<Eigen::Index>(i)), f);
       on_triangles += forces.segment<3>(0) + forces.segment<3>(3) + forces.segment<3>(6);
-    }
+    };
+    for_each_patch_that_carries(model_, *pair_state, add);
+    const ContactSides side = sides_of(model_, *pair_state);
     if (side.is_self()) continue;
     for (const int body : {side.triangle_body, side.face_body})
       force_on_bodies_[static_cast<std::size_t>(body)] += on_triangles.norm();

@@ -15,7 +15,7 @@ namespace articular::sim {
 /// δx = b_x + γ δv for the kinematic rows (rotations: δθ in place of quaternions) and
 /// w = δv + b_x/γ,
 ///   (M + γ D + γ² K) w = M (b_v + b_x/γ) + D b_x + γ ∂f/∂a δa,   δx = γ w.
-/// Gyroscopic and moment terms are left out of the matrix, never out of the residual.
+/// Gyroscopic terms are left out of the matrix, never out of the residual.
 ///
 /// They are solved at the state that `dynamics` evaluated last. A matrix is
 /// kept from one iteration, and from one step, to the next as long as the residual falls fast with

@@ -72,7 +72,8 @@ struct Assembled {
         b(Eigen::VectorXd::Zero(pressures)) {}
 
   /// V (share Ψ_d + p Θ), also of the plain matrix, where it is that of an element.
-  void add_energy(double V, const Jet& part, const std::vector<int>& nodes,
+  /// @param projected  of the same
+  void add_energy(double V, const Jet& part, const Mat9& projected, const std::vector<int>& nodes,
                   const std::vector<Vec3>& gradients) {
     W += V * part.value;
     W_size += V * std::abs(part.value);
@@ -81,7 +82,7 @@ struct Assembled {
       f_size += V * (part.gradient * gradients[a]).norm();
     }
     add_stiffness(V, part.hessian, nodes, gradients, K);
-    add_stiffness(V, positive_part(part.hessian), nodes, gradients, K_projected);
+    add_stiffness(V, projected, nodes, gradients, K_projected);
     for (const Vec3& g : gradients) K_size += kScale * V * part.hessian.norm() * g.squaredNorm();
   }
 
@@ -120,8 +121,11 @@ Assembled point_by_point(const Problem& problem, const SmoothedElasticity& elast
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       F += (x.col(nodes[a]) - x.col(nodes[0])) * gradients[a].transpose();
     }
-    sum.add_energy(domains.volume[k], scaled(1 - share, problem.laws[m].distortion(F, kActivation)),
-                   nodes, gradients);
+    const LawExample& law = problem.laws[m];
+    const Jet part = scaled(1 - share, law.distortion(F, kActivation));
+    sum.add_energy(domains.volume[k], part,
+                   projected_tangent(law, part.hessian, 1 - share, F, kActivation), nodes,
+                   gradients);
   }
   const Tetrahedra& tets = problem.mesh.tets;
   for (Eigen::Index e = 0; e < tets.cols(); ++e) {
@@ -147,10 +151,11 @@ Assembled point_by_point(const Problem& problem, const SmoothedElasticity& elast
       part.gradient += share * distortion.gradient;
       part.hessian += share * distortion.hessian;
     }
-    sum.add_energy(V, part, nodes, gradients);
+    sum.add_energy(V, part, projected_tangent(law, part.hessian, share, F, kActivation), nodes,
+                   gradients);
     Assembled::add_stiffness(V, distortion.hessian, nodes, gradients, sum.K_plain);
-    Assembled::add_stiffness(V, positive_part(distortion.hessian), nodes, gradients,
-                             sum.K_plain_projected);
+    Assembled::add_stiffness(V, projected_tangent(law, distortion.hessian, 1, F, kActivation),
+                             nodes, gradients, sum.K_plain_projected);
     const double kappa = std::min(law.bulk_modulus, 13.0 / 6 * law.shear_modulus);
     const Vec9 theta_gradient = theta.gradient.reshaped();
     Assembled::add_stiffness(V, kappa * theta_gradient * theta_gradient.transpose(), nodes,
