@@ -136,18 +136,18 @@ struct FibreLanes {
   /// Positive semidefinite. An energy W(q) of q = J^(−1/3) λ has the second derivative
   ///   W'' q² ∇s ∇sᵀ + W' q [(1 − n nᵀ) ⊗ a aᵀ/λ² − ∂²ln J/3 + ∇s ∇sᵀ − ∇ln λ ∇ln λᵀ],  s = ln q,
   /// with n along F a. The last two cancel unless the volume changes, and are left out; the part of
-  /// ln J is added to the ground's, and of each of the others the positive part is taken.
+  /// ln J is added to the ground's, whose nearest is taken. W' is not negative: fibres do not push.
   void projected_tangent(const State& s, Tangent81& C) const requires(!kShear) {
     Slopes ground_slopes = ground.slopes(s.ground);
     const Lanes zero{}, inverse_J = 1 / s.ground.i.J;
     Lanes along{}, isochoric_along{}, across{};
     if (s.ground.share != 0) {
-      const Lanes share = s.ground.share * s.density;
+      const Lanes number = s.ground.share * s.density;
       for_each_curve(s, [&](const FibreCurve& curve, Lanes q, bool is_isochoric) {
-        const Lanes pull = share * evaluate(curve.tension, fibres, curve, q) * q;
-        const Lanes stiffness = share * evaluate(curve.stiffness, fibres, curve, q) * q * q;
+        const Lanes pull = number * evaluate(curve.tension, fibres, curve, q) * q;
+        const Lanes stiffness = number * evaluate(curve.stiffness, fibres, curve, q) * q * q;
         (is_isochoric ? isochoric_along : along) += max(zero, stiffness);
-        across += max(zero, pull) / s.I4;
+        across += pull / s.I4;
         if (!is_isochoric) return;
         ground_slopes.J -= (1.0 / 3) * pull * inverse_J;
         ground_slopes.J_J += (1.0 / 3) * pull * inverse_J * inverse_J;

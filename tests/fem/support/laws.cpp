@@ -63,7 +63,7 @@ void add_fibre_part(const Law& fibre, bool isochoric, const Mat3& F, double acti
       turning.block<3, 3>(3 * j, 3 * l) = kFibre[j] * kFibre[l] / (stretch * stretch) * aside;
   part.hessian +=
       (stiffness + pull) * outer(by_q, by_q) + pull * (turning - outer(by_stretch, by_stretch));
-  part.positive += std::max(0.0, stiffness) * outer(by_q, by_q) + std::max(0.0, pull) * turning;
+  part.positive += std::max(0.0, stiffness) * outer(by_q, by_q) + pull * turning;
 }
 
 /// Laws that come with either volumetric energy.
