@@ -101,6 +101,15 @@ struct Assembled {
   }
 };
 
+/// What stands for share times the distortion and a rest of other energies, in a projected tangent.
+/// @param hessian  of both
+Mat9 projected_tangent(const LawExample& law, const Mat9& hessian, double share, const Mat3& F,
+                       double activation) {
+  if (!law.fibre_part || share == 0) return positive_part(hessian);
+  const FibrePart part = law.fibre_part(F, activation);
+  return positive_part(hessian - share * part.hessian) + share * part.positive;
+}
+
 Assembled point_by_point(const Problem& problem, const SmoothedElasticity& elasticity,
                          const Eigen::VectorXd& p) {
   const Positions& x = problem.x;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <ostream>
 
-#include "tests/fem/support/spectrum.hpp"
-
 namespace articular::fem {
 namespace {
 
@@ -111,13 +109,6 @@ void add_isochoric(const std::string& suffix, std::vector<LawExample>& laws) {
 }
 
 }  // namespace
-
-Mat9 projected_tangent(const LawExample& law, const Mat9& hessian, double share, const Mat3& F,
-                       double activation) {
-  if (!law.fibre_part || share == 0) return positive_part(hessian);
-  const FibrePart part = law.fibre_part(F, activation);
-  return positive_part(hessian - share * part.hessian) + share * part.positive;
-}
 
 ToeLinearFibre cruciate_fibre() {
   return ToeLinearFibre({.c3 = 0.0139e6, .c4 = 116.22, .c5 = 535.039e6, .toe_end = 1.046});

@@ -52,11 +52,6 @@ struct LawExample {
   std::function<FibrePart(const Mat3& F, double activation)> fibre_part = {};  // empty: no parts
 };
 
-/// What stands for share times the distortion and a rest of other energies, in a projected tangent.
-/// @param hessian  of both
-Mat9 projected_tangent(const LawExample& law, const Mat9& hessian, double share, const Mat3& F,
-                       double activation);
-
 void PrintTo(const LawExample& example, std::ostream* out);  // found by the test framework
 
 /// Fibred ones have their fibres along kFibre.
