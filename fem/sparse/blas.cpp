@@ -1,7 +1,5 @@
 #include "fem/sparse/blas.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <string_view>
 
@@ -17,33 +15,24 @@ char* openblas_get_corename();
 namespace articular::fem {
 namespace {
 
-/// Kernels as OPENBLAS_CORETYPE says them, each with more instructions than those before it.
-constexpr std::array<const char*, 4> kKernels = {kOldestBlasKernels, "Sandybridge", "Haswell",
-                                                 "SkylakeX"};
-
-/// The newest that the processor can run.
+/// As OPENBLAS_CORETYPE says it; null: the processor has no more than the fallback needs.
 const char* newest_kernels() {
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) {
-    return kKernels[3];
+    return "SkylakeX";
   }
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return kKernels[2];
-  if (__builtin_cpu_supports("avx")) return kKernels[1];
-  return kKernels[0];
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "Haswell";
+  if (__builtin_cpu_supports("avx")) return "Sandybridge";
+  return nullptr;
 }
 
-/// Others than these are of one processor, which OpenBLAS knows well. Zen's are those of Haswell.
-bool is_older(std::string_view kernels, std::string_view than) {
-  const auto of = [](std::string_view name) { return std::ranges::find(kKernels, name); };
-  const auto known = of(kernels == "Zen" ? "Haswell" : kernels);
-  return known != kKernels.end() && known < of(than);
-}
-
-void replace_older() {
+void replace_fallback() {
   if (std::getenv(kBlasKernelsVariable) != nullptr) return;
+  if (openblas_get_corename() != std::string_view(kOldestBlasKernels)) return;
   const char* const kernels = newest_kernels();
-  if (!is_older(openblas_get_corename(), kernels)) return;
-  if (gotoblas_dynamic_quit == nullptr || gotoblas_dynamic_init == nullptr) return;
+  if (kernels == nullptr || gotoblas_dynamic_quit == nullptr || gotoblas_dynamic_init == nullptr) {
+    return;
+  }
   // OpenBLAS reads the variable where it chooses; programs that we start choose for themselves.
   setenv(kBlasKernelsVariable, kernels, 1);
   gotoblas_dynamic_quit();
@@ -55,7 +44,7 @@ void replace_older() {
 
 void set_up_blas() {
   [[maybe_unused]] static const bool is_done = [] {
-    replace_older();
+    replace_fallback();
     openblas_set_num_threads(1);
     return true;
   }();

@@ -13,9 +13,9 @@ inline constexpr const char *kBlasKernelsVariable = "OPENBLAS_CORETYPE",
 /// everywhere.
 ///
 /// Kernels of this processor: an OpenBLAS older than the processor does not know it and falls back
-/// to those of Prescott, of 2004, or to those of Haswell, which multiply matrices at half of the
-/// speed. It then gets those of the newest instructions that both know. What the environment says
-/// (OPENBLAS_CORETYPE) is left as it is.
+/// to those of Prescott, of 2004, which take several times as long. It then gets those of the
+/// newest instructions that both know. What the environment says (OPENBLAS_CORETYPE) is left as it
+/// is.
 void set_up_blas();
 
 }  // namespace articular::fem
