@@ -68,10 +68,12 @@ const Compartment& medial_compartment() {
                                   .horn_angle = 130 * kDeg,
                                   .straight_front = 90 * kDeg,
                                   .straight_back = 92 * kDeg,
-                                  .front_width = 7.96,
-                                  .middle_width = 8.10,
-                                  .back_width = 13.46,
-                                  .rim_height = 5};
+                                  .front_width = 10.5,
+                                  .middle_width = 7.8,
+                                  .back_width = 13.9,
+                                  .front_height = 6.3,
+                                  .middle_height = 5.2,
+                                  .back_height = 6.9};
   return medial;
 }
 
@@ -93,10 +95,12 @@ const Compartment& lateral_compartment() {
                                    .horn_angle = 130 * kDeg,
                                    .straight_front = 93 * kDeg,
                                    .straight_back = 107 * kDeg,
-                                   .front_width = 9,
-                                   .middle_width = 9,
-                                   .back_width = 10,
-                                   .rim_height = 5};
+                                   .front_width = 11.8,
+                                   .middle_width = 8.6,
+                                   .back_width = 12,
+                                   .front_height = 4.8,
+                                   .middle_height = 6.4,
+                                   .back_height = 7};
   return lateral;
 }
 

@@ -30,10 +30,10 @@ struct Compartment {
   double half_width, half_depth, sagittal_curvature, eminence_radius;
   double tibial_thickness;
   // Meniscus: half axes of the outer rim, angle from its middle to the ends of the horns, angles in
-  // front and behind from which on they go straight towards their roots; width in front, in the
-  // middle and behind, height of the rim.
+  // front and behind from which on they go straight towards their roots; width and height of the
+  // rim in front, in the middle and behind.
   double rim_width, rim_depth, horn_angle, straight_front, straight_back;
-  double front_width, middle_width, back_width, rim_height;
+  double front_width, middle_width, back_width, front_height, middle_height, back_height;
 };
 
 const Compartment& medial_compartment();

@@ -10,7 +10,11 @@
 namespace articular::anatomy {
 namespace {
 
-constexpr double kClearance = 0.02;  // beside what chords of elements need
+/// From the condyle and from the plateau. Together less than kJointGap: a knee without load touches
+/// on its menisci first. They are the same for every size of elements, else coarse menisci carry
+/// less. So chords of coarse elements enter the condyle, by hundredths of a millimetre.
+constexpr double kUpperClearance = 0.06, kLowerClearance = 0.03;
+static_assert(kUpperClearance + kLowerClearance < kJointGap);
 /// Horns leave the condyle and the plateau, between which nothing may squeeze them.
 constexpr double kHornRelief = 1, kHornRise = 0.3;
 /// Over kEndWay towards the end of a horn both faces bend to its middle, by this part of what is
@@ -22,8 +26,8 @@ constexpr double kEndWay = 7, kEndThinning = 0.5;
 /// cartilage there. The outer rim: how far its middle stands out, by how much the upper and the
 /// lower face bend towards it. Faces bend over kBendWay.
 constexpr double kEdgeHeight = 0.75, kEdgeRound = 0.3, kEdgeRelief = 0.25;
-constexpr double kRimRound = 1, kRimBend = 0.6, kRimLift = 0.2, kBendWay = 2.5;
-constexpr double kRimBlend = 0.6;  // width over which the upper face gets level
+constexpr double kRimRound = 1, kRimBend = 1, kRimLift = 0.2, kBendWay = 2.5;
+constexpr double kRimBlend = 2;  // width over which the upper face gets level
 
 /// From above.
 struct RimPlace {
@@ -45,11 +49,10 @@ RimPlace rim_place(const Compartment& c, double psi) {
 /// From 0 to 1, level at both ends; t in [0, 1].
 double smooth_step(double t) { return t * t * (3 - 2 * t); }
 
-/// Between the three widths, by the share of front and back.
-double full_width(const Compartment& c, double psi) {
-  const double t = std::min(std::abs(psi) / (90 * kDeg), 1.0);
-  const double blend = smooth_step(t);
-  return c.middle_width + blend * ((psi < 0 ? c.front_width : c.back_width) - c.middle_width);
+/// Between what is published of the front, the middle and the back.
+double along_rim(double psi, double front, double middle, double back) {
+  const double share = smooth_step(std::min(std::abs(psi) / (90 * kDeg), 1.0));
+  return middle + share * ((psi < 0 ? front : back) - middle);
 }
 
 /// 0 along the rim, 1 at the ends of the horns.
@@ -68,19 +71,19 @@ double fade(double distance, double way) {
 /// One section, across the rim.
 class MeniscusSection {
  public:
-  /// @param size  of the elements along the surfaces
-  MeniscusSection(const Compartment& c, double size, double psi)
+  MeniscusSection(const Compartment& c, double psi)
       : c_(c),
         rim_(rim_place(c, psi)),
         horn_(horn_share(c, psi)),
-        end_(fade(rim_.to_end, kEndWay)) {
-    // A chord of length l of a circle of radius R leaves it by l²/8R; of a square's diagonal h²/4R.
-    const double plateau_radius = std::min(1 / std::abs(c.sagittal_curvature), c.eminence_radius);
-    const auto chord = [&](double radius) { return kClearance + size * size / (4 * radius); };
-    upper_ = (1 - horn_) * chord(c.coronal_radius);
-    lower_ = (1 - horn_) * chord(plateau_radius) + horn_ * kHornRise;
+        end_(fade(rim_.to_end, kEndWay)),
+        upper_((1 - horn_) * kUpperClearance),
+        lower_((1 - horn_) * kLowerClearance + horn_ * kHornRise),
+        height_(along_rim(psi, c.front_height, c.middle_height, c.back_height)) {
+    // The horn in front gets narrower towards its root; the one behind leaves no room to be wider.
+    const double front = c.front_width + horn_ * (c.middle_width - c.front_width);
+    width_ = along_rim(psi, front, c.middle_width, c.back_width);
     constexpr double kStep = 0.01;  // as wide as there is room
-    for (width_ = full_width(c, psi); width_ > 1; width_ -= kStep) {
+    for (; width_ > 1; width_ -= kStep) {
       narrow_ = std::min(width_ / c.middle_width, 1.0);
       if (ceiling(plan(0), 0) - floor(plan(0), 0) > kEdgeHeight) break;
     }
@@ -109,7 +112,7 @@ class MeniscusSection {
   }
   double ceiling(const Eigen::Vector2d& p, double along) const {
     const double along_condyle = condyle_height(c_, p.x(), p.y(), upper_) - kHornRelief * horn_;
-    return smooth_min(along_condyle, along_plateau(p) + c_.rim_height, kRimBlend) -
+    return smooth_min(along_condyle, along_plateau(p) + height_, kRimBlend) -
            narrow_ * bend(along, kRimBend);
   }
   /// How far a face has left its cartilage. @param rim  by how much at the outer rim
@@ -121,7 +124,8 @@ class MeniscusSection {
   const Compartment& c_;
   RimPlace rim_;
   double horn_, end_;
-  double upper_ = 0, lower_ = 0;   // clearance of both faces
+  double upper_, lower_;           // clearance of both faces
+  double height_;                  // of the rim, where the condyle leaves room
   double width_ = 0, narrow_ = 1;  // roundings of a narrow section are smaller by this factor
 };
 
@@ -153,14 +157,14 @@ Mesh meniscus(const Compartment& c, const KneeResolution& resolution) {
   const CellGrid grid{even_cells(kLength, h, kLeastCells), even_cells(c.middle_width, h, 4),
                       resolution.layers};
   Mesh mesh = grid.fill([&](double u, double v, double w) -> Vec3 {
-    return MeniscusSection(c, h, u * c.horn_angle).place(v, w);
+    return MeniscusSection(c, u * c.horn_angle).place(v, w);
   });
   mesh.fibres = rim_fibres(mesh, grid);
   return mesh;
 }
 
 Vec3 horn(const Compartment& c, int end) {
-  return MeniscusSection(c, 0, end * c.horn_angle).place(0, 0.5);
+  return MeniscusSection(c, end * c.horn_angle).place(0, 0.5);
 }
 
 }  // namespace articular::anatomy

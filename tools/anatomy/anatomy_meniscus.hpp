@@ -13,8 +13,8 @@ namespace articular::anatomy {
 ///       __.-'               |
 ///      (_________________.-'      lower face: along the plateau
 ///
-/// Both faces have room for the chords of the other's elements. Towards the inner edge they leave
-/// their cartilage little by little, and both edges are round: none digs into cartilage.
+/// The shape does not depend on the resolution. Towards the inner edge both faces leave their
+/// cartilage little by little, and both edges are round: none digs into cartilage.
 Mesh meniscus(const Compartment& c, const KneeResolution& resolution);
 
 /// Middle of a horn's end face. @param end  -1 anterior, 1 posterior

@@ -11,7 +11,7 @@ function(articular_install_files destination)
   endforeach()
 endfunction()
 
-foreach(ending toml csv vtp vtu)
+foreach(ending toml set csv vtp vtu)
   articular_install_files(share/articular scenarios/*.${ending})
 endforeach()
 # Whole, so that links from page to page lead somewhere.

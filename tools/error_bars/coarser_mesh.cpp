@@ -113,7 +113,7 @@ std::pair<double, double> coarsening_of(const std::vector<int>& counts) {
 }
 
 Direction coarser_meshes(const sim::Scenario& scenario, const std::vector<std::string>& overrides,
-                         const fs::path& folder, bool fresh) {
+                         const fs::path& folder, bool fresh, double ratio) {
   Direction mesh{"mesh", 2};
   const VariedMeshes varied = meshes_of(scenario);
   if (!varied.as_they_are.empty())
@@ -125,9 +125,12 @@ Direction coarser_meshes(const sim::Scenario& scenario, const std::vector<std::s
     if (mesh.left_out.empty()) mesh.remark = "the scene has no elements";
     return mesh;
   }
-  mesh.runs = varied.files.empty()
-                  ? runs_by(varied, coarsening_of(judged_counts(varied)), folder, fresh)
-                  : runs_with_files(varied, folder, fresh);
+  if (ratio > 0)
+    mesh.runs = runs_by(varied, {ratio, ratio * ratio}, folder, fresh);
+  else if (varied.files.empty())
+    mesh.runs = runs_by(varied, coarsening_of(judged_counts(varied)), folder, fresh);
+  else
+    mesh.runs = runs_with_files(varied, folder, fresh);
   measure_sizes(scenario, overrides, varied.bodies, mesh.runs);
   if (mesh.runs.empty()) mesh.left_out = "there are no fewer cells to take";
   return mesh;

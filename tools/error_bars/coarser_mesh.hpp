@@ -20,8 +20,9 @@ std::pair<double, double> coarsening_of(const std::vector<int>& counts);
 /// all bodies that are made coarser, if none is tissue), to the power -1/3.
 /// @param folder  where the meshes of commands go
 /// @param fresh   makes them again
+/// @param ratio   of sizes from mesh to mesh; 0 chooses one
 /// @throws StudyInterrupted
 Direction coarser_meshes(const sim::Scenario& scenario, const std::vector<std::string>& overrides,
-                         const std::filesystem::path& folder, bool fresh);
+                         const std::filesystem::path& folder, bool fresh, double ratio = 0);
 
 }  // namespace articular::tools

@@ -122,7 +122,7 @@ std::string measure_error_bars(const sim::Scenario& scenario, const ErrorBarSett
   const bool fresh = open_folder(folder, main.inputs, settings.goes_on);
 
   std::vector<Direction> directions{
-      coarser_meshes(scenario, settings.overrides, folder / "prepared", fresh),
+      coarser_meshes(scenario, settings.overrides, folder / "prepared", fresh, settings.mesh_ratio),
       coarser_steps(scenario), softer_contact(scenario, main.anything_touches),
       looser_iteration(scenario)};
   const std::vector<CoarserRun*> runs = runs_to_do(directions);

@@ -11,6 +11,7 @@ namespace articular::tools {
 struct ErrorBarSettings {
   std::filesystem::path directory;     // of the run's results
   std::vector<std::string> overrides;  // that the run had
+  double mesh_ratio = 0;               // of sizes from mesh to mesh; 0 chooses one
   int threads = 1;                     // in all: coarser runs go side by side
   bool goes_on = false;                // keeps coarser runs of the same inputs that are there
   bool quiet = false;                  // no progress on stderr

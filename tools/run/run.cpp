@@ -34,6 +34,7 @@ struct RunArguments {
   bool reproducible = false;
   std::string target_error, of;
   double budget = 3600;  // [s]
+  double mesh_ratio = 0;
 };
 
 void print(const sim::Model& model, const sim::OverlapResolution& resolution) {
@@ -108,9 +109,9 @@ int run_once(const sim::Scenario& scenario, const RunArguments& arguments,
 int print_error_bars(const sim::Scenario& scenario, const RunArguments& arguments) {
   const std::filesystem::path directory = results_folder(scenario, arguments);
   try {
-    const std::string table = measure_error_bars(
-        scenario,
-        {directory, arguments.overrides, arguments.threads, arguments.resume, arguments.quiet});
+    const std::string table =
+        measure_error_bars(scenario, {directory, arguments.overrides, arguments.mesh_ratio,
+                                      arguments.threads, arguments.resume, arguments.quiet});
     fmt::print("{}\n\n{}", (directory / "error_bars.csv").string(), table);
     return 0;
   } catch (const StudyInterrupted&) {
@@ -233,6 +234,12 @@ void add_run_command(CLI::App& app, int& exit_code) {
       command->add_flag("--error-bars", arguments->error_bars,
                         "Run again coarser in mesh, step, contact and tolerance, and estimate the "
                         "discretisation error of every probe: two to six times the time");
+  command
+      ->add_option("--mesh-ratio", arguments->mesh_ratio,
+                   "Of element sizes from mesh to mesh, for error bars. A small one where coarse "
+                   "meshes find no equilibrium [1.5, or what divides the cells best]")
+      ->check(CLI::Range(1.1, 2.0))
+      ->needs(error_bars);
   add_target_options(*command, *arguments)->excludes(error_bars);
   command->add_flag("--reproducible", arguments->reproducible,
                     "The same bits on every x86-64 processor, by kernels that all have: slower. "

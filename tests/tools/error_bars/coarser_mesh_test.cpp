@@ -28,9 +28,9 @@ std::string box(const std::string& cells, const std::string& center = "0 0 0 mm"
          "' } }";
 }
 
-Direction meshes_of(const TemporaryFolder& folder, const std::string& scene) {
+Direction meshes_of(const TemporaryFolder& folder, const std::string& scene, double ratio = 0) {
   const auto file = folder.file("scene.toml", kHead + scene);
-  return coarser_meshes(sim::read_scenario(file), {}, folder / "prepared", true);
+  return coarser_meshes(sim::read_scenario(file), {}, folder / "prepared", true, ratio);
 }
 
 TEST(MeshCommand, KeepsAllButSizeAndPlace) {
@@ -78,6 +78,12 @@ TEST(CoarserMeshes, OfABoxHaveFewerCells) {
   EXPECT_NEAR(mesh.runs[0].size, 1.5, 1e-12);
   EXPECT_EQ(mesh.runs[1].overrides, Words{"body.\"a b\".geometry.box.cells=[6, 6, 6]"});
   EXPECT_NEAR(mesh.runs[1].size, 2, 1e-12);
+
+  const Direction narrow = meshes_of(folder, tissue("a b", box("[12, 12, 12]")), 1.2);
+  ASSERT_EQ(narrow.runs.size(), 2U);
+  EXPECT_EQ(narrow.runs[0].name, "mesh 1.2 times");
+  EXPECT_NEAR(narrow.runs[0].size, 1.2, 1e-12);
+  EXPECT_NEAR(narrow.runs[1].size, 1.5, 1e-12);  // 8 cells for 8.3
 }
 
 // By the elements that there are: a factor of 4/3 leaves 4 of 5 cells. The ball has no say beside
