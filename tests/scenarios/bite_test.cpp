@@ -92,6 +92,11 @@ ScenarioResults isometric(const std::string& file, std::vector<std::string> more
   return run_scenario("mandible/" + file, more);
 }
 
+// No ligament is taut in these bites, and nothing rubs. What is left is the couple that pressures
+// in different directions make about the middle of their contact: 0.05 % of the whole on the joints
+// of a bite on one side, and hardly anything about the axis.
+constexpr double kOfBite = 1e-4, kOfWhole = 1e-3;
+
 /// The bite's size from moments about the axis through both joints' points, the joints' forces from
 /// moments about each other's point and the balance of forces.
 void expect_levers(const ScenarioResults& results, const std::string& bite_probe) {
@@ -105,11 +110,11 @@ void expect_levers(const ScenarioResults& results, const std::string& bite_probe
   const double lever = (bite.at - joint[0].at).cross(direction).dot(axis);
   const double force = -sum.moment_about(joint[0].at).dot(axis) / lever;
   EXPECT_GT(force, 20);
-  EXPECT_NEAR(bite.force.norm(), force, 0.02 * force);
+  EXPECT_NEAR(bite.force.norm(), force, kOfBite * force);
 
   add(force * direction, bite.at, sum);
   const double whole = sum.force.norm();
-  EXPECT_LT((joint[0].force + joint[1].force + sum.force).norm(), 0.02 * whole);
+  EXPECT_LT((joint[0].force + joint[1].force + sum.force).norm(), kOfBite * whole);
   const Vec3 between = joint[0].at - joint[1].at;
   for (const int side : {0, 1}) {
     // e × R = M for the lever e from the other joint's point; along e moments tell nothing.
@@ -117,7 +122,7 @@ void expect_levers(const ScenarioResults& results, const std::string& bite_probe
     const Vec3 M = -sum.moment_about(joint[static_cast<std::size_t>(1 - side)].at);
     const Vec3 across = M.cross(e) / e.squaredNorm();
     const Vec3 found = joint[static_cast<std::size_t>(side)].force;
-    EXPECT_LT((found - found.dot(axis) * axis - across).norm(), 0.02 * whole);
+    EXPECT_LT((found - found.dot(axis) * axis - across).norm(), kOfWhole * whole);
   }
 }
 
@@ -155,8 +160,9 @@ TEST(JawAtRest, AClenchIsSharedOutOverTheTeethAsInPeople) {
   }
 }
 
-const std::vector<std::string> kIncisors = {"body.bolus.geometry.place.translation=0 -45 45.2 mm",
-                                            "attach.0.region.box.0=-100 -100 47 mm"};
+const std::vector<std::string> kIncisors = {
+    "body.upper_molars.geometry.place.translation=0 -45.47 50.7 mm",
+    "body.bolus.geometry.place.translation=0 -45 45.2 mm", "attach.0.region.box.1=100 100 43.1 mm"};
 
 TEST(JawAtRest, ABiteOnOneMolarFollowsTheRuleOfLevers) {
   expect_levers(isometric("bite.toml"), "bite");
@@ -166,14 +172,14 @@ TEST(JawAtRest, ABiteOfTheIncisorsFollowsTheRuleOfLevers) {
   expect_levers(isometric("bite.toml", kIncisors), "bite");
 }
 
-/// Up to the largest force of all closers, in ten load steps. Levers hardly change on the way, so
-/// that the bite grows as the level does.
+/// Up to the largest force of all closers, in ten load steps. Levers change little on the way, as
+/// discs and periodontal ligaments give way: the bite grows nearly as the level does.
 void expect_full_bite(const std::vector<std::string>& where) {
   const ScenarioResults results = run_scenario("mandible/bite.toml", where);
   EXPECT_EQ(results.summary().at("outcome"), "finished");
   EXPECT_LE(results.count("newton_iterations"), 10 * 10);
   const double half = results.at("bite.force.z [N]", 0.5);
-  EXPECT_NEAR(results.last("bite.force.z [N]"), 2 * half, 0.02 * std::abs(half));
+  EXPECT_NEAR(results.last("bite.force.z [N]"), 2 * half, 0.04 * std::abs(half));
 }
 
 TEST(JawAtRest, FibresHoldTheDiscsInTheHardestBite) {

@@ -5,16 +5,16 @@
 #include <stdexcept>
 #include <string>
 
-#include "tests/scenarios/scenario_results.hpp"
+#include "tests/scenarios/coarse_jaw.hpp"
 
 namespace articular::chewing_test {
 
 constexpr double kCycle = 0.8;  // [s]
 
-/// Two cycles in coarse steps; the second begins on the bolus, as all that follow.
+/// Two cycles with coarse discs and steps; the second begins on the bolus, as all that follow.
 ScenarioResults chew() {
-  return run_scenario("mandible/chewing.toml", {"accuracy=fast", "integrator.step=5 ms",
-                                                "output.interval=50 ms", "duration=1.6 s"});
+  return coarse_jaw("chewing.toml", {"accuracy=fast", "integrator.step=5 ms",
+                                     "output.interval=50 ms", "duration=1.6 s"});
 }
 
 /// Where the incisor is, to the left, at this height on its way down or up in the second cycle.

@@ -4,17 +4,17 @@
 #include <cmath>
 #include <string>
 
-#include "tests/scenarios/scenario_results.hpp"
+#include "tests/scenarios/coarse_jaw.hpp"
 
 namespace articular::excursions_test {
 
 using sim::Vec3;
 
-/// Coarse steps, until the jaw rests at the end of its way.
+/// Coarse discs and steps, until the jaw rests at the end of its way.
 ScenarioResults excursion(const std::string& movement, std::vector<std::string> more = {}) {
   more.insert(more.end(), {"choice.movement=" + movement, "accuracy=fast", "integrator.step=6 ms",
                            "duration=0.96 s"});
-  return run_scenario("mandible/excursions.toml", more);
+  return coarse_jaw("excursions.toml", more);
 }
 
 /// From the start to the end: left, posterior, up [mm].

@@ -5,19 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "tests/scenarios/scenario_results.hpp"
+#include "tests/scenarios/coarse_jaw.hpp"
 
 namespace articular::unloading_test {
 
 constexpr double kRelease = 0.2;  // [s]
 
-/// In coarser steps, and sooner, than in the scenario.
+/// With coarser discs, in coarser steps, and sooner, than in the scenario.
 ScenarioResults bite(const std::string& duration, std::vector<std::string> more = {}) {
   more.insert(more.end(),
               {"accuracy=fast", "integrator.step=2 ms", "output.interval=20 ms",
                R"(load.1.time=["0 s", "0.1 s", "0.2 s", "0.201 s"])",
                R"(curve.closers.time=["0 s", "0.1 s", "0.15 s"])", "duration=" + duration});
-  return run_scenario("mandible/unloading.toml", more);
+  return coarse_jaw("unloading.toml", more);
 }
 
 double travel(const ScenarioResults& results, double time) {
