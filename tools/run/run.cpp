@@ -217,7 +217,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--set", arguments->overrides,
                    "Override a value by its path, e.g. --set duration='0.1 s' "
-                   "--set body.disc_left.material.young_modulus='3 MPa'; @FILE: those in its lines")
+                   "--set body.disc_left.material.c10='1 MPa'; @FILE: those in its lines")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command

@@ -73,7 +73,7 @@ void bind_scenario(py::module_& module) {
 >>> scenario = Scenario("mandible/opening", set={"duration": "0.1 s"})
 >>> scenario.title, scenario.duration
 ('Jaw opening', 0.1)
->>> scenario.set("body.disc_left.material.young_modulus", "3 MPa")
+>>> scenario.set("body.disc_left.material.c10", "1 MPa")
 >>> scenario.set("duratoin", "1 s")
 Traceback (most recent call last):
     ...
