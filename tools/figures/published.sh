@@ -23,10 +23,17 @@ run() {
   "$articular" run "scenarios/$scenario" --out "$out/$name" --overwrite "$@" > /dev/null
 }
 
-# error_bar RUN COLUMN FACTOR: that of a column at the end of a run with error bars, or nothing.
+# error_bar RUN COLUMNS FACTOR: that of columns that are summed, at the end of a run with error bars, or nothing. The bars are
+# added: errors may have the same sign.
 error_bar() {
   [ -f "$1/error_bars.csv" ] || return 0
-  awk -F, -v wanted="$2" -v factor="$3" '{ name = $1; sub(/ \[.*/, "", name) } name == wanted && $2 == "end" && $4 + 0 > 0 { printf " ± %.2g", factor * $4 }' "$1/error_bars.csv"
+  awk -F, -v columns="$2" -v factor="$3" '
+    { name = $1; sub(/ \[.*/, "", name); if ($2 == "end") bar[name] = $4 }
+    END {
+      count = split(columns, wanted, " ")
+      for (k = 1; k <= count; ++k) { if (bar[wanted[k]] == "") exit; sum += factor * bar[wanted[k]] }
+      if (sum > 0) printf sum < 100 ? " ± %.2g" : " ± %.0f", sum
+    }' "$1/error_bars.csv"
 }
 
 # verdict VALUE PUBLISHED SPREAD
