@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "sim/contact/contact_area.hpp"
 #include "sim/contact/contact_pressure.hpp"
 
 namespace articular::sim {
@@ -65,18 +66,24 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
   CountedLoad& on_triangles = contact.reversed ? sums.on_b : sums.on_a;
   CountedLoad& on_faces = contact.reversed || is_self ? sums.on_a : sums.on_b;
   const auto& groups = side.triangles.groups;
+  const bool averaged = !(pair_state.point_stiffness > 0);
+  Eigen::VectorXd phi;
+  if (averaged) phi = signed_pressures(model, pair_state);
   for (const ContactPairState::Patch& entry : pair_state.patches()) {
     add_load(side, pair_state, share, entry, on_triangles.all, on_faces.all);
     if (!carries(pair_state, entry.triangle, groups) || !counts(entry)) continue;
     const Mat3 x = corners_of(configuration, side.triangles, entry.triangle);
+    if (averaged)
+      sum.area += share * area_that_carries(entry.patch, phi(groups.col(entry.triangle)));
     const Vec3 area = nodal_areas(entry.patch);
     for (int i = 0; i < 3; ++i) {
       const int group = groups(i, entry.triangle);
       if (!(pair_state.pressure[group] > 0)) continue;
       if (!(area[i] > 0)) continue;
-      sum.area += area[i] * share;
-      if (!(pair_state.point_stiffness > 0))  // of the group's energy its part by area
+      if (averaged)  // of the group's energy its part by area
         sum.energy += group_energy(pair_state, group) * area[i] / pair_state.area[group];
+      else
+        sum.area += area[i] * share;
       if (pair_state.depth[group] > sum.max_depth) {
         sum.max_depth = pair_state.depth[group];
         sum.deepest = x.col(i);
@@ -144,8 +151,8 @@ ContactSummary finished(const Model& model, SummarySums sums) {
   };
   const int num_resolved = std::max(add_pressures(sums.on_a, collider(pair.a), sum),
                                     add_pressures(sums.on_b, collider(pair.b), sum));
-  sum.is_resolved =
-      !(sum.normal_force > 0) || (num_resolved >= kResolvedNodes && sum.max_face_pressure > 0);
+  sum.is_resolved = !(sum.normal_force > 0) ||
+                    (num_resolved >= kResolvedNodes && sum.max_face_pressure > 0 && sum.area > 0);
   return sum;
 }
 

@@ -15,7 +15,7 @@ struct ContactSummary {
   Vec3 moment = Vec3::Zero();  // about that centre [N m]
   /// Where that centre is on either body, in the geometry at the start [m].
   Vec3 center_on_a = Vec3::Zero(), center_on_b = Vec3::Zero();
-  double area = 0;          // [m²] rest area of the nodes that carry
+  double area = 0;          // [m²] rest area of what carries, see contact_area.hpp
   double normal_force = 0;  // ∫ p dA over it [N]
   double max_pressure = 0;  // [Pa] around a node of either body, see contact_pressure.hpp
   /// [Pa] normal force through a face, of either body, by its area: of faces without blank corners

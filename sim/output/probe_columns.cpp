@@ -219,7 +219,7 @@ ContactSummary measure(const ObservedContact& observed, const Now& now) {
 }
 
 std::optional<Vec3> where_it_carries(const ContactSummary& sum, const Vec3& x) {
-  return sum.area > 0 ? std::optional(x) : std::nullopt;
+  return sum.normal_force > 0 ? std::optional(x) : std::nullopt;
 }
 
 // Shares read a force from the first three columns.
