@@ -12,6 +12,7 @@
 #include "sim/build/build_model.hpp"
 #include "sim/contact/contact_summary.hpp"
 #include "tests/sim/support/contact_scene.hpp"
+#include "tests/sim/support/probes.hpp"
 
 namespace articular::sim::contact_area_test {
 
@@ -125,6 +126,40 @@ TEST(ContactArea, APullAsOnAPunchAndItsLayerClosesTheGap) {
   }
   EXPECT_EQ(num_there, 7 * 7);
   EXPECT_EQ(bed.area(), 0);
+}
+
+// A rigid paraboloid on a block of tissue, in equilibrium [Hertz 1882]: a² = Rδ, and 2 % more of a
+// by the block's depth of 12 a. Cells are 0.2 a in the middle and 0.5 a where contact ends.
+TEST(ContactArea, OfATissueUnderABallIsThatOfHertz) {
+  constexpr double kRadius = 2, kContact = 0.1, kYoung = 1e6, kPoisson = 0.3;  // R, a [m]
+  constexpr double kHalf = 12 * kContact, kStretch = 4;
+  const auto graded = [](double part) {  // from the middle on, of ±1
+    return kHalf * std::sinh(kStretch * part) / std::sinh(kStretch);
+  };
+  const MeshData block = bent({{2, 2, 1}, {16, 16, 10}, {0, 0, -0.5}}, [&](const Vec3& X) {
+    return Vec3(graded(X.x()), graded(X.y()), graded(X.z()));
+  });
+  const MeshData ball = bent({{1, 1, 0.1}, {48, 48, 1}, {0, 0, 0.05}}, [&](Vec3 X) {
+    X.z() += X.head<2>().squaredNorm() / (2 * kRadius);
+    return X;
+  });
+  const TemporaryFolder folder;
+  Scenario s = scene(1);
+  s.analysis = Scenario::Analysis::Static;
+  s.contact = true;
+  s.integrator.position_tolerance.reset();
+  s.duration = 1;
+  s.bodies = {mesh_body("block", Body::Kind::Tissue, block, folder),
+              mesh_body("ball", Body::Kind::Fixed, ball, folder), stand("floor")};
+  s.bodies[0].material = neo_hookean(kYoung, kPoisson);
+  s.attachments = {attach("block", "floor", {-9, -9, -1.01 * kHalf}, {9, 9, -0.99 * kHalf})};
+  s.loads = {shift("ball", 1, {0, 0, -kContact * kContact / kRadius})};
+  s.probes = {{"hertz", ContactProbe{"ball", "block"}}};
+  Simulation run(s);
+  run.advance(1);
+  const Probes probes(run);
+  const double a = std::sqrt(1e-6 * probes("hertz.area [mm^2]") / pi);
+  EXPECT_NEAR(a, 1.02 * kContact, 0.05 * kContact);
 }
 
 TEST(ContactArea, OfAMirrorImageIsTheSame) {
