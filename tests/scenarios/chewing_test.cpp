@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -50,6 +51,51 @@ TEST(JawChewing, TheCycleSwingsToTheSideOfTheBolusWhileTheMouthCloses) {
   }
   EXPECT_GT(results.at("condyle_left.position.y [mm]", kCycle + 0.38),
             results.at("condyle_right.position.y [mm]", kCycle + 0.38) + 2);
+}
+
+/// On a piece of carrot, bone on bone, on the left or on the right.
+ScenarioResults chew_carrot(const std::string& duration, bool on_the_right) {
+  sim::Scenario scenario =
+      shipped_scenario("mandible/chewing.toml",
+                       {"choice.bolus=carrot", "choice.disc=none", "accuracy=fast",
+                        "integrator.step=5 ms", "output.interval=50 ms", "duration=" + duration});
+  if (!on_the_right) return run_scenario(scenario);
+  for (sim::Anchor& anchor : scenario.boluses.at(0).path) anchor.point.x() *= -1;
+  std::map<std::string, sim::Curve> excitations;
+  for (const sim::Muscle& muscle : scenario.muscles) excitations[muscle.name] = muscle.excitation;
+  for (sim::Muscle& muscle : scenario.muscles)
+    muscle.excitation = excitations.at((muscle.name[0] == 'l' ? 'r' : 'l') + muscle.name.substr(1));
+  return run_scenario(scenario);
+}
+
+TEST(JawChewing, ACarrotBreaksStaysCrushedAndIsCrushedFurtherByTheNextChew) {
+  const ScenarioResults results = chew_carrot("1.6 s", false);
+  EXPECT_EQ(results.summary().at("outcome"), "finished");
+  const auto& time = results.column("time [s]");
+  const auto& depth = results.column("bite.depth [mm]");
+  const auto& force = results.column("bite.force [N]");
+  double at_rupture = 0;
+  for (std::size_t i = 0; i < time.size(); ++i)
+    if (time[i] < kCycle && depth[i] > 0.5 && depth[i] < 2.5)
+      at_rupture = std::max(at_rupture, force[i]);
+  EXPECT_GT(at_rupture, 40);
+  EXPECT_LE(at_rupture, 66);
+  EXPECT_GT(results.largest("bite.force [N]"), 80);
+  EXPECT_GT(results.last("bite.deepest [mm]"), results.at("bite.deepest [mm]", kCycle) + 0.3);
+  EXPECT_LT(results.last("bite.deepest [mm]"), 8);
+  EXPECT_NEAR(results.at("bite.strength [-]", kCycle + 0.2), 0.7, 1e-12);
+  EXPECT_GT(results.last("energy.bolus_loss [J]"), results.at("energy.bolus_loss [J]", kCycle));
+}
+
+TEST(JawChewing, AChewOnTheRightIsTheMirrorImage) {
+  const ScenarioResults left = chew_carrot("0.8 s", false), right = chew_carrot("0.8 s", true);
+  for (const char* axis : {"x", "y", "z"}) {
+    const std::string column = std::string("incisor.position.") + axis + " [mm]";
+    const double sign = axis[0] == 'x' ? -1 : 1;
+    for (std::size_t i = 0; i < left.column(column).size(); ++i)
+      ASSERT_NEAR(left.column(column)[i], sign * right.column(column).at(i), 1e-6) << column;
+  }
+  EXPECT_NEAR(left.last("bite.deepest [mm]"), right.last("bite.deepest [mm]"), 1e-6);
 }
 
 }  // namespace articular::chewing_test
