@@ -114,11 +114,25 @@ void Stepper::look_at(const State& state, const Eigen::VectorXd& y) {
 bool Stepper::follow(const State& state, const Eigen::MatrixXd& excitation,
                      StateResponse& response) {
   if (!response_) response_ = std::make_unique<ResponseSolver>(model_, *dynamics_);
+  dynamics_->set_boluses(about_to_be_crushed(state));
   const bool followed =
       model_.is_static ? response_->follow_equilibrium(state.y, state.t, excitation, response)
                        : response_->follow_step(state.y, t_before_, state.t, excitation, response);
   look_at(state, state.y);
   return followed;
+}
+
+/// Food that is as deep as ever has a slope for crushing and another one for letting go. Here it
+/// has that of crushing near by, too, with the same force.
+std::vector<BolusState> Stepper::about_to_be_crushed(const State& state) const {
+  constexpr double kNear = 1e-6, kBack = 0.01;  // of the depth
+  std::vector<BolusState> boluses = state.boluses;
+  for (std::size_t b = 0; b < boluses.size(); ++b) {
+    const auto line = static_cast<std::size_t>(model_.boluses[b].line);
+    const double depth = boluses[b].height - dynamics_->now().lines[line].length;
+    if (depth > (1 - kNear) * boluses[b].deepest) boluses[b].deepest = (1 - kBack) * depth;
+  }
+  return boluses;
 }
 
 void Stepper::restart(const State& state) {
@@ -190,6 +204,7 @@ SolverCounts Stepper::solver_counts() const {
 }
 
 void Stepper::remember_start(const State& state) {
+  dynamics_->set_boluses(state.boluses);
   lines_before_ = dynamics_->now().lines;
   forces_before_ = dynamics_->now().forces;
   touched_before_ = dynamics_->now().contact.force_on_bodies();
@@ -224,7 +239,6 @@ bool Stepper::try_step(State& state, double h) {
   account(state);
   keep_wraps(dynamics_->now().paths, state.wraps);
   dynamics_->set_wraps(state.wraps);
-  dynamics_->set_boluses(state.boluses);
   return true;
 }
 
