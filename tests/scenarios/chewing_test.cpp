@@ -2,11 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "tests/scenarios/coarse_jaw.hpp"
+#include "tests/tools/support/program.hpp"
 
 namespace articular::chewing_test {
 
@@ -96,6 +100,50 @@ TEST(JawChewing, AChewOnTheRightIsTheMirrorImage) {
       ASSERT_NEAR(left.column(column)[i], sign * right.column(column).at(i), 1e-6) << column;
   }
   EXPECT_NEAR(left.last("bite.deepest [mm]"), right.last("bite.deepest [mm]"), 1e-6);
+}
+
+/// The columns of a table of numbers.
+std::map<std::string, std::vector<double>> columns(const std::filesystem::path& file) {
+  std::istringstream lines(content(file));
+  std::string line, cell;
+  std::vector<std::string> names;
+  std::getline(lines, line);
+  for (std::istringstream row(line); std::getline(row, cell, ',');) names.push_back(cell);
+  std::map<std::string, std::vector<double>> table;
+  while (std::getline(lines, line)) {
+    std::size_t c = 0;
+    for (std::istringstream row(line); std::getline(row, cell, ',');)
+      table[names[c++]].push_back(std::stod(cell));
+  }
+  return table;
+}
+
+// The beginning of chewing-track.toml, with few trials: the way is straight so far, and nobody told
+// who opens a jaw.
+TEST(JawChewing, AChewThatIsFoundBeginsWithOpenersThatPullAlike) {
+  const TemporaryFolder folder;
+  const std::string scenarios = ARTICULAR_SOURCE_DIR "/scenarios/mandible/";
+  std::string text = content(scenarios + "chewing-track.toml");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("chewing.toml", scenarios + "chewing.toml");
+  replace("duration = \"0.8 s\"", "duration = \"0.15 s\"");
+  folder.file("chew.toml", text);
+  const ProgramResult result = run_program(folder, "track chew.toml --iterations 2 --quiet");
+  EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 3) << result.err;
+  const auto found = columns(folder.path() / "out/chew/excitations.csv");
+  ASSERT_EQ(found.at("time [s]").size(), 4U);
+  for (const char* muscle : {"ip", "ad", "pm", "sm", "at"})
+    EXPECT_NEAR(found.at(std::string("l") + muscle)[2], found.at(std::string("r") + muscle)[2],
+                1e-3);
+  EXPECT_GT(found.at("lpm")[2] + found.at("lad")[2], 0.05);
+  EXPECT_LT(found.at("lsm")[2] + found.at("lat")[2], 0.01);
+  const ProgramResult run =
+      run_program(folder, "run '" + scenarios + "chewing.toml' --set @out/chew/excitations.txt" +
+                              " --set duration='0.15 s' --out chew --quiet");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NEAR(ScenarioResults(folder.path() / "chew").last("incisor.position.z [mm]"), 36.79, 0.6);
 }
 
 }  // namespace articular::chewing_test
