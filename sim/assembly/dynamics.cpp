@@ -200,6 +200,8 @@ void Dynamics::add_loads() {
 
 void Dynamics::set_wraps(const WrapHistory& wraps) { wraps_ = wraps; }
 
+void Dynamics::set_boluses(const std::vector<BolusState>& boluses) { boluses_ = boluses; }
+
 void Dynamics::find_paths() {
   moment_.paths.resize(model_.lines.size());
   const std::span<const std::vector<EdgeCrossing>> history(wraps_);
@@ -217,7 +219,7 @@ void Dynamics::add_lines() {
   for (std::size_t l = 0; l < model_.lines.size(); ++l) {
     ++evaluations_[model_.lines[l].muscle >= 0 ? Term::LineMuscle : Term::Ligament];
     const std::span<const WeightedPoint> path = path_of(moment_, l);
-    moment_.lines[l] = line_state(model_, model_.lines[l], path, moment_.configuration);
+    moment_.lines[l] = line_state(model_, model_.lines[l], path, moment_.configuration, boluses_);
     // No path was found: the step is to be shorter.
     if (!moment_.paths[l].found)
       moment_.lines[l].tension = std::numeric_limits<double>::quiet_NaN();

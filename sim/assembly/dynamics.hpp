@@ -53,6 +53,9 @@ class Dynamics {
   /// Where the paths of lines that wrap are pulled from, in all that is evaluated from now on.
   void set_wraps(const WrapHistory& wraps);
 
+  /// How far food is crushed, in all that is evaluated from now on.
+  void set_boluses(const std::vector<BolusState>& boluses);
+
   /// Reads the state y at t and computes all forces there.
   const Moment& evaluate(const double* y, double t, const Conditions& conditions = {});
   /// Of the last evaluate().
@@ -104,6 +107,7 @@ class Dynamics {
   Moment moment_;
   std::span<const CandidateList> candidates_;
   WrapHistory wraps_;
+  std::vector<BolusState> boluses_;
   Positions v_;  // at the nodes of a tissue
   /// What the matrix was assembled for, as long as nothing has changed since.
   std::optional<std::pair<SystemScale, fem::Tangent>> assembled_;

@@ -415,6 +415,19 @@ class Builder {
     model_.lines.push_back(std::move(line));
   }
 
+  void make_bolus(const Bolus& bolus) {
+    Line line = make_line(bolus.name, bolus.path, {}, bolus.where);
+    line.bolus = static_cast<int>(model_.boluses.size());
+    if (!(bolus.from > 0) && bolus.height.value_or(0) > line.start_length)
+      throw InputError(bolus.where,
+                       fmt::format("bolus `{}` is {:.4g} mm high, but there are {:.4g} "
+                                   "mm between its points at the start: a time `from` "
+                                   "puts it in later",
+                                   bolus.name, 1e3 * *bolus.height, 1e3 * line.start_length));
+    model_.boluses.push_back({bolus, static_cast<int>(model_.lines.size())});
+    model_.lines.push_back(std::move(line));
+  }
+
   void make_lines() {
     Mistakes mistakes;
     for (const Muscle& muscle : scenario_.muscles)
@@ -426,6 +439,7 @@ class Builder {
       });
     for (const Ligament& ligament : scenario_.ligaments)
       mistakes.in([&] { make_ligament(ligament); });
+    for (const Bolus& bolus : scenario_.boluses) mistakes.in([&] { make_bolus(bolus); });
     mistakes.tell();
   }
 

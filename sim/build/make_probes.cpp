@@ -100,6 +100,7 @@ struct Resolver {
     const int index = line_called(named.line);
     const Line& line = model.lines[static_cast<std::size_t>(index)];
     if (line.muscle >= 0) return ObservedMuscle{index, line.muscle};
+    if (line.bolus >= 0) return ObservedBolus{index, line.bolus};
     return ObservedLigament{index, line.ligament};
   }
 

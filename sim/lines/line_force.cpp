@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/lines/bolus_law.hpp"
 #include "sim/lines/ligament_law.hpp"
 #include "sim/lines/muscle_law.hpp"
 #include "sim/scenario/curve.hpp"
@@ -52,6 +53,15 @@ void ligament_tension(const LigamentModel& ligament, LineState& s) {
   s.tension = elastic.value + s.damping;
 }
 
+void bolus_tension(const Bolus& bolus, const BolusState& state, LineState& s) {
+  if (!(state.height > 0)) return;
+  const double depth = state.height - s.length;
+  const ValueSlope push = bolus_force(bolus, state, depth);
+  s.tension = -push.value;
+  s.stored = bolus_energy(bolus, state, depth);
+  s.stiffness = std::max(0.0, push.slope);
+}
+
 }  // namespace
 
 Segment segment(std::span<const WeightedPoint> path, std::size_t i,
@@ -62,7 +72,7 @@ Segment segment(std::span<const WeightedPoint> path, std::size_t i,
 }
 
 LineState line_state(const Model& model, const Line& line, std::span<const WeightedPoint> path,
-                     const Configuration& configuration) {
+                     const Configuration& configuration, std::span<const BolusState> boluses) {
   LineState s;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const Segment part = segment(path, i, configuration);
@@ -76,8 +86,12 @@ LineState line_state(const Model& model, const Line& line, std::span<const Weigh
     // In statics time only orders the loads.
     const double rate = model.is_static ? 0 : slope_at(muscle.given.beyond, configuration.t);
     muscle_tension(muscle, configuration.activation[line.muscle], rate, s);
-  } else
+  } else if (line.ligament >= 0) {
     ligament_tension(model.ligaments[static_cast<std::size_t>(line.ligament)], s);
+  } else if (!boluses.empty()) {
+    const auto b = static_cast<std::size_t>(line.bolus);
+    bolus_tension(model.boluses[b].given, boluses[b], s);
+  }
   return s;
 }
 

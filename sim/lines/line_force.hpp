@@ -3,6 +3,7 @@
 #include <span>
 
 #include "sim/model/configuration.hpp"
+#include "sim/model/state.hpp"
 #include "sim/model/system_matrix.hpp"
 
 /// Muscles and ligaments as lines through points: one tension along the whole path.
@@ -32,7 +33,7 @@ void for_each_pull(std::span<const WeightedPoint> path, const Configuration& con
 struct LineState {
   double length = 0, rate = 0;  // of the path [m], [m/s]
   double beyond = 0;            // [m] of a muscle's tendon past the end of the path
-  double tension = 0;           // [N]
+  double tension = 0;           // [N]; food pushes: less than 0
   double active = 0;     // [N] part of it that does the muscle's work; the rest is stored or damped
   double damping = 0;    // [N] part of it that a ligament's damper makes
   double stored = 0;     // [J] passive muscle or ligament energy
@@ -42,8 +43,9 @@ struct LineState {
 };
 
 /// @param path  its points now: those of Line::path, and of a line that wraps those between them
+/// @param boluses  of the model; where there are none, no food pushes
 LineState line_state(const Model& model, const Line& line, std::span<const WeightedPoint> path,
-                     const Configuration& configuration);
+                     const Configuration& configuration, std::span<const BolusState> boluses = {});
 
 /// f += a line's pull on its points.
 void add_line_force(std::span<const WeightedPoint> path, const Configuration& configuration,

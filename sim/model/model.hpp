@@ -163,6 +163,7 @@ struct Line {
   double start_length = 0;  // [m]
   int muscle = -1;          // index into Model::muscles
   int ligament = -1;        // index into Model::ligaments
+  int bolus = -1;           // index into Model::boluses
   LineWrap wrap = {};       // empty: straight from point to point
 };
 
@@ -175,6 +176,11 @@ struct MuscleModel {
 struct LigamentModel {
   Ligament given;
   double slack_length = 0;  // [m]
+  int line = 0;
+};
+
+struct BolusModel {
+  Bolus given;
   int line = 0;
 };
 
@@ -263,6 +269,11 @@ struct ObservedLigament {
   int ligament = 0;  // index into Model::ligaments
 };
 
+struct ObservedBolus {
+  int line = 0;   // index into Model::lines
+  int bolus = 0;  // index into Model::boluses
+};
+
 struct ObservedMomentArm {
   int line = 0;  // index into Model::lines
   BodyAxis axis;
@@ -318,7 +329,7 @@ struct ObservedJoint {
 
 using Observed =
     std::variant<ObservedPoint, ObservedWay, ObservedAngle, ObservedHelicalAxis, ObservedContact,
-                 ObservedContacts, ObservedMuscle, ObservedFibres, ObservedLigament,
+                 ObservedContacts, ObservedMuscle, ObservedFibres, ObservedLigament, ObservedBolus,
                  ObservedMomentArm, ObservedMuscleMoment, ObservedWrap, ObservedEnergy,
                  ObservedReaction, ObservedSupport, ObservedAttachment, ObservedStretch,
                  ObservedStress, ObservedExtent, ObservedShare, ObservedJoint>;
@@ -356,6 +367,7 @@ struct Model {
   std::vector<Line> lines;
   std::vector<MuscleModel> muscles;
   std::vector<LigamentModel> ligaments;
+  std::vector<BolusModel> boluses;
   std::vector<ForceModel> forces;
   std::vector<MomentModel> moments;
   std::vector<SurfaceLoadModel> surface_loads;

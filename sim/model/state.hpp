@@ -17,6 +17,7 @@ struct EnergyLedger {
   double load_work = 0;      // by forces and moments of the scenario (gravity is a stored energy)
   double motion_work = 0;    // by what drives prescribed motions
   double ligament_loss = 0;  // in ligaments' dampers
+  double bolus_loss = 0;     // by food that is crushed
   double tissue_loss = 0;    // in tissues' dampers
   double contact_loss = 0;   // by friction and dampers in contact
   double settling_loss = 0;  // against pseudo-time damping of a static analysis
@@ -89,6 +90,14 @@ struct Way {
   double length = 0;           // of all steps [m]
 };
 
+/// Of food: see sim/lines/bolus_law.hpp.
+struct BolusState {
+  double height = 0;    // [m] before it was crushed; 0: it is not there yet
+  double deepest = 0;   // [m] so far
+  double let_go = 0;    // [m] the deepest when it was let go last
+  double strength = 1;  // share of Bolus::force that is left
+};
+
 /// All that changes: a copy of it at a checkpoint is a restart point.
 struct State {
   double t = 0;                // [s]
@@ -98,6 +107,7 @@ struct State {
   double max_penetration = 0;  // [m] largest so far
   int frames = 0;              // written
   WrapHistory wraps;
+  std::vector<BolusState> boluses;
   std::vector<Way> ways;  // see ObservedWay
   EnergyLedger energy;
   Counts counts;

@@ -13,7 +13,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 13\n";
+constexpr char kMagic[] = "articular checkpoint 14\n";
 
 constexpr const char *kNewest = "state.bin", *kBefore = "previous.bin";
 
@@ -147,6 +147,9 @@ Checkpoint parsed(const std::string& bytes, const std::string& fingerprint,
     for (std::size_t i = 0; i < num_crossings; ++i)
       each_of_crossing(string.emplace_back(), get_member);
   }
+  std::size_t num_boluses = 0;
+  reader.get(num_boluses);
+  for (std::size_t k = 0; k < num_boluses; ++k) reader.get(checkpoint.state.boluses.emplace_back());
   std::size_t num_ways = 0;
   reader.get(num_ways);
   for (std::size_t k = 0; k < num_ways; ++k) reader.get(checkpoint.state.ways.emplace_back());
@@ -170,6 +173,8 @@ void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& che
     put(string.size(), bytes);
     for (const EdgeCrossing& crossing : string) each_of_crossing(crossing, put_member);
   }
+  put(checkpoint.state.boluses.size(), bytes);
+  for (const BolusState& bolus : checkpoint.state.boluses) put(bolus, bytes);
   put(checkpoint.state.ways.size(), bytes);
   for (const Way& way : checkpoint.state.ways) put(way, bytes);
   put(hash_bytes(bytes), bytes);

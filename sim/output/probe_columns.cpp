@@ -339,6 +339,27 @@ void list(const LigamentReading& ligament, Columns& columns) {
   columns.number("strain", "-", ligament.strain);
 }
 
+struct BolusReading {
+  double force = 0;    // [N] with which it pushes
+  double depth = 0;    // [m] by which it is pressed together now
+  double deepest = 0;  // [m] so far
+  double strength = 1;
+};
+
+BolusReading measure(const ObservedBolus& bolus, const Now& now) {
+  const LineState& line = now.line(bolus.line);
+  const BolusState& state = now.state.boluses[static_cast<std::size_t>(bolus.bolus)];
+  if (!(state.height > 0)) return {};
+  return {std::abs(line.tension), state.height - line.length, state.deepest, state.strength};
+}
+
+void list(const BolusReading& bolus, Columns& columns) {
+  columns.number("force", "N", bolus.force);
+  columns.length("depth", bolus.depth);
+  columns.length("deepest", bolus.deepest);
+  columns.number("strength", "-", bolus.strength);
+}
+
 struct MomentArm {
   double arm = 0;  // [m]
 };
@@ -418,6 +439,7 @@ void list(const Energies& energies, Columns& columns) {
   columns.number("load_work", "J", ledger.load_work);
   columns.number("motion_work", "J", ledger.motion_work);
   columns.number("ligament_loss", "J", ledger.ligament_loss);
+  columns.number("bolus_loss", "J", ledger.bolus_loss);
   columns.number("tissue_loss", "J", ledger.tissue_loss);
   columns.number("contact_loss", "J", ledger.contact_loss);
   columns.number("settling_loss", "J", ledger.settling_loss);

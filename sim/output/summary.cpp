@@ -28,6 +28,7 @@ Json sizes(const Model& model) {
           {"unknown_velocities", 3 * model.layout.num_unknown_blocks()},
           {"muscles", model.muscles.size()},
           {"ligaments", model.ligaments.size()},
+          {"boluses", model.boluses.size()},
           {"contact_pairs", model.contacts.size()}};
 }
 
@@ -94,6 +95,7 @@ Json energy(const State& state, const StoredEnergy& now) {
           {"load_work", l.load_work},
           {"motion_work", l.motion_work},
           {"ligament_loss", l.ligament_loss},
+          {"bolus_loss", l.bolus_loss},
           {"tissue_loss", l.tissue_loss},
           {"contact_loss", l.contact_loss},
           {"settling_loss", l.settling_loss},

@@ -119,6 +119,7 @@ const KeyTable& scenario_keys() {
     add("excitations", {form::Table{excitations_keys}},
         "excitations of muscles from a table, in place of their own");
     add("ligament", {conditional_entries_of({form::Table{ligament_keys}})}, "ligaments");
+    add("bolus", {conditional_entries_of({form::Table{bolus_keys}})}, "food that is crushed");
     add("load", {conditional_entries_of({form::VariantTable{load_variants}})},
         "what acts from outside");
     table.keys.push_back(
@@ -168,6 +169,9 @@ Scenario read_scenario(const std::filesystem::path& file,
     replace_excitations(document.find("excitations"), context, scenario.muscles);
   });
   on_bodies.in([&] { scenario.ligaments = read_ligaments(document, context, scenario.muscles); });
+  on_bodies.in([&] {
+    scenario.boluses = read_boluses(document, context, scenario.muscles, scenario.ligaments);
+  });
   on_bodies.in([&] { scenario.loads = read_loads(document, context, scenario.supports); });
   on_bodies.in([&] { read_contacts(document, context, scenario); });
   on_bodies.tell();

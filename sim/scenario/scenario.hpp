@@ -259,6 +259,18 @@ struct Ligament {
   Location where;
 };
 
+/// Food between two points that pushes them apart as it is crushed: see sim/lines/bolus_law.hpp.
+struct Bolus {
+  std::string name;
+  std::vector<Anchor> path;        // from the upper teeth to the lower ones; 2
+  double from = 0;                 // [s] when it is put in
+  std::optional<double> height;    // [m]; default: what is between the points then
+  Curve force;                     // [N], over a depth [m] in place of a time, from 0 on
+  double unloading_stiffness = 0;  // [N/m], no slope of `force` is larger
+  double force_kept = 1;           // share of `force` that is left each time it was let go
+  Location where;
+};
+
 struct GravityLoad {
   Vec3 acceleration = Vec3::Zero();  // [m/s^2]
   Location where;
@@ -493,6 +505,7 @@ struct Scenario {
   std::vector<Support> supports;
   std::vector<Muscle> muscles;
   std::vector<Ligament> ligaments;
+  std::vector<Bolus> boluses;
   std::vector<Load> loads;
   bool contact = true;  // `contact = false`: nothing touches
   /// Of a dynamic analysis: depths count point by point, or as averages at nodes, which is what a

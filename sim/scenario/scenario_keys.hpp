@@ -17,6 +17,7 @@ const KeyTable& muscle_keys();
 const KeyTable& muscle_table_keys();
 const KeyTable& excitations_keys();
 const KeyTable& ligament_keys();
+const KeyTable& bolus_keys();
 const KeyTable& contact_keys();
 const form::Variants& load_variants();
 const form::Variants& probe_variants();

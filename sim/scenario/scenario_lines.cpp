@@ -1,8 +1,10 @@
 // Muscles and ligaments: what pulls along a path of points.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <functional>
 #include <optional>
 
+#include "sim/scenario/curve.hpp"
 #include "sim/scenario/data_path.hpp"
 #include "sim/scenario/muscle_table.hpp"
 #include "sim/scenario/scenario_keys.hpp"
@@ -357,6 +359,61 @@ void append_ligaments(const Node& node, const Context& context, const std::vecto
   }
 }
 
+/// `depth` and `force` of a bolus.
+Curve read_crushing(const TableReader& table) {
+  Curve crushing;
+  const Node &depth = table.at("depth"), &force = table.at("force");
+  for (const Node& element : read_list(depth, "a list of lengths such as [\"0 mm\", \"2 mm\"]"))
+    crushing.time.push_back(read_quantity(element, kLength, kNotNegative));
+  for (const Node& element : read_list(force, "a list of forces such as [\"0 N\", \"100 N\"]"))
+    crushing.value.push_back(read_quantity(element, kForce, kNotNegative));
+  if (crushing.time.size() < 2 || std::adjacent_find(crushing.time.begin(), crushing.time.end(),
+                                                     std::greater_equal<>()) != crushing.time.end())
+    fail(depth, "expected two or more depths, each larger than the one before");
+  if (crushing.value.size() != crushing.time.size())
+    fail(force, fmt::format("expected as many forces as depths ({}), found {}",
+                            crushing.time.size(), crushing.value.size()));
+  if (crushing.time.front() != 0 || crushing.value.front() != 0)
+    fail(depth, "expected to begin with no depth and no force");
+  return crushing;
+}
+
+Bolus read_bolus(const TableReader& table, const Context& context) {
+  Bolus bolus;
+  bolus.where = table.node().where;
+  bolus.name = read_name(table.at("name")) + side_suffix(table, context.side);
+  bolus.path = read_path(table, context);
+  if (bolus.path.size() != 2)
+    fail(table.at("path"), fmt::format("{} lies between two points", table.what()));
+  table.read("from", bolus.from);
+  table.read("height", bolus.height);
+  bolus.force = read_crushing(table);
+  table.at("unloading_stiffness");
+  table.read("unloading_stiffness", bolus.unloading_stiffness);
+  table.read("force_kept", bolus.force_kept);
+  for (const double depth : bolus.force.time)
+    if (slope_at(bolus.force, depth) > bolus.unloading_stiffness * (1 + 1e-9))
+      fail(table.at("unloading_stiffness"),
+           fmt::format("less than the slope of `force` at a depth of {:g} mm: the bolus would give "
+                       "back more than it took",
+                       1e3 * depth));
+  return bolus;
+}
+
+void append_boluses(const Node& node, const Context& context, const std::vector<Muscle>& muscles,
+                    const std::vector<Ligament>& ligaments, std::vector<Bolus>& boluses) {
+  const TableReader table(node, bolus_keys(), label(node, "bolus"));
+  for (const Side side : read_sides(table)) {
+    Context here = context;
+    here.side = side;
+    Bolus bolus = read_bolus(table, here);
+    check_new_name(table.at("name"), "bolus", bolus.name, boluses);
+    check_new_name(table.at("name"), "line (muscle or bolus)", bolus.name, muscles);
+    check_new_name(table.at("name"), "line (ligament or bolus)", bolus.name, ligaments);
+    boluses.push_back(std::move(bolus));
+  }
+}
+
 }  // namespace
 
 const KeyTable& path_point_keys() {
@@ -482,6 +539,40 @@ const KeyTable& ligament_keys() {
   return kTable;
 }
 
+const KeyTable& bolus_keys() {
+  static const KeyTable kTable{
+      "[[bolus]]",
+      {{"name", {form::Text{"name"}}, kRequired, "unique among muscles, ligaments and boluses"},
+       {"path",
+        {list_of({form::Table{path_point_keys}})},
+        kRequired,
+        "two points, on the upper teeth and on the lower ones"},
+       {"from", {form::Quantity{kTime, kNotNegative}}, standard("0 s"), "when it is put in"},
+       {"height",
+        {form::Quantity{kLength, kPositive}},
+        otherwise("what is between the points then"),
+        "how high it is before it is crushed"},
+       {"depth",
+        {list_of({form::Quantity{kLength, kNotNegative}})},
+        kRequired,
+        "by which it is pressed together, from 0 on"},
+       {"force",
+        {list_of({form::Quantity{kForce, kNotNegative}})},
+        kRequired,
+        "as many forces, from 0 on; linear between the depths, constant beyond. Where they fall it "
+        "breaks"},
+       {"unloading_stiffness",
+        {form::Quantity{kStiffness, kPositive}},
+        kRequired,
+        "by which it springs back; at least the largest slope of `force`"},
+       {"force_kept",
+        {form::Number{kFraction}},
+        standard(1.0),
+        "share of `force` that is left each time that it was crushed and let go"},
+       mirror_key()}};
+  return kTable;
+}
+
 std::vector<Muscle> read_muscles(const TableReader& document, const Context& context) {
   std::vector<Muscle> muscles;
   Mistakes mistakes;
@@ -499,6 +590,15 @@ std::vector<Ligament> read_ligaments(const TableReader& document, const Context&
   read_each(entries(document, "ligament"),
             [&](const Node& node) { append_ligaments(node, context, muscles, ligaments); });
   return ligaments;
+}
+
+std::vector<Bolus> read_boluses(const TableReader& document, const Context& context,
+                                const std::vector<Muscle>& muscles,
+                                const std::vector<Ligament>& ligaments) {
+  std::vector<Bolus> boluses;
+  read_each(entries(document, "bolus"),
+            [&](const Node& node) { append_boluses(node, context, muscles, ligaments, boluses); });
+  return boluses;
 }
 
 }  // namespace articular::sim

@@ -13,7 +13,7 @@ using Names = std::vector<std::string>;
 
 /// What probes may name, besides bodies.
 struct Named {
-  Names lines;     // muscles and ligaments, but for
+  Names lines;     // muscles, ligaments and boluses, but for
   Names fibres;    // muscles made of a tissue's fibres
   Names wrapping;  // those that wrap around bodies
   Names muscles;   // with a line
@@ -451,6 +451,7 @@ std::vector<Probe> read_probes(const TableReader& document, const Context& conte
     if (muscle.tissue.empty()) named.muscles.push_back(muscle.name);
   }
   for (const Ligament& ligament : read_so_far.ligaments) named.lines.push_back(ligament.name);
+  for (const Bolus& bolus : read_so_far.boluses) named.lines.push_back(bolus.name);
   for (const Muscle& muscle : read_so_far.muscles)
     if (!muscle.wrap.empty()) named.wrapping.push_back(muscle.name);
   for (const Ligament& ligament : read_so_far.ligaments)

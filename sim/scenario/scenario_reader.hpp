@@ -102,6 +102,9 @@ std::vector<Support> read_supports(const TableReader& document, const Context& c
 std::vector<Muscle> read_muscles(const TableReader& document, const Context& context);
 std::vector<Ligament> read_ligaments(const TableReader& document, const Context& context,
                                      const std::vector<Muscle>& muscles);
+std::vector<Bolus> read_boluses(const TableReader& document, const Context& context,
+                                const std::vector<Muscle>& muscles,
+                                const std::vector<Ligament>& ligaments);
 /// The support that a node names. @throws InputError  if there is none, with the nearest name
 const Support& read_support_reference(const Node& node, const Context& context,
                                       const std::vector<Support>& supports);

@@ -9,8 +9,9 @@
 namespace articular::sim {
 
 /// The arrays of tables of a scenario: an override names one of their entries, it cannot add one.
-inline constexpr std::array<std::string_view, 9> kEntryLists{
-    "body", "attach", "support", "muscle", "muscle_table", "ligament", "load", "contact", "probe"};
+inline constexpr std::array<std::string_view, 10> kEntryLists{
+    "body",     "attach", "support", "muscle",  "muscle_table",
+    "ligament", "bolus",  "load",    "contact", "probe"};
 
 /// Replaces or adds one value of a scenario: "duration=0.1 s", "body.disc_left.density=1 g/cm^3",
 /// "load.0.force=0 0 -2 N". Entries of a list are addressed by their `name` or by their number from

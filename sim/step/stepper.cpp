@@ -7,8 +7,10 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/base/error.hpp"
 #include "sim/base/stopwatch.hpp"
 #include "sim/contact/touch_left.hpp"
+#include "sim/lines/bolus_law.hpp"
 #include "sim/loads/gravity.hpp"
 #include "sim/loads/surface_load.hpp"
 #include "sim/model/carried_tissue.hpp"
@@ -42,6 +44,17 @@ const char* words_for(Rejection why) {
   return "";
 }
 
+/// @param gap  between its points [m]
+/// @throws SimulationError  if it is higher
+void put_in(const BolusModel& bolus, double gap, double t, BolusState& state) {
+  state.height = bolus.given.height.value_or(gap);
+  if (state.height > gap * (1 + 1e-9))
+    throw SimulationError(fmt::format(
+        "{}bolus `{}` is {:.4g} mm high and can't be put in at {:.4g} s: there are {:.4g} mm "
+        "between its points",
+        prefix(bolus.given.where), bolus.given.name, 1e3 * state.height, t, 1e3 * gap));
+}
+
 }  // namespace
 
 int most_load_step_iterations(const StepSettings& settings) {
@@ -51,8 +64,8 @@ int most_load_step_iterations(const StepSettings& settings) {
 
 double numerical_loss(const State& state, const StoredEnergy& now) {
   const EnergyLedger& l = state.energy;
-  return l.start + l.muscle_work + l.load_work + l.motion_work - l.ligament_loss - l.tissue_loss -
-         l.contact_loss - l.settling_loss - now.total();
+  return l.start + l.muscle_work + l.load_work + l.motion_work - l.ligament_loss - l.bolus_loss -
+         l.tissue_loss - l.contact_loss - l.settling_loss - now.total();
 }
 
 Stepper::Stepper(const Model& model, const StepSettings& settings)
@@ -73,6 +86,11 @@ State Stepper::initial() {
   state.next_step = settings_.step;
   state.next_margin = model_.detection_margin;
   state.wraps = initial_wraps(model_);
+  state.boluses.resize(model_.boluses.size());
+  for (std::size_t b = 0; b < model_.boluses.size(); ++b)
+    if (const BolusModel& bolus = model_.boluses[b]; !(bolus.given.from > 0))
+      put_in(bolus, model_.lines[static_cast<std::size_t>(bolus.line)].start_length, 0,
+             state.boluses[b]);
   restart(state);
   state.energy.start = stored_energy().total();
   state.ways = ways_that_begin(model_, dynamics_->now().configuration);
@@ -96,6 +114,7 @@ void Stepper::look_at(const State& state, const Eigen::VectorXd& y) {
 bool Stepper::follow(const State& state, const Eigen::MatrixXd& excitation,
                      StateResponse& response) {
   if (!response_) response_ = std::make_unique<ResponseSolver>(model_, *dynamics_);
+  dynamics_->set_boluses(about_to_be_crushed(state));
   const bool followed =
       model_.is_static ? response_->follow_equilibrium(state.y, state.t, excitation, response)
                        : response_->follow_step(state.y, t_before_, state.t, excitation, response);
@@ -103,11 +122,25 @@ bool Stepper::follow(const State& state, const Eigen::MatrixXd& excitation,
   return followed;
 }
 
+/// Food that is as deep as ever has a slope for crushing and another one for letting go. Here it
+/// has that of crushing near by, too, with the same force.
+std::vector<BolusState> Stepper::about_to_be_crushed(const State& state) const {
+  constexpr double kNear = 1e-6, kBack = 0.01;  // of the depth
+  std::vector<BolusState> boluses = state.boluses;
+  for (std::size_t b = 0; b < boluses.size(); ++b) {
+    const auto line = static_cast<std::size_t>(model_.boluses[b].line);
+    const double depth = boluses[b].height - dynamics_->now().lines[line].length;
+    if (depth > (1 - kNear) * boluses[b].deepest) boluses[b].deepest = (1 - kBack) * depth;
+  }
+  return boluses;
+}
+
 void Stepper::restart(const State& state) {
   dynamics_->forget();
   if (integrator_) integrator_->restart(state.next_step);
   if (equilibrium_) equilibrium_->restart();
   dynamics_->set_wraps(state.wraps);
+  dynamics_->set_boluses(state.boluses);
   Configuration now;
   read_state(model_, state.y.data(), state.t, now);
   find_contacts(now, state.next_margin);
@@ -171,6 +204,7 @@ SolverCounts Stepper::solver_counts() const {
 }
 
 void Stepper::remember_start(const State& state) {
+  dynamics_->set_boluses(state.boluses);
   lines_before_ = dynamics_->now().lines;
   forces_before_ = dynamics_->now().forces;
   touched_before_ = dynamics_->now().contact.force_on_bodies();
@@ -201,10 +235,24 @@ bool Stepper::is_exhausted() const {
 
 bool Stepper::try_step(State& state, double h) {
   if (!(integrator_ ? try_time_step(state, h) : try_load_step(state, h))) return false;
+  crush_boluses(state);
   account(state);
   keep_wraps(dynamics_->now().paths, state.wraps);
   dynamics_->set_wraps(state.wraps);
   return true;
+}
+
+/// Food stays as it was pressed in this step. What is put in has no force yet.
+void Stepper::crush_boluses(State& state) const {
+  for (std::size_t b = 0; b < model_.boluses.size(); ++b) {
+    const BolusModel& bolus = model_.boluses[b];
+    BolusState& now = state.boluses[b];
+    const double length = dynamics_->now().lines[static_cast<std::size_t>(bolus.line)].length;
+    if (now.height > 0)
+      state.energy.bolus_loss += crush(bolus.given, now.height - length, now);
+    else if (state.t >= bolus.given.from * (1 - 1e-9))
+      put_in(bolus, length, state.t, now);
+  }
 }
 
 /// The door of every step: where it ended, with the forces there.

@@ -103,6 +103,8 @@ class Stepper {
   SolverCounts solver_counts() const;
   bool has_parted(int body) const;
   void account(State& after);
+  void crush_boluses(State& state) const;
+  std::vector<BolusState> about_to_be_crushed(const State& state) const;
   double work_on_supports(double t) const;
   void stop_where_energy_is_made(const State& state) const;
   [[noreturn]] void fail(const State& state, double h);

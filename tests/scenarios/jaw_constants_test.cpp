@@ -2,104 +2,81 @@
 // what it does. A scenario has no way to take constants from another file, so they are compared
 // here.
 #include <gtest/gtest.h>
+#include <toml++/toml.h>
 
 #include <filesystem>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
-#include <vector>
-
-#include "tests/sim/support/temporary_folder.hpp"
 
 namespace articular::jaw_constants_test {
 
-/// A table of a file, such as "[[body]]", without comments.
-struct Block {
-  std::string table, name;
-  std::vector<std::string> lines;
-};
+using Names = std::set<std::string>;
 
-std::vector<Block> blocks(const std::filesystem::path& file) {
-  std::vector<Block> found;
-  std::istringstream text(content(file));
-  for (std::string line; std::getline(text, line);) {
-    line = line.substr(0, line.find('#'));
-    line.erase(line.find_last_not_of(' ') + 1);
-    if (line.starts_with("["))
-      found.push_back({line, "", {}});
-    else if (!line.empty() && !found.empty())
-      found.back().lines.push_back(line);
-    std::smatch match;
-    if (std::regex_match(line, match, std::regex(R"re(name = "(.*)")re")))
-      found.back().name = match[1];
-  }
-  return found;
+std::string text_of(const toml::node& node) {
+  std::ostringstream text;
+  text << toml::json_formatter(node);
+  return text.str();
 }
 
-/// What all scenarios of the jaw, but those that are left out, say of this key where `wanted`
-/// holds.
-template <class Wanted>
-std::set<std::string> values(const std::string& key, const std::set<std::string>& leave_out,
-                             const Wanted& wanted) {
-  std::set<std::string> found;
-  for (const auto& entry :
+/// As all values are told apart: any order of keys and any spaces.
+std::string value(const std::string& given) {
+  return text_of(*toml::parse("given = " + given).get("given"));
+}
+
+/// What all scenarios of the jaw, but those that are left out, say of a key of these entries. None
+/// are named: of all.
+Names values(const std::string& entries, const Names& names, const std::string& key,
+             const Names& leave_out = {}) {
+  Names found;
+  for (const auto& file :
        std::filesystem::directory_iterator(ARTICULAR_SOURCE_DIR "/scenarios/mandible")) {
-    if (entry.path().extension() != ".toml" || leave_out.contains(entry.path().filename()))
-      continue;
-    for (const Block& block : blocks(entry.path()))
-      if (wanted(block))
-        for (const std::string& line : block.lines)
-          if (line.starts_with(key + " =")) found.insert(line);
+    if (file.path().extension() != ".toml" || leave_out.contains(file.path().filename())) continue;
+    toml::table document = toml::parse_file(file.path().string());
+    if (const toml::array* list = document[entries].as_array())
+      for (const toml::node& entry : *list) {
+        const toml::table& table = *entry.as_table();
+        if (!names.empty() && !names.contains(table["name"].value_or(std::string()))) continue;
+        if (const toml::node* node = table.get(key)) found.insert(text_of(*node));
+      }
   }
   return found;
 }
 
-bool is_disc(const Block& block) {
-  return block.table == "[[body]]" && block.name.starts_with("disc_");
-}
+const Names kDiscs = {"disc_left", "disc_right"};
 
 TEST(JawConstants, DiscsAreOfOneMaterialInAllScenarios) {
-  const std::string ground = R"(c10 = "0.9 MPa", bulk_modulus = "90 MPa", )";
-  EXPECT_EQ(
-      values("material", {"subject.toml"}, is_disc),
-      std::set<std::string>{R"(material = { law = "transversely-isotropic", )" + ground +
-                            R"(c3 = "0.196 MPa", c4 = 50, toe_end = 1.03, c5 = "44 MPa", )" +
-                            R"(fibres = { array = "fibres" }, stiffness_damping = "5 ms" })"});
+  const std::string ground =
+      R"(c10 = "0.9 MPa", bulk_modulus = "90 MPa", stiffness_damping = "5 ms", )";
+  EXPECT_EQ(values("body", kDiscs, "material", {"subject.toml"}),
+            Names{value(R"({ law = "transversely-isotropic", )" + ground +
+                        R"(c3 = "0.196 MPa", c4 = 50, toe_end = 1.03, c5 = "44 MPa", )" +
+                        R"(fibres = { array = "fibres" } })")});
   // Nobody recorded the fibres of that jaw's discs.
-  EXPECT_TRUE(values("material", {}, is_disc)
-                  .contains(R"(material = { law = "mooney-rivlin", )" + ground +
-                            R"(stiffness_damping = "5 ms" })"));
-  EXPECT_EQ(values("layer", {}, is_disc).size(), 1U);  // of those that are rigid
+  EXPECT_TRUE(values("body", kDiscs, "material")
+                  .contains(value("{ " + ground + R"(law = "mooney-rivlin" })")));
+  EXPECT_EQ(values("body", kDiscs, "layer").size(), 1U);  // of those that are rigid
 }
 
 TEST(JawConstants, TeethHavePeriodontalLigamentsInAllScenarios) {
-  const std::set<std::string> teeth = {"upper_teeth", "upper_molars", "bar"};
   EXPECT_EQ(
-      values("layer", {}, [&](const Block& block) { return teeth.contains(block.name); }),
-      std::set<std::string>{
-          R"(layer = { thickness = "0.4 mm", young_modulus = "1.2 MPa", poisson_ratio = 0.45 })"});
+      values("body", {"upper_teeth", "upper_molars", "bar"}, "layer"),
+      Names{value(R"({ thickness = "0.4 mm", young_modulus = "1.2 MPa", poisson_ratio = 0.45 })")});
 }
 
 TEST(JawConstants, BonesMusclesAndLigamentsAreTheSame) {
-  const auto mandible = [](const Block& block) { return block.name == "mandible"; };
   for (const char* key : {"layer", "mass", "center_of_mass", "inertia"})
-    EXPECT_EQ(values(key, {"subject.toml"}, mandible).size(), 1U) << key;  // another jaw
-  const auto muscles = [](const Block& block) { return block.table == "[[muscle_table]]"; };
+    EXPECT_EQ(values("body", {"mandible"}, key, {"subject.toml"}).size(), 1U)
+        << key;  // another jaw
   for (const char* key : {"max_velocity", "activation_time", "deactivation_time"})
-    EXPECT_EQ(values(key, {}, muscles).size(), 1U) << key;
+    EXPECT_EQ(values("muscle_table", {}, key).size(), 1U) << key;
   for (const char* name :
        {"sphenomandibular", "stylomandibular", "temporomandibular_oblique",
         "temporomandibular_level", "capsule_lateral", "capsule_medial", "capsule_posterior",
         "disc_lateral_front", "disc_lateral_back", "disc_medial_front", "disc_medial_back",
         "disc_anterior", "disc_posterior_inferior", "retrodiscal_lateral", "retrodiscal_medial"})
     for (const char* key : {"stiffness", "damping", "slack_extension"})
-      EXPECT_EQ(values(key, {"subject.toml"},
-                       [&](const Block& block) {
-                         return block.table == "[[ligament]]" && block.name == name;
-                       })
-                    .size(),
-                1U)
+      EXPECT_EQ(values("ligament", {name}, key, {"subject.toml"}).size(), 1U)
           << name << ", " << key;
 }
 

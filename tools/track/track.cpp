@@ -249,8 +249,10 @@ class Tracker {
     for (int k = 0;; ++k) {
       const ActivationProblem problem = problem_at(here, time);
       const double promised = here.sum - sum_of(problem, least_activation(problem, track_.cost));
-      point.converged = promised <= kConverged * here.sum + kNegligible;
-      if (point.converged || k == options_.most_iterations) break;
+      // Without any slope nothing is promised, and nothing known.
+      const bool is_blind = problem.A.isZero(0) && !problem.b.isZero(0);
+      point.converged = !is_blind && promised <= kConverged * here.sum + kNegligible;
+      if (point.converged || is_blind || k == options_.most_iterations) break;
       if (go_on(state, ramp, problem, reach, here, point.trials)) continue;
       point.converged = promised <= kAsGood * static_cast<double>(problem.A.rows());
       break;

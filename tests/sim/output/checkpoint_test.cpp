@@ -12,7 +12,7 @@
 namespace articular::sim::checkpoint_test {
 
 std::vector<double> numbers(const EnergyLedger& l) {
-  return {l.muscle_work, l.load_work,    l.motion_work,   l.ligament_loss,
+  return {l.muscle_work, l.load_work,    l.motion_work,   l.ligament_loss, l.bolus_loss,
           l.tissue_loss, l.contact_loss, l.settling_loss, l.start};
 }
 
@@ -47,7 +47,7 @@ State some_state() {
   s.next_margin = 2e-4 / 3;
   s.max_penetration = 3e-5;
   s.frames = 12;
-  s.energy = {1, 2, 3, 4, 5, 6, 7, 8};
+  s.energy = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   s.counts.steps = 1;
   s.counts.rejected_newton = 2;
   s.counts.newton_iterations = 3;
@@ -64,6 +64,7 @@ State some_state() {
   s.overlap_resolution = {{{1, 0.2, 0.3}, {2, 0.4, 0.5}}, 3, 7, 0.6};
   s.extrema = {0.1, 2, 3, 0.4, 0.5, 6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2};
   s.wraps = {{{0, 7, true, 0.25}, {1, 8, false, 0.75}}, {}, {{2, 9, true, 1.0 / 3}}};
+  s.boluses = {{0.02, 0.003, 0.002, 0.7}, {}};
   return s;
 }
 
@@ -84,6 +85,13 @@ TEST(Checkpoint, KeepsEveryNumberOfAState) {
       EXPECT_EQ(a.forward, b.forward);
       EXPECT_EQ(a.t, b.t);
     }
+  }
+  ASSERT_EQ(again.state.boluses.size(), whole.state.boluses.size());
+  for (std::size_t k = 0; k < whole.state.boluses.size(); ++k) {
+    EXPECT_EQ(again.state.boluses[k].height, whole.state.boluses[k].height);
+    EXPECT_EQ(again.state.boluses[k].deepest, whole.state.boluses[k].deepest);
+    EXPECT_EQ(again.state.boluses[k].let_go, whole.state.boluses[k].let_go);
+    EXPECT_EQ(again.state.boluses[k].strength, whole.state.boluses[k].strength);
   }
   EXPECT_EQ(again.convergence, whole.convergence);
   const State &given = whole.state, &read = again.state;

@@ -155,6 +155,79 @@ TEST_F(RunTest, AHeapThatWasInterruptedIsTheUninterruptedOneOnAnyNumberOfThreads
   }
 }
 
+/// A jaw is thrown against food on both sides, and pushed against it again.
+const std::string kJawOnFood = R"(
+duration = "60 ms"
+contact = false
+[integrator]
+step = "0.5 ms"
+[[body]]
+name = "skull"
+kind = "fixed"
+geometry = { box = { size = "60 20 4 mm", cells = [1, 1, 1] } }
+[[body]]
+name = "jaw"
+kind = "rigid"
+density = "20 g/cm^3"
+velocity = "0 0 500 mm/s"
+geometry = { box = { size = "60 20 4 mm", cells = [1, 1, 1], center = "0 0 -20 mm" } }
+[[bolus]]
+name = "nut"
+mirror = "x"
+path = [{ body = "skull", point = "20 0 -2 mm" }, { body = "jaw", point = "20 0 -18 mm" }]
+depth = ["0 mm", "0.5 mm", "1 mm", "3 mm"]
+force = ["0 N", "20 N", "12 N", "60 N"]
+unloading_stiffness = "200 N/mm"
+force_kept = 0.7
+[[load]]
+kind = "force"
+body = "jaw"
+point = "0 0 -20 mm"
+force = "0 0 20 N"
+profile = { time = ["20 ms", "21 ms"], value = [0, 1] }
+[[probe]]
+name = "nut"
+kind = "line"
+mirror = "x"
+line = "nut_left"
+[[probe]]
+name = "jaw"
+kind = "point"
+body = "jaw"
+point = "0 0 -20 mm"
+[[probe]]
+name = "energy"
+kind = "energy"
+[output]
+interval = "0.5 ms"
+checkpoint_interval = "5 ms"
+)";
+
+TEST_F(RunTest, FoodOnBothSidesStaysCrushedInAResumedRunAndPushesAlike) {
+  const Scenario scenario = read_scenario(folder_.file("food.toml", kJawOnFood));
+  const auto run_to = [&](double until, const std::string& name, bool resume) {
+    const Model model = build_model(scenario);
+    RunOptions options;
+    options.directory = out(name);
+    options.resume = resume;
+    options.after_step = [&](const State& state, double) {
+      EXPECT_EQ(state.boluses[0].deepest, state.boluses[1].deepest);
+      EXPECT_LT(state.boluses[0].strength, state.t < 0.05 ? 1.1 : 0.9);
+      return state.t >= until;
+    };
+    run(scenario, model, options);
+  };
+  run_to(1, "whole", false);
+  for (const double until : {0.0125, 0.0335}) {
+    const std::string name = "parts" + std::to_string(until);
+    run_to(until, name, false);
+    run_to(1, name, true);
+    EXPECT_EQ(content(out(name) / "history.csv"), content(out("whole") / "history.csv"));
+    EXPECT_TRUE(content(out(name) / "checkpoint/state.bin") ==
+                content(out("whole") / "checkpoint/state.bin"));
+  }
+}
+
 constexpr double kBetweenCheckpoints = 0.0078125;
 
 // A step at a checkpoint must not know what was before it: a matrix, a pattern that has grown.

@@ -136,6 +136,16 @@ name = "strained"
 path = [{ body = "skull", point = "0 0 0 mm" }, { body = "free", point = "0 0 9 mm" }]
 stiffness_per_strain = "1 N"
 reference_strain = 0.05
+[[bolus]]
+name = "nut"
+path = [{ body = "skull", point = "0 0 0 mm" }, { body = "free", point = "0 0 9 mm" }]
+from = "0.1 s"
+height = "8 mm"
+depth = ["0 mm", "1 mm", "2 mm"]
+force = ["0 N", "10 N", "0 N"]
+unloading_stiffness = "20 N/mm"
+force_kept = 0.7
+mirror = "x"
 [[load]]
 kind = "gravity"
 acceleration = "0 0 -9.81 m/s^2"

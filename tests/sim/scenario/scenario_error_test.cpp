@@ -69,6 +69,9 @@ std::string muscle(const std::string& rest) {
 std::string ligament(const std::string& rest) {
   return kStart + "[[ligament]]\nname = \"capsule\"\n" + kPath + rest;
 }
+std::string bolus(const std::string& rest) {
+  return kStart + "[[bolus]]\nname = \"nut\"\n" + kPath + rest;
+}
 std::string motion(const std::string& rest) {
   return kStart + "[[load]]\nkind = \"motion\"\nbody = \"stand\"\n" + rest;
 }
@@ -493,6 +496,36 @@ INSTANTIATE_TEST_SUITE_P(
                 "ligament `capsule`: `toe_strain` does not belong here: a ligament with "
                 "`stiffness` is linear; "
                 "`stiffness_per_strain` has a toe"},
+        Mistake{"BolusOfOneDepth",
+                bolus("depth = @[\"0 mm\"]\nforce = [\"0 N\"]\nunloading_stiffness = \"9 N/mm\"\n"),
+                "`depth`: expected two or more depths, each larger than the one before"},
+        Mistake{"BolusOfFallingDepths",
+                bolus("depth = @[\"0 mm\", \"2 mm\", \"1 mm\"]\nforce = [\"0 N\", \"1 N\", \"2 "
+                      "N\"]\nunloading_stiffness = \"9 N/mm\"\n"),
+                "`depth`: expected two or more depths, each larger than the one before"},
+        Mistake{"BolusForOtherDepths",
+                bolus("depth = [\"0 mm\", \"2 mm\"]\nforce = @[\"0 N\"]\nunloading_stiffness = \"9 "
+                      "N/mm\"\n"),
+                "`force`: expected as many forces as depths (2), found 1"},
+        Mistake{"BolusThatPushesAtOnce",
+                bolus("depth = @[\"0 mm\", \"2 mm\"]\nforce = [\"1 N\", \"2 N\"]\n"
+                      "unloading_stiffness = \"9 N/mm\"\n"),
+                "`depth`: expected to begin with no depth and no force"},
+        Mistake{"BolusThatGivesMoreThanItTook",
+                bolus("depth = [\"0 mm\", \"2 mm\", \"3 mm\"]\nforce = [\"0 N\", \"1 N\", \"11 "
+                      "N\"]\nunloading_stiffness = @\"9 N/mm\"\n"),
+                "`unloading_stiffness`: less than the slope of `force` at a depth of 2 mm: the "
+                "bolus would give back more than it took"},
+        Mistake{"BolusThatGrowsStronger",
+                bolus("depth = [\"0 mm\", \"2 mm\"]\nforce = [\"0 N\", \"2 "
+                      "N\"]\nunloading_stiffness = \"9 N/mm\"\nforce_kept = @1.1\n"),
+                "`force_kept` must lie between 0 and 1, found 1.1"},
+        Mistake{"BolusAlongThreePoints",
+                kStart + "[[bolus]]\nname = \"nut\"\npath = @[{ body = \"skull\", point = \"0 0 0 "
+                         "m\" }, { body = \"mandible\", point = \"0 0 1 m\" }, { body = "
+                         "\"mandible\", point = \"0 0 2 m\" }]\ndepth = [\"0 mm\", \"2 "
+                         "mm\"]\nforce = [\"0 N\", \"2 N\"]\nunloading_stiffness = \"9 N/mm\"\n",
+                "`path`: bolus `nut` lies between two points"},
         Mistake{
             "TwoSlacks",
             ligament("stiffness = \"1 N/m\"\nreference_strain = 0.02\n@slack_length = \"1 mm\"\n"),

@@ -88,6 +88,49 @@ TEST_F(Track, FindsTheExcitationsOfATwinAgain) {
     EXPECT_NEAR(got.at("bone.position.y [mm]")[k], wanted.at("bone.position.y [mm]")[k], 1e-4);
 }
 
+// A trial leaves no trace in the food that it pressed on: the next one begins where the interval
+// did.
+TEST_F(Track, FindsATwinThatCrushesFoodAndLetsGo) {
+  folder_.file("food.toml", content(kScene) + R"(
+[[bolus]]
+name = "nut"
+path = [{ body = "frame", point = "0 60 0 mm" }, { body = "bone", point = "0 0 0 mm" }]
+depth = ["0 mm", "0.5 mm", "4 mm"]
+force = ["0 N", "2 N", "4 N"]
+unloading_stiffness = "20 N/mm"
+[[probe]]
+name = "nut"
+kind = "line"
+line = "nut"
+)");
+  ASSERT_EQ(program("run food.toml --out twin").exit_code, 0);
+  folder_.file("t.toml", "scenario = \"food.toml\"\n" + kStatic + kTwoMuscles + kTargets);
+  const ProgramResult result = program("track t.toml");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto found = columns(folder_ / "out/t/excitations.csv");
+  const std::vector<double> y{0, 0.3, 0.6, 0.4, 0.2}, z{0, 0.1, 0.2, 0.3, 0.4};
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    EXPECT_NEAR(found.at("pull_y")[k], y[k], 1e-3) << k;
+    EXPECT_NEAR(found.at("pull_z")[k], z[k], 1e-3) << k;
+  }
+  ASSERT_EQ(program("run food.toml --set @out/t/excitations.txt --out again").exit_code, 0);
+  const auto wanted = columns(folder_ / "twin/history.csv"),
+             got = columns(folder_ / "again/history.csv");
+  EXPECT_NEAR(got.at("nut.deepest [mm]").back(), wanted.at("nut.deepest [mm]").back(), 1e-2);
+  EXPECT_GT(wanted.at("nut.deepest [mm]").back(), 1);
+  EXPECT_EQ(wanted.at("nut.force [N]").back(), 0);  // it was let go
+}
+
+// The bone can't move along x.
+TEST_F(Track, DoesNotSayThatItFoundWhatNoMuscleMoves) {
+  make_twin();
+  const ProgramResult result =
+      track(kStatic + kTwoMuscles +
+            "[[target]]\ncolumn = \"bone.position.x [mm]\"\nvalue = 1\nspread = 0.01\n");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(content(folder_ / "out/t/track.md").find("not converged"), std::string::npos);
+}
+
 // Three muscles for two freedoms: which share is whose, targets do not say.
 TEST_F(Track, SaysWhatTargetsDoNotDetermine) {
   make_twin();
