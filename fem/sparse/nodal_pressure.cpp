@@ -64,7 +64,7 @@ NodalPressure::NodalPressure(int num_nodes, const Tetrahedra& tets, std::span<co
     }
   }
   factor_.analyze(A_, std::vector<int>(node_.size(), 1));
-  if (!factor_.factorize(A_)) {
+  if (factor_.factorize(A_) != Pivots::Right) {
     throw std::invalid_argument("the compliance of the pressure is singular in working precision");
   }
 }

@@ -53,7 +53,7 @@ class NodalPressure {
   std::vector<int> node_, material_;
   Tetrahedra of_corner_;
   SymmetricMatrix A_;
-  SignedCholesky factor_;
+  SignedCholesky<double> factor_;
 };
 
 }  // namespace articular::fem
