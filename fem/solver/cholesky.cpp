@@ -18,7 +18,7 @@ class Cholesky final : public LinearSolver {
   FactorStatus prepare(const BlockMatrix& A, const Positions&) override {
     if (matrix_.size() == 0 || A.pattern_id() != pattern_id_) analyze(A);
     copy_values(A, matrix_.value.data());
-    ready_ = factor_.factorize(matrix_);
+    ready_ = factor_.factorize(matrix_) == Pivots::Right;
     return ready_ ? FactorStatus::Ready : FactorStatus::NotPositiveDefinite;
   }
 
@@ -46,7 +46,7 @@ class Cholesky final : public LinearSolver {
   }
 
   SymmetricMatrix matrix_;
-  SignedCholesky factor_;
+  SignedCholesky<double> factor_;
   Eigen::VectorXd residual_;
   std::uint64_t pattern_id_ = 0;
   bool ready_ = false;

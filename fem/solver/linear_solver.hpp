@@ -16,6 +16,7 @@ struct SolveReport {
   int iterations = 0;            // 0 for a direct solver
   double relative_residual = 0;  // of the last residual known, |b - A x| / |b|
   bool converged = true;
+  bool is_indefinite = false;  // an iteration met a direction in which A does not resist
   int repairs = 0;  // preconditioners that proved unfit during this solve and were replaced
 };
 

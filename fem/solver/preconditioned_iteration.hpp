@@ -61,15 +61,19 @@ SolveReport preconditioned_iteration(const Multiply& multiply, const Preconditio
 
   report.relative_residual = std::numeric_limits<double>::infinity();
   while (true) {
-    multiply(x, q);
-    r = b - q;
+    if (report.iterations == 0 && x.isZero(0)) {
+      r = b;
+    } else {
+      multiply(x, q);
+      r = b - q;
+    }
     const double residual = r.norm() / b_norm;
     const bool stagnates = !(residual < 0.5 * report.relative_residual);  // true for NaN
     report.relative_residual = residual;
     report.converged = residual <= tolerance;
     if (report.converged || stagnates || report.iterations >= max_iterations) return report;
     if (!iterate()) {
-      report.converged = false;
+      report.is_indefinite = true;
       return report;
     }
   }

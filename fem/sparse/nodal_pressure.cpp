@@ -53,6 +53,7 @@ NodalPressure::NodalPressure(int num_nodes, const Tetrahedra& tets, std::span<co
   A_ = pattern_of(of_corner_, size());
   for (Eigen::Index e = 0; e < tets.cols(); ++e) {
     const auto [kappa, mu] = moduli[material[e]];
+    stiffness_ratio_ = std::max(stiffness_ratio_, kappa / mu);
     const double mass = volume[e] / (20 * kappa), jump = tau * volume[e] / (20 * mu);
     for (const int j : of_corner_.col(e)) {
       for (const int i : of_corner_.col(e)) {
@@ -64,7 +65,7 @@ NodalPressure::NodalPressure(int num_nodes, const Tetrahedra& tets, std::span<co
     }
   }
   factor_.analyze(A_, std::vector<int>(node_.size(), 1));
-  if (!factor_.factorize(A_)) {
+  if (factor_.factorize(A_) != Pivots::Right) {
     throw std::invalid_argument("the compliance of the pressure is singular in working precision");
   }
 }

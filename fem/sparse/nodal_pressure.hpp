@@ -46,6 +46,8 @@ class NodalPressure {
   const std::vector<int>& node() const { return node_; }
   const std::vector<int>& material() const { return material_; }
   const SymmetricMatrix& compliance() const { return A_; }
+  /// The largest κ/μ of its materials.
+  double stiffness_ratio() const { return stiffness_ratio_; }
   /// p ← A⁻¹ p
   void solve(Eigen::VectorXd& p) const { factor_.solve(p); }
 
@@ -53,7 +55,8 @@ class NodalPressure {
   std::vector<int> node_, material_;
   Tetrahedra of_corner_;
   SymmetricMatrix A_;
-  SignedCholesky factor_;
+  double stiffness_ratio_ = 0;
+  SignedCholesky<double> factor_;
 };
 
 }  // namespace articular::fem

@@ -1,14 +1,15 @@
 #include "fem/sparse/signed_cholesky.hpp"
 
-#include <cblas.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "fem/sparse/blas.hpp"
+#include "fem/sparse/dense_blas.hpp"
 #include "fem/sparse/supernodes.hpp"
 
 namespace articular::fem {
@@ -23,52 +24,70 @@ constexpr int kFewColumns = 6;
 // Columns and rows of a supernode that are one task.
 constexpr int kPiece = 96;
 
+/// What round-off may make of a pivot in single precision, where the diagonal was about 1. A knee
+/// under load has pivots from 1e-3, with round-off of 2e-7.
+constexpr double kUnclear = 1e-5;
+
+/// @param pivot  with its sign
+template <class Real>
+Pivots judge(Real pivot) {
+  if constexpr (std::is_same_v<Real, float>) {
+    if (std::abs(pivot) <= kUnclear || !std::isfinite(pivot)) return Pivots::Unclear;
+  }
+  return pivot > 0 && std::isfinite(pivot) ? Pivots::Right : Pivots::Wrong;
+}
+
 /// The dense block A = L S Lᵀ in place (lower half, column-major, n columns of stride ld).
-bool factorize_dense(int n, double* A, int ld, const double* sign, double* work) {
+template <class Real>
+Pivots factorize_dense(int n, Real* A, int ld, const Real* sign, Real* work) {
   if (n <= kSmallBlock) {
     for (int j = 0; j < n; ++j) {
-      double* column = A + std::ptrdiff_t{j} * ld;
+      Real* column = A + std::ptrdiff_t{j} * ld;
       for (int k = 0; k < j; ++k) {
-        const double* other = A + std::ptrdiff_t{k} * ld;
-        const double factor = sign[k] * other[j];
+        const Real* other = A + std::ptrdiff_t{k} * ld;
+        const Real factor = sign[k] * other[j];
         for (int i = j; i < n; ++i) column[i] -= factor * other[i];
       }
-      const double pivot = sign[j] * column[j];
-      if (!(pivot > 0 && std::isfinite(pivot))) return false;
+      const Real pivot = sign[j] * column[j];
+      if (const Pivots verdict = judge(pivot); verdict != Pivots::Right) return verdict;
       column[j] = std::sqrt(pivot);
-      const double scale = sign[j] / column[j];
+      const Real scale = sign[j] / column[j];
       for (int i = j + 1; i < n; ++i) column[i] *= scale;
     }
-    return true;
+    return Pivots::Right;
   }
   // [A11 ·; A21 A22] with A21 = L21 S1 L11ᵀ and A22 − L21 S1 L21ᵀ = L22 S2 L22ᵀ.
   const int n1 = n / 2, n2 = n - n1;
-  double *A21 = A + n1, *A22 = A21 + std::ptrdiff_t{n1} * ld;
-  if (!factorize_dense(n1, A, ld, sign, work)) return false;
-  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n2, n1, 1, A, ld,
-              A21, ld);
+  Real *A21 = A + n1, *A22 = A21 + std::ptrdiff_t{n1} * ld;
+  const Pivots verdict = factorize_dense(n1, A, ld, sign, work);
+  if (verdict != Pivots::Right) return verdict;
+  dense::solve_from_right(n2, n1, A, ld, A21, ld);
   for (int j = 0; j < n1; ++j) {
     for (int i = 0; i < n2; ++i) {
-      double& entry = A21[std::ptrdiff_t{j} * ld + i];
+      Real& entry = A21[std::ptrdiff_t{j} * ld + i];
       work[std::ptrdiff_t{j} * n2 + i] = entry;  // L21 S1
       entry *= sign[j];
     }
   }
-  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n2, n2, n1, -1, A21, ld, work, n2, 1, A22,
-              ld);
+  dense::add_product(n2, n2, n1, -1, A21, ld, work, n2, 1, A22, ld);
   return factorize_dense(n2, A22, ld, sign + n1, work);
 }
 
 /// The rows of L below its dense block L11, from those of A: A21 = L21 S1 L11ᵀ.
-void factorize_below(int n, int num_rows, const double* L11, double* A21, int ld,
-                     const double* sign) {
-  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, num_rows, n, 1, L11,
-              ld, A21, ld);
+template <class Real>
+void factorize_below(int n, int num_rows, const Real* L11, Real* A21, int ld, const Real* sign) {
+  dense::solve_from_right(num_rows, n, L11, ld, A21, ld);
   for (int j = 0; j < n; ++j) {
     if (sign[j] > 0) continue;
-    double* column = A21 + std::ptrdiff_t{j} * ld;
+    Real* column = A21 + std::ptrdiff_t{j} * ld;
     for (int i = 0; i < num_rows; ++i) column[i] = -column[i];
   }
+}
+
+/// The power of two p for which |x| p² is 1/2 to 2; 1 where x is 0 or no number.
+double power_for_unit(double x) {
+  if (std::abs(x) < std::numeric_limits<double>::min() || !std::isfinite(x)) return 1;
+  return std::ldexp(1.0, -static_cast<int>(std::floor(0.5 * (std::ilogb(x) + 1))));
 }
 
 /// Rows of a supernode that lie next to each other in another.
@@ -77,47 +96,61 @@ struct Run {
   int place;       // row of the other that `begin` is
 };
 
+template <class Real>
+using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+
 /// Of one thread.
+template <class Real>
 struct Scratch {
-  std::vector<int> local_row;           // of the ordered rows in the supernode at hand
-  std::vector<double> product, scaled;  // of a descendant
+  std::vector<int> local_row;         // of the ordered rows in the supernode at hand
+  std::vector<Real> product, scaled;  // of a descendant
   std::vector<Run> runs;
-  Eigen::VectorXd below;
+  Vector<Real> below;
 };
 
 int pieces_of(int size) { return (size + kPiece - 1) / kPiece; }
 
 }  // namespace
 
-struct SignedCholesky::Factor {
+template <class Real>
+struct SignedCholesky<Real>::Factor {
+  using Work = Scratch<Real>;
+
   Supernodes nodes;
-  std::vector<double> value, sign;        // sign: ordered
+  std::vector<Real> value, sign;          // sign: ordered
+  std::vector<double> scale;              // of the unknowns, ordered: that of A is scale A scale
   std::vector<char> is_positive;          // all signs of a supernode are +
   std::vector<int> head, next, progress;  // descendants that wait for their next supernode
-  mutable std::vector<Scratch> scratch;   // by worker
-  mutable Eigen::VectorXd ordered;        // work of solve(): the unknowns, the rows above subtrees
+  mutable std::vector<Work> scratch;      // by worker
+  mutable Vector<Real> ordered;           // work of solve(): the unknowns, the rows above subtrees
 
   void allocate_work(int num_threads);
   void start(const SymmetricMatrix& A, int s, int from, int to);
-  void locate_rows(int s, Scratch& work) const;
-  void subtract(int d, int first, int last, int s, Scratch& work);
+  void locate_rows(int s, Work& work) const;
+  void subtract(int d, int first, int last, int s, Work& work);
   int rows_before(int d, int first, int column) const;
   void enqueue(int d, int end);
-  bool factorize_subtree(const SymmetricMatrix& A, const Supernodes::Subtree& subtree,
-                         Scratch& work);
-  bool factorize_top(const SymmetricMatrix& A, int s, ThreadPool& pool);
-  void solve_forward(int s, std::span<const int> rows, Eigen::VectorXd& y, Scratch& work) const;
-  void solve_backward(int s, Eigen::VectorXd& y, Scratch& work) const;
+  void set_scale(const SymmetricMatrix& A);
+  Pivots factorize_subtree(const SymmetricMatrix& A, const Supernodes::Subtree& subtree,
+                           Work& work);
+  Pivots factorize_top(const SymmetricMatrix& A, int s, ThreadPool& pool);
+  void solve_forward(int s, std::span<const int> rows, Vector<Real>& y, Work& work) const;
+  void solve_backward(int s, Vector<Real>& y, Work& work) const;
 };
 
-SignedCholesky::SignedCholesky(std::shared_ptr<ThreadPool> pool) : pool_(std::move(pool)) {
+template <class Real>
+SignedCholesky<Real>::SignedCholesky(std::shared_ptr<ThreadPool> pool) : pool_(std::move(pool)) {
   set_up_blas();
 }
-SignedCholesky::~SignedCholesky() = default;
-SignedCholesky::SignedCholesky(SignedCholesky&&) noexcept = default;
-SignedCholesky& SignedCholesky::operator=(SignedCholesky&&) noexcept = default;
+template <class Real>
+SignedCholesky<Real>::~SignedCholesky() = default;
+template <class Real>
+SignedCholesky<Real>::SignedCholesky(SignedCholesky&&) noexcept = default;
+template <class Real>
+SignedCholesky<Real>& SignedCholesky<Real>::operator=(SignedCholesky&&) noexcept = default;
 
-void SignedCholesky::Factor::allocate_work(int num_threads) {
+template <class Real>
+void SignedCholesky<Real>::Factor::allocate_work(int num_threads) {
   value.resize(static_cast<std::size_t>(nodes.value_begin.back()));
   head.resize(static_cast<std::size_t>(nodes.count()));
   next.resize(head.size());
@@ -138,83 +171,103 @@ void SignedCholesky::Factor::allocate_work(int num_threads) {
     most_rows = std::max(most_rows, nodes.num_rows(s));
   }
   scratch.resize(static_cast<std::size_t>(num_threads));
-  for (Scratch& work : scratch) {
+  for (Work& work : scratch) {
     work.local_row.resize(nodes.order.size());
     work.product.resize(largest_product);
     work.scaled.resize(largest_scaled);
     work.below.resize(most_rows);
   }
   ordered.resize(nodes.size() + nodes.num_above);
+  scale.resize(nodes.order.size());
 }
 
-void SignedCholesky::analyze(const SymmetricMatrix& A, std::span<const int> signs,
-                             std::span<const int> group) {
+template <class Real>
+void SignedCholesky<Real>::analyze(const SymmetricMatrix& A, std::span<const int> signs,
+                                   std::span<const int> group) {
   assert(signs.size() == static_cast<std::size_t>(A.size()));
   factor_ = std::make_unique<Factor>();
   Factor& L = *factor_;
   L.nodes = find_supernodes(A, group);
   L.allocate_work(pool_->num_threads());
-  for (const int given : L.nodes.order) L.sign.push_back(signs[given]);
+  for (const int given : L.nodes.order) L.sign.push_back(static_cast<Real>(signs[given]));
   for (int s = 0; s < L.nodes.count(); ++s)
     L.is_positive.push_back(std::all_of(L.sign.begin() + L.nodes.first_column[s],
                                         L.sign.begin() + L.nodes.first_column[s + 1],
-                                        [](double sign) { return sign > 0; }));
+                                        [](Real sign) { return sign > 0; }));
 }
 
-/// Columns from .. to of a supernode become those of A.
-void SignedCholesky::Factor::start(const SymmetricMatrix& A, int s, int from, int to) {
+template <class Real>
+void SignedCholesky<Real>::Factor::set_scale(const SymmetricMatrix& A) {
+  for (int i = 0; i < nodes.size(); ++i) {
+    const int last = A.begin[nodes.order[i] + 1] - 1;  // of its column: the diagonal, if it has one
+    const bool has_diagonal = last >= A.begin[nodes.order[i]] && A.row[last] == nodes.order[i];
+    scale[i] = has_diagonal ? power_for_unit(A.value[last]) : 1;
+  }
+}
+
+/// Columns from .. to of a supernode become those of A, scaled.
+template <class Real>
+void SignedCholesky<Real>::Factor::start(const SymmetricMatrix& A, int s, int from, int to) {
   const int ld = nodes.num_rows(s);
-  double* block = value.data() + nodes.value_begin[s];
-  std::fill(block + std::ptrdiff_t{from} * ld, block + std::ptrdiff_t{to} * ld, 0.0);
+  const int* rows = nodes.row.data() + nodes.row_begin[s];
+  Real* block = value.data() + nodes.value_begin[s];
+  std::fill(block + std::ptrdiff_t{from} * ld, block + std::ptrdiff_t{to} * ld, Real{0});
   const auto entries =
       std::span(nodes.entry)
           .subspan(static_cast<std::size_t>(nodes.entry_begin[s]),
                    static_cast<std::size_t>(nodes.entry_begin[s + 1] - nodes.entry_begin[s]));
   auto entry = std::lower_bound(entries.begin(), entries.end(), from * ld,
                                 [](const auto& e, int place) { return e.place < place; });
-  for (; entry != entries.end() && entry->place < to * ld; ++entry)
-    block[entry->place] += A.value[entry->k];
+  for (int column = from; column < to; ++column) {
+    const double scale_column = scale[nodes.first_column[s] + column];
+    for (; entry != entries.end() && entry->place < (column + 1) * ld; ++entry) {
+      const double scale_row = scale[rows[entry->place - column * ld]];
+      block[entry->place] += static_cast<Real>(scale_row * A.value[entry->k] * scale_column);
+    }
+  }
 }
 
-void SignedCholesky::Factor::locate_rows(int s, Scratch& work) const {
+template <class Real>
+void SignedCholesky<Real>::Factor::locate_rows(int s, Work& work) const {
   for (int i = 0; i < nodes.num_rows(s); ++i) work.local_row[nodes.row[nodes.row_begin[s] + i]] = i;
 }
 
 /// The first row of d, from `first` on, that is not before a column.
-int SignedCholesky::Factor::rows_before(int d, int first, int column) const {
+template <class Real>
+int SignedCholesky<Real>::Factor::rows_before(int d, int first, int column) const {
   const int* rows = nodes.row.data() + nodes.row_begin[d];
   return static_cast<int>(std::lower_bound(rows + first, rows + nodes.num_rows(d), column) - rows);
 }
 
 /// Block of s −= L_d S_d L_dᵀ, columns that are the rows first .. last of d.
-void SignedCholesky::Factor::subtract(int d, int first, int last, int s, Scratch& work) {
+template <class Real>
+void SignedCholesky<Real>::Factor::subtract(int d, int first, int last, int s, Work& work) {
   if (first == last) return;
   const int columns = nodes.num_columns(d), ld = nodes.num_rows(d), ld_s = nodes.num_rows(s);
   const int* rows = nodes.row.data() + nodes.row_begin[d];
   const int m = ld - first, n = last - first;
-  const double* L = value.data() + nodes.value_begin[d] + first;
-  const double* right = L;
+  const Real* L = value.data() + nodes.value_begin[d] + first;
+  const Real* right = L;
   int ld_right = ld;
   if (is_positive[d] == 0) {
-    const double* signs = sign.data() + nodes.first_column[d];
+    const Real* signs = sign.data() + nodes.first_column[d];
     for (int k = 0; k < columns; ++k)
       for (int j = 0; j < n; ++j)
         work.scaled[static_cast<std::size_t>(k) * n + j] = signs[k] * L[std::ptrdiff_t{k} * ld + j];
     right = work.scaled.data();
     ld_right = n;
   }
-  double* block = value.data() + nodes.value_begin[s];
+  Real* block = value.data() + nodes.value_begin[s];
   const auto column_of = [&](int row) {
     return block + std::ptrdiff_t{row - nodes.first_column[s]} * ld_s;
   };
   const int place = work.local_row[rows[first]];
   if (work.local_row[rows[ld - 1]] - place == m - 1) {  // rows and columns lie next to each other
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, m, n, columns, -1, L, ld, right, ld_right,
-                1, column_of(rows[first]) + place, ld_s);
+    dense::add_product(m, n, columns, -1, L, ld, right, ld_right, 1, column_of(rows[first]) + place,
+                       ld_s);
     return;
   }
-  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, m, n, columns, 1, L, ld, right, ld_right, 0,
-              work.product.data(), m);
+  dense::add_product(m, n, columns, 1, L, ld, right, ld_right, 0, work.product.data(), m);
   work.runs.clear();
   for (int i = 0; i < m; ++i) {
     const int at = work.local_row[rows[first + i]];
@@ -223,18 +276,19 @@ void SignedCholesky::Factor::subtract(int d, int first, int last, int s, Scratch
     work.runs.back().end = i + 1;
   }
   for (int j = 0; j < n; ++j) {
-    double* column = column_of(rows[first + j]);
-    const double* from = work.product.data() + std::ptrdiff_t{j} * m;
+    Real* column = column_of(rows[first + j]);
+    const Real* from = work.product.data() + std::ptrdiff_t{j} * m;
     for (const Run& run : work.runs) {
-      double* to = column + run.place;
-      const double* part = from + run.begin;
+      Real* to = column + run.place;
+      const Real* part = from + run.begin;
       for (int i = 0; i < run.end - run.begin; ++i) to[i] -= part[i];
     }
   }
 }
 
 /// A supernode waits in the list of the one that holds its next row, if that is before `end`.
-void SignedCholesky::Factor::enqueue(int d, int end) {
+template <class Real>
+void SignedCholesky<Real>::Factor::enqueue(int d, int end) {
   if (progress[d] == nodes.num_rows(d)) return;
   const int target = nodes.of_column[nodes.row[nodes.row_begin[d] + progress[d]]];
   if (target >= end) return;
@@ -242,8 +296,10 @@ void SignedCholesky::Factor::enqueue(int d, int end) {
   head[target] = d;
 }
 
-bool SignedCholesky::Factor::factorize_subtree(const SymmetricMatrix& A,
-                                               const Supernodes::Subtree& subtree, Scratch& work) {
+template <class Real>
+Pivots SignedCholesky<Real>::Factor::factorize_subtree(const SymmetricMatrix& A,
+                                                       const Supernodes::Subtree& subtree,
+                                                       Work& work) {
   for (int s = subtree.begin; s < subtree.end; ++s) {
     const int n = nodes.num_columns(s), ld = nodes.num_rows(s);
     start(A, s, 0, n);
@@ -255,23 +311,26 @@ bool SignedCholesky::Factor::factorize_subtree(const SymmetricMatrix& A,
       subtract(d, first, progress[d], s, work);
       enqueue(d, subtree.end);
     }
-    double* block = value.data() + nodes.value_begin[s];
-    const double* signs = sign.data() + nodes.first_column[s];
-    if (!factorize_dense(n, block, ld, signs, work.scaled.data())) return false;
+    Real* block = value.data() + nodes.value_begin[s];
+    const Real* signs = sign.data() + nodes.first_column[s];
+    const Pivots verdict = factorize_dense(n, block, ld, signs, work.scaled.data());
+    if (verdict != Pivots::Right) return verdict;
     if (ld > n) factorize_below(n, ld - n, block, block + n, ld, signs);
     progress[s] = n;
     enqueue(s, subtree.end);
   }
-  return true;
+  return Pivots::Right;
 }
 
 /// The same by pieces of the columns, and of the rows below.
-bool SignedCholesky::Factor::factorize_top(const SymmetricMatrix& A, int s, ThreadPool& pool) {
+template <class Real>
+Pivots SignedCholesky<Real>::Factor::factorize_top(const SymmetricMatrix& A, int s,
+                                                   ThreadPool& pool) {
   const int n = nodes.num_columns(s), ld = nodes.num_rows(s), column = nodes.first_column[s];
-  double* block = value.data() + nodes.value_begin[s];
-  const double* signs = sign.data() + column;
+  Real* block = value.data() + nodes.value_begin[s];
+  const Real* signs = sign.data() + column;
   pool.run(pieces_of(n), [&](int piece, int worker) {
-    Scratch& work = scratch[static_cast<std::size_t>(worker)];
+    Work& work = scratch[static_cast<std::size_t>(worker)];
     const int from = piece * kPiece, to = std::min(from + kPiece, n);
     start(A, s, from, to);
     locate_rows(s, work);
@@ -284,69 +343,80 @@ bool SignedCholesky::Factor::factorize_top(const SymmetricMatrix& A, int s, Thre
     progress[d] = rows_before(d, progress[d], nodes.first_column[s + 1]);
     enqueue(d, nodes.count());
   }
-  if (!factorize_dense(n, block, ld, signs, scratch[0].scaled.data())) return false;
+  const Pivots verdict = factorize_dense(n, block, ld, signs, scratch[0].scaled.data());
+  if (verdict != Pivots::Right) return verdict;
   pool.run(pieces_of(ld - n), [&](int piece, int) {
     const int from = n + piece * kPiece;
     factorize_below(n, std::min(kPiece, ld - from), block, block + from, ld, signs);
   });
   progress[s] = n;
   enqueue(s, nodes.count());
-  return true;
+  return Pivots::Right;
 }
 
 // Left-looking over supernodes [Ng 1993]: each collects the products of those before it that reach
 // its columns, then factors its dense block.
 //
 // [Ng 1993] Ng, Peyton. Block sparse Cholesky algorithms. SIAM J. Sci. Comput. 14:1034.
-bool SignedCholesky::factorize(const SymmetricMatrix& A) {
+template <class Real>
+Pivots SignedCholesky<Real>::factorize(const SymmetricMatrix& A) {
   assert(factor_ && A.value.size() == factor_->nodes.entry.size());
   Factor& L = *factor_;
   const Supernodes& nodes = L.nodes;
   std::fill(L.head.begin(), L.head.end(), -1);
-  std::atomic<bool> is_definite = true;
+  L.set_scale(A);
+  // Only a wrong sign stops the others: with any number of threads it is found if there is one.
+  std::atomic<bool> is_wrong = false, is_unclear = false;
   pool_->run(static_cast<int>(nodes.subtrees.size()), [&](int k, int worker) {
-    if (is_definite && !L.factorize_subtree(A, nodes.subtrees[static_cast<std::size_t>(k)],
-                                            L.scratch[static_cast<std::size_t>(worker)]))
-      is_definite = false;
+    if (is_wrong) return;
+    const Pivots verdict = L.factorize_subtree(A, nodes.subtrees[static_cast<std::size_t>(k)],
+                                               L.scratch[static_cast<std::size_t>(worker)]);
+    if (verdict == Pivots::Wrong) is_wrong = true;
+    if (verdict == Pivots::Unclear) is_unclear = true;
   });
-  if (!is_definite) return false;
+  if (is_wrong) return Pivots::Wrong;
+  if (is_unclear) return Pivots::Unclear;
   for (const Supernodes::Subtree& subtree : nodes.subtrees)
     for (int d = subtree.begin; d < subtree.end; ++d) L.enqueue(d, nodes.count());
-  return std::all_of(nodes.top.begin(), nodes.top.end(),
-                     [&](int s) { return L.factorize_top(A, s, *pool_); });
+  for (const int s : nodes.top) {
+    const Pivots verdict = L.factorize_top(A, s, *pool_);
+    if (verdict != Pivots::Right) return verdict;
+  }
+  return Pivots::Right;
 }
 
 /// y ← L⁻¹ y in the columns of s, and what follows from it below.
 /// @param rows  of s, as they are numbered in y
-void SignedCholesky::Factor::solve_forward(int s, std::span<const int> rows, Eigen::VectorXd& y,
-                                           Scratch& work) const {
+template <class Real>
+void SignedCholesky<Real>::Factor::solve_forward(int s, std::span<const int> rows, Vector<Real>& y,
+                                                 Work& work) const {
   const int n = nodes.num_columns(s), ld = nodes.num_rows(s);
-  const double* block = value.data() + nodes.value_begin[s];
-  double* own = y.data() + nodes.first_column[s];
+  const Real* block = value.data() + nodes.value_begin[s];
+  Real* own = y.data() + nodes.first_column[s];
   if (n <= kFewColumns) {
     for (int j = 0; j < n; ++j, block += ld) {
-      const double y_j = own[j] /= block[j];
+      const Real y_j = own[j] /= block[j];
       for (int i = j + 1; i < ld; ++i) y[rows[i]] -= block[i] * y_j;
     }
     return;
   }
-  cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, block, ld, own, 1);
+  dense::solve_lower(n, block, ld, own);
   if (ld == n) return;
-  cblas_dgemv(CblasColMajor, CblasNoTrans, ld - n, n, 1, block + n, ld, own, 1, 0,
-              work.below.data(), 1);
+  dense::multiply(ld - n, n, block + n, ld, own, work.below.data());
   for (int i = n; i < ld; ++i) y[rows[i]] -= work.below[i - n];
 }
 
 /// y ← L⁻ᵀ y in the columns of s, from what is known below.
-void SignedCholesky::Factor::solve_backward(int s, Eigen::VectorXd& y, Scratch& work) const {
+template <class Real>
+void SignedCholesky<Real>::Factor::solve_backward(int s, Vector<Real>& y, Work& work) const {
   const int n = nodes.num_columns(s), ld = nodes.num_rows(s);
-  const double* block = value.data() + nodes.value_begin[s];
-  double* own = y.data() + nodes.first_column[s];
+  const Real* block = value.data() + nodes.value_begin[s];
+  Real* own = y.data() + nodes.first_column[s];
   const int* rows = nodes.row.data() + nodes.row_begin[s];
   if (n <= kFewColumns) {
     for (int j = n - 1; j >= 0; --j) {
-      const double* column = block + std::ptrdiff_t{j} * ld;
-      double sum = own[j];
+      const Real* column = block + std::ptrdiff_t{j} * ld;
+      Real sum = own[j];
       for (int i = j + 1; i < ld; ++i) sum -= column[i] * y[rows[i]];
       own[j] = sum / column[j];
     }
@@ -354,19 +424,22 @@ void SignedCholesky::Factor::solve_backward(int s, Eigen::VectorXd& y, Scratch& 
   }
   if (ld > n) {
     for (int i = n; i < ld; ++i) work.below[i - n] = y[rows[i]];
-    cblas_dgemv(CblasColMajor, CblasTrans, ld - n, n, -1, block + n, ld, work.below.data(), 1, 1,
-                own, 1);
+    dense::subtract_transposed(ld - n, n, block + n, ld, work.below.data(), own);
   }
-  cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, block, ld, own, 1);
+  dense::solve_lower_transposed(n, block, ld, own);
 }
 
-void SignedCholesky::solve(Eigen::VectorXd& x) const {
+template <class Real>
+void SignedCholesky<Real>::solve(Eigen::VectorXd& x) const {
   assert(factor_ && x.size() == factor_->nodes.size());
   const Factor& L = *factor_;
   const Supernodes& nodes = L.nodes;
   const int n = nodes.size(), num_subtrees = static_cast<int>(nodes.subtrees.size());
-  Eigen::VectorXd& y = L.ordered;
-  for (int i = 0; i < n; ++i) y[i] = x[nodes.order[i]];
+  Vector<Real>& y = L.ordered;
+  // Single precision has no room for very small numbers: the largest becomes about 1.
+  const double power = power_for_unit(x.template lpNorm<Eigen::Infinity>());
+  const double unit = power * power;
+  for (int i = 0; i < n; ++i) y[i] = static_cast<Real>(L.scale[i] * (unit * x[nodes.order[i]]));
   y.tail(nodes.num_above).setZero();
   const auto rows = [&](const std::vector<int>& of, int s) {
     return std::span(of).subspan(static_cast<std::size_t>(nodes.row_begin[s]),
@@ -393,9 +466,15 @@ void SignedCholesky::solve(Eigen::VectorXd& x) const {
     for (int s = end - 1; s >= begin; --s)
       L.solve_backward(s, y, L.scratch[static_cast<std::size_t>(worker)]);
   });
-  for (int i = 0; i < n; ++i) x[nodes.order[i]] = y[i];
+  for (int i = 0; i < n; ++i) x[nodes.order[i]] = L.scale[i] * static_cast<double>(y[i]) / unit;
 }
 
-std::size_t SignedCholesky::num_nonzeros() const { return factor_ ? factor_->value.size() : 0; }
+template <class Real>
+std::size_t SignedCholesky<Real>::num_nonzeros() const {
+  return factor_ ? factor_->value.size() : 0;
+}
+
+template class SignedCholesky<float>;
+template class SignedCholesky<double>;
 
 }  // namespace articular::fem

@@ -9,6 +9,10 @@
 
 namespace articular::fem {
 
+/// What the pivots of a factorization say. Wrong: a sign is, so the matrix is not quasi-definite.
+/// Unclear: in single precision, a sign may be wrong by round-off alone.
+enum class Pivots { Right, Unclear, Wrong };
+
 /// L S Lᵀ of a sparse symmetric matrix, S = diag(±1) with signs known before. Such a factorization
 /// exists in every order of the unknowns where the matrix is quasi-definite [Vanderbei 1995], that
 /// is [K G; Gᵀ −A] with positive definite K and A: pivots need no search, and the fill-reducing
@@ -17,7 +21,11 @@ namespace articular::fem {
 /// Subtrees of the elimination tree are factored and solved side by side, then what lies above them
 /// by pieces of its columns; the answer has the same bits with any number of threads.
 ///
+/// @tparam Real  of L, float or double. The matrix is scaled first: the numbers of its diagonal
+///               become 1/2 to 2, by powers of two. So any units of the unknowns will do.
+///
 /// [Vanderbei 1995] Vanderbei. Symmetric quasidefinite matrices. SIAM J. Optim. 5:100.
+template <class Real>
 class SignedCholesky {
  public:
   explicit SignedCholesky(std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1));
@@ -30,9 +38,8 @@ class SignedCholesky {
   /// @param group  see find_supernodes()
   void analyze(const SymmetricMatrix& A, std::span<const int> signs,
                std::span<const int> group = {});
-  /// For values in the pattern of analyze().
-  /// @return false where a pivot has the wrong sign or is not finite: not quasi-definite
-  [[nodiscard]] bool factorize(const SymmetricMatrix& A);
+  /// For values in the pattern of analyze(). Solutions want Pivots::Right.
+  [[nodiscard]] Pivots factorize(const SymmetricMatrix& A);
   /// x ← A⁻¹ x
   void solve(Eigen::VectorXd& x) const;
   /// Entries of L, those of its dense blocks included.
@@ -43,5 +50,8 @@ class SignedCholesky {
   std::unique_ptr<Factor> factor_;
   std::shared_ptr<ThreadPool> pool_;
 };
+
+extern template class SignedCholesky<float>;
+extern template class SignedCholesky<double>;
 
 }  // namespace articular::fem

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/assembly/side_by_side.hpp"
 #include "sim/base/stopwatch.hpp"
 #include "sim/loads/gravity.hpp"
 #include "sim/loads/surface_load.hpp"
@@ -114,6 +115,26 @@ const Moment& Dynamics::evaluate(const double* y, double t, const Conditions& co
   return moment_;
 }
 
+/// Of one tissue, in its own part of the moment.
+void Dynamics::find_elastic_force(std::size_t k, const double* y, const Conditions& conditions) {
+  const Configuration& configuration = moment_.configuration;
+  const Tissue& tissue = model_.tissues[k];
+  TissueMoment& now = moment_.tissues[k];
+  const double activation = activation_of(tissue, configuration);
+  positions_of(configuration, tissue.nodes, now.x);
+  find_pressure(k, conditions.pressures);
+  now.force.setZero();
+  tissue.elements.add_internal_force(now.x, now.pressure, activation, now.force);
+  if (tissue.dashpots || tissue.fibre_drag)
+    velocities_of(configuration, tissue.nodes, now.velocity);
+  if (tissue.dashpots) tissue.dashpots->add_force(now.x, now.velocity, now.force);
+  if (tissue.fibre_drag) tissue.fibre_drag->add_force(now.x, now.velocity, activation, now.force);
+  if (tissue.relaxation) {
+    read_internal_variables(k, y);
+    tissue.relaxation->add_force(now.x, now.internal_variables, 1, now.force);
+  }
+}
+
 /// With the weights of tissue nodes.
 void Dynamics::find_elastic_forces(const double* y, const Conditions& conditions) {
   const bool weighs = !conditions.unloaded && !model_.gravity.empty();
@@ -121,32 +142,15 @@ void Dynamics::find_elastic_forces(const double* y, const Conditions& conditions
   if (weighs) ++evaluations_[Term::Gravity];
   const Stopwatch watch(times_.elastic_force);
   const Configuration& configuration = moment_.configuration;
+  for_each_tissue(model_, [&](std::size_t k) { find_elastic_force(k, y, conditions); });
   for (std::size_t k = 0; k < moment_.tissues.size(); ++k) {
     const Tissue& tissue = model_.tissues[k];
-    TissueMoment& now = moment_.tissues[k];
-    Positions& f = now.force;
-    positions_of(configuration, tissue.nodes, now.x);
-    find_pressure(k, conditions.pressures);
-    f.setZero();
-    tissue.elements.add_internal_force(now.x, now.pressure, activation_of(tissue, configuration),
-                                       f);
+    const Positions& f = moment_.tissues[k].force;
     ++evaluations_[Term::ElasticForce];
     if (tissue.muscle >= 0) ++evaluations_[Term::FibreMuscle];
     if (tissue.dashpots || tissue.fibre_drag || tissue.mass_damping > 0)
       ++evaluations_[Term::TissueDamping];
-    if (tissue.dashpots) {
-      velocities_of(configuration, tissue.nodes, v_);
-      tissue.dashpots->add_force(now.x, v_, f);
-    }
-    if (tissue.fibre_drag) {
-      velocities_of(configuration, tissue.nodes, v_);
-      tissue.fibre_drag->add_force(now.x, v_, activation_of(tissue, configuration), f);
-    }
-    if (tissue.relaxation) {
-      ++evaluations_[Term::Relaxation];
-      read_internal_variables(k, y);
-      tissue.relaxation->add_force(now.x, now.internal_variables, 1, f);
-    }
+    if (tissue.relaxation) ++evaluations_[Term::Relaxation];
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       Vec3 force = -f.col(column);

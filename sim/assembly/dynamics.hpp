@@ -93,6 +93,7 @@ class Dynamics {
   void place(const DrivenPlaces& driven);
   void find_pressure(std::size_t t, const PredictedPressures& pressures);
   void take_pressures(const PredictedPressures& pressures);
+  void find_elastic_force(std::size_t k, const double* y, const Conditions& conditions);
   void find_elastic_forces(const double* y, const Conditions& conditions);
   void read_internal_variables(std::size_t t, const double* y);
   void add_loads();
@@ -108,7 +109,6 @@ class Dynamics {
   std::span<const CandidateList> candidates_;
   WrapHistory wraps_;
   std::vector<BolusState> boluses_;
-  Positions v_;  // at the nodes of a tissue
   /// What the matrix was assembled for, as long as nothing has changed since.
   std::optional<std::pair<SystemScale, fem::Tangent>> assembled_;
   DynamicsTimes times_;

@@ -12,6 +12,7 @@ namespace articular::sim {
 /// A tissue at one moment.
 struct TissueMoment {
   Positions x;                                 // its nodes [m]
+  Positions velocity;                          // of them, where something drags [m/s]
   Eigen::VectorXd pressure;                    // of smoothed elements [Pa]
   Eigen::VectorXd stress, internal_variables;  // of relaxing tissue, see fem::Relaxation [Pa];
                                                // empty where it does not relax

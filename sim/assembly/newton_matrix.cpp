@@ -4,6 +4,7 @@
 #include <span>
 
 #include "fem/element/smoothed_elasticity.hpp"
+#include "sim/assembly/side_by_side.hpp"
 #include "sim/assembly/turning_stiffness.hpp"
 #include "sim/lines/wrapped_stiffness.hpp"
 #include "sim/loads/surface_load.hpp"
@@ -53,6 +54,7 @@ NewtonMatrix::NewtonMatrix(const Model& model)
     if (const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed()) {
       smoothed_ = true;
       tissues_[t].plain.K = smoothed->make_plain_matrix();
+      if (tissue.dashpots || tissue.fibre_drag) tissues_[t].damping = tissues_[t].plain.K;
       make_pressure_gradient(t);
     }
   }
@@ -201,78 +203,116 @@ void NewtonMatrix::set_pressure_gradient(std::size_t t, const Moment& now) {
   keep_free_part(model_, work.G);
 }
 
-void NewtonMatrix::add(const TissueMatrix& from, const Tissue& tissue, const Configuration& now,
-                       fem::BlockMatrix& A) const {
-  for (std::size_t s = 0; s < from.slot.size(); ++s)
-    if (from.slot[s] >= 0) A.block(from.slot[s]) += from.K.block(static_cast<int>(s));
-  for (const CarriedBlock& block : from.carried)
-    add_stiffness(now, tissue.nodes[static_cast<std::size_t>(block.i)],
-                  tissue.nodes[static_cast<std::size_t>(block.j)], block.to,
-                  from.K.block(block.slot), A);
-}
-
 void NewtonMatrix::add_relaxation(std::size_t t, const Moment& now, const SystemScale& scale,
                                   fem::Tangent tangent) {
   const Tissue& tissue = model_.tissues[t];
   if (!tissue.relaxation) return;
-  TissueWork& work = tissues_[t];
   const TissueMoment& moment = now.tissues[t];
-  tissue.relaxation->add_stiffness(now.tissues[t].x, activation_of(tissue, now.configuration),
-                                   tangent, moment.stress, moment.internal_variables, scale.step,
-                                   scale.stiffness, work.own.K);
+  tissue.relaxation->add_stiffness(moment.x, activation_of(tissue, now.configuration), tangent,
+                                   moment.stress, moment.internal_variables, scale.step,
+                                   scale.stiffness, tissues_[t].own.K);
+}
+
+void NewtonMatrix::add_damping(std::size_t t, const Moment& now, const SystemScale& scale,
+                               fem::BlockMatrix& K) {
+  const Tissue& tissue = model_.tissues[t];
+  const TissueMoment& moment = now.tissues[t];
+  if (tissue.dashpots) tissue.dashpots->add_damping(moment.x, scale.damping, K);
+  if (tissue.fibre_drag)
+    tissue.fibre_drag->add_damping(moment.x, moment.velocity,
+                                   activation_of(tissue, now.configuration), scale.damping, K);
+}
+
+/// The matrices of a tissue that has some of its own.
+void NewtonMatrix::find_stiffness(std::size_t t, const Moment& now, const SystemScale& scale,
+                                  fem::Tangent tangent) {
+  const Tissue& tissue = model_.tissues[t];
+  TissueWork& work = tissues_[t];
+  if (work.direct) return;
+  if (tissue.elements.smoothed() != nullptr) {
+    find_smoothed_stiffness(t, now, scale, tangent);
+    return;
+  }
+  work.own.K.set_zero();
+  tissue.elements.add_stiffness(now.tissues[t].x, {}, activation_of(tissue, now.configuration),
+                                tangent, scale.stiffness, work.own.K);
+  add_damping(t, now, scale, work.own.K);
+  add_relaxation(t, now, scale, tangent);
+}
+
+void NewtonMatrix::find_smoothed_stiffness(std::size_t t, const Moment& now,
+                                           const SystemScale& scale, fem::Tangent tangent) {
+  const Tissue& tissue = model_.tissues[t];
+  const fem::SmoothedElasticity& smoothed = *tissue.elements.smoothed();
+  TissueWork& work = tissues_[t];
+  const double activation = activation_of(tissue, now.configuration);
+  const Positions& x = now.tissues[t].x;
+  work.damping.set_zero();
+  add_damping(t, now, scale, work.damping);
+  work.own.K.set_zero();
+  smoothed.add_stiffness(x, now.tissues[t].pressure, tangent, scale.stiffness, work.own.K,
+                         activation);
+  add_relaxation(t, now, scale, tangent);
+  // A preconditioner has to be positive definite, wherever the matrix is.
+  work.plain.K.set_zero();
+  smoothed.add_plain_stiffness(x, fem::Tangent::Projected, scale.stiffness, work.plain.K,
+                               activation);
+  if (for_multigrid_) smoothed.add_compressible_stiffness(x, scale.stiffness, work.plain.K);
+  set_pressure_gradient(t, now);
+}
+
+/// A += K between nodes that are free. Those of different tissues are different.
+void NewtonMatrix::add_free(const fem::BlockMatrix& K, const TissueMatrix& places,
+                            fem::BlockMatrix& A) {
+  for (std::size_t s = 0; s < places.slot.size(); ++s)
+    if (places.slot[s] >= 0) A.block(places.slot[s]) += K.block(static_cast<int>(s));
+}
+
+/// A += K where a node moves with a rigid body.
+void NewtonMatrix::add_carried(const fem::BlockMatrix& K, const TissueMatrix& places,
+                               const Tissue& tissue, const Configuration& now,
+                               fem::BlockMatrix& A) {
+  for (const CarriedBlock& block : places.carried)
+    add_stiffness(now, tissue.nodes[static_cast<std::size_t>(block.i)],
+                  tissue.nodes[static_cast<std::size_t>(block.j)], block.to, K.block(block.slot),
+                  A);
 }
 
 /// All of a plain tissue; of a smoothed one, what both matrices have of it.
 void NewtonMatrix::add_tissue(std::size_t t, const Moment& now, const SystemScale& scale,
                               fem::Tangent tangent, fem::BlockMatrix& A) {
   const Tissue& tissue = model_.tissues[t];
-  TissueWork& work = tissues_[t];
-  const double activation = tissue.muscle < 0 ? 0 : now.configuration.activation[tissue.muscle];
+  const TissueWork& work = tissues_[t];
   ++evaluations_[Term::ElasticStiffness];
   if (work.direct) {
-    tissue.elements.add_stiffness(now.tissues[t].x, activation, tangent, scale.stiffness,
-                                  *work.direct, A);
+    tissue.elements.add_stiffness(now.tissues[t].x, activation_of(tissue, now.configuration),
+                                  tangent, scale.stiffness, *work.direct, A);
     return;
   }
   const bool smoothed = tissue.elements.smoothed() != nullptr;
   if (smoothed && !tissue.dashpots && !tissue.fibre_drag) return;
-  TissueMatrix& matrix = smoothed ? work.plain : work.own;
-  matrix.K.set_zero();
-  if (!smoothed)
-    tissue.elements.add_stiffness(now.tissues[t].x, {}, activation, tangent, scale.stiffness,
-                                  matrix.K);
-  if (tissue.dashpots) tissue.dashpots->add_damping(now.tissues[t].x, scale.damping, matrix.K);
-  if (tissue.fibre_drag) {
-    Positions v;
-    velocities_of(now.configuration, tissue.nodes, v);
-    tissue.fibre_drag->add_damping(now.tissues[t].x, v, activation, scale.damping, matrix.K);
-  }
-  if (!smoothed) add_relaxation(t, now, scale, tangent);
-  add(matrix, tissue, now.configuration, A);
+  const fem::BlockMatrix& K = smoothed ? work.damping : work.own.K;
+  const TissueMatrix& places = smoothed ? work.plain : work.own;
+  add_free(K, places, A);
+  add_carried(K, places, tissue, now.configuration, A);
 }
 
 /// What the two matrices do not share: the stiffness of the domains, and that of the elements.
-void NewtonMatrix::add_smoothed(std::size_t t, const Moment& now, const SystemScale& scale,
-                                fem::Tangent tangent) {
-  const Tissue& tissue = model_.tissues[t];
-  const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed();
-  if (smoothed == nullptr) return;
-  TissueWork& work = tissues_[t];
-  const double activation = tissue.muscle < 0 ? 0 : now.configuration.activation[tissue.muscle];
-  work.own.K.set_zero();
-  tissue.elements.add_stiffness(now.tissues[t].x, now.tissues[t].pressure, activation, tangent,
-                                scale.stiffness, work.own.K);
-  add_relaxation(t, now, scale, tangent);
-  add(work.own, tissue, now.configuration, A_);
-  // A preconditioner has to be positive definite, wherever the matrix is.
-  work.plain.K.set_zero();
-  smoothed->add_plain_stiffness(now.tissues[t].x, fem::Tangent::Projected, scale.stiffness,
-                                work.plain.K, activation);
-  if (for_multigrid_)
-    smoothed->add_compressible_stiffness(now.tissues[t].x, scale.stiffness, work.plain.K);
-  add(work.plain, tissue, now.configuration, plain_);
-  set_pressure_gradient(t, now);
-  pressure_terms_.push_back({&work.G, &smoothed->nodal_pressure(), scale.stiffness});
+void NewtonMatrix::add_smoothed(const Moment& now, const SystemScale& scale) {
+  for_each_tissue(model_, [&](std::size_t t) {
+    if (model_.tissues[t].elements.smoothed() == nullptr) return;
+    add_free(tissues_[t].own.K, tissues_[t].own, A_);
+    add_free(tissues_[t].plain.K, tissues_[t].plain, plain_);
+  });
+  for (std::size_t t = 0; t < tissues_.size(); ++t) {
+    const Tissue& tissue = model_.tissues[t];
+    const TissueWork& work = tissues_[t];
+    const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed();
+    if (smoothed == nullptr) continue;
+    add_carried(work.own.K, work.own, tissue, now.configuration, A_);
+    add_carried(work.plain.K, work.plain, tissue, now.configuration, plain_);
+    pressure_terms_.push_back({&work.G, &smoothed->nodal_pressure(), scale.stiffness});
+  }
 }
 
 void NewtonMatrix::add_masses(const Configuration& now, const SystemScale& scale,
@@ -302,6 +342,7 @@ void NewtonMatrix::add_masses(const Configuration& now, const SystemScale& scale
 NewtonEquations NewtonMatrix::assemble(const Moment& now, const SystemScale& scale,
                                        fem::Tangent tangent) {
   couple_contacts(now);
+  for_each_tissue(model_, [&](std::size_t t) { find_stiffness(t, now, scale, tangent); });
   fem::BlockMatrix& common = smoothed_ ? plain_ : A_;
   common.set_zero();
   for (std::size_t t = 0; t < tissues_.size(); ++t) add_tissue(t, now, scale, tangent, common);
@@ -331,7 +372,7 @@ NewtonEquations NewtonMatrix::assemble(const Moment& now, const SystemScale& sca
   A_.set_zero();
   for (std::size_t s = 0; s < slot_of_plain_.size(); ++s)
     A_.block(slot_of_plain_[s]) = plain_.block(static_cast<int>(s));
-  for (std::size_t t = 0; t < tissues_.size(); ++t) add_smoothed(t, now, scale, tangent);
+  add_smoothed(now, scale);
   keep_free_part(model_, A_);
   keep_free_part(model_, plain_);
   return equations();

@@ -66,6 +66,7 @@ class NewtonMatrix {
     std::optional<fem::StiffnessSlots> direct;  // tissues that need no matrix of their own
     TissueMatrix own;                           // the others
     TissueMatrix plain;                         // smoothed: couplings of the elements alone
+    fem::BlockMatrix damping;                   // smoothed: the same couplings
     fem::PressureGradient node_G, G;            // smoothed: by nodes, and by blocks of unknowns
   };
   bool adds_directly(const Tissue& tissue) const;
@@ -75,15 +76,19 @@ class NewtonMatrix {
   void find_slots(const Tissue& tissue, const fem::BlockMatrix& A, TissueMatrix& matrix) const;
   void make_pressure_gradient(std::size_t t);
   void set_pressure_gradient(std::size_t t, const Moment& now);
-  /// A += K by the blocks of the tissue.
-  void add(const TissueMatrix& K, const Tissue& tissue, const Configuration& now,
-           fem::BlockMatrix& A) const;
-  void add_tissue(std::size_t t, const Moment& now, const SystemScale& scale, fem::Tangent tangent,
-                  fem::BlockMatrix& A);
+  void find_stiffness(std::size_t t, const Moment& now, const SystemScale& scale,
+                      fem::Tangent tangent);
+  void find_smoothed_stiffness(std::size_t t, const Moment& now, const SystemScale& scale,
+                               fem::Tangent tangent);
+  void add_damping(std::size_t t, const Moment& now, const SystemScale& scale, fem::BlockMatrix& K);
   void add_relaxation(std::size_t t, const Moment& now, const SystemScale& scale,
                       fem::Tangent tangent);
-  void add_smoothed(std::size_t t, const Moment& now, const SystemScale& scale,
-                    fem::Tangent tangent);
+  void add_tissue(std::size_t t, const Moment& now, const SystemScale& scale, fem::Tangent tangent,
+                  fem::BlockMatrix& A);
+  void add_smoothed(const Moment& now, const SystemScale& scale);
+  static void add_free(const fem::BlockMatrix& K, const TissueMatrix& places, fem::BlockMatrix& A);
+  static void add_carried(const fem::BlockMatrix& K, const TissueMatrix& places,
+                          const Tissue& tissue, const Configuration& now, fem::BlockMatrix& A);
   void add_masses(const Configuration& now, const SystemScale& scale, fem::BlockMatrix& A);
 
   const Model& model_;

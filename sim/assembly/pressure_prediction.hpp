@@ -17,9 +17,9 @@ class PressurePrediction {
  private:
   struct Way {
     Eigen::VectorXd before, after;
+    Positions u;  // of the nodes
   };
   std::vector<Way> of_tissue_;  // empty for one that is not smoothed
-  Positions u_;
 };
 
 }  // namespace articular::sim

@@ -30,10 +30,13 @@ std::vector<Field> tissue_point_fields(const Model& model, const Tissue& tissue,
                                        const Configuration& now, const Positions& x,
                                        const Contacts& contacts) {
   const auto num_nodes = x.cols();
-  Eigen::MatrixXd velocity(3, num_nodes);
-  for (Eigen::Index i = 0; i < num_nodes; ++i)
-    velocity.col(i) = now.velocity(tissue.nodes[static_cast<std::size_t>(i)]);
-  std::vector<Field> fields = {{"displacement", "m", x - tissue.X}, {"velocity", "m/s", velocity}};
+  std::vector<Field> fields = {{"displacement", "m", x - tissue.X}};
+  if (!model.is_static) {
+    Eigen::MatrixXd velocity(3, num_nodes);
+    for (Eigen::Index i = 0; i < num_nodes; ++i)
+      velocity.col(i) = now.velocity(tissue.nodes[static_cast<std::size_t>(i)]);
+    append({{"velocity", "m/s", std::move(velocity)}}, fields);
+  }
   const auto body = static_cast<std::size_t>(tissue.body);
   if (model.bodies[body].collider)
     append(contact_point_fields(contacts, body, num_nodes), fields);
@@ -81,11 +84,14 @@ void write_rigid_body(const Model& model, const Configuration& now, int body_ind
   const Pose& pose = now.poses[b];
   const Positions x = (pose.R * body.X).colwise() + pose.p;
   const Positions start = start_positions(model, body);
-  const RigidVelocity& velocity = now.velocities[b];
-  Eigen::MatrixXd v(3, x.cols());
-  for (Eigen::Index i = 0; i < x.cols(); ++i)
-    v.col(i) = velocity.linear + velocity.angular.cross(x.col(i) - pose.p);
-  std::vector<Field> fields = {{"displacement", "m", x - start}, {"velocity", "m/s", v}};
+  std::vector<Field> fields = {{"displacement", "m", x - start}};
+  if (!model.is_static) {
+    const RigidVelocity& velocity = now.velocities[b];
+    Eigen::MatrixXd v(3, x.cols());
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+      v.col(i) = velocity.linear + velocity.angular.cross(x.col(i) - pose.p);
+    append({{"velocity", "m/s", std::move(v)}}, fields);
+  }
   if (shows_contact)
     append(contact_point_fields(contacts, static_cast<std::size_t>(body_index), x.cols()), fields);
   writer.write_rigid_body({body.name, x, body.triangles, std::move(fields), {}}, index, time);

@@ -7,6 +7,7 @@
 
 #include "sim/build/build_model.hpp"
 #include "sim/output/checkpoint.hpp"
+#include "sim/output/output_size.hpp"
 #include "tests/sim/support/run_scene.hpp"
 
 namespace articular::sim::run_resume_test {
@@ -308,6 +309,21 @@ kind = "energy"
 [output]
 interval = "0.1 s"
 )";
+
+// In equilibrium nothing has a velocity.
+TEST_F(RunTest, FramesInEquilibriumHaveNoVelocities) {
+  const Scenario pressed = read_scenario(folder_.file("pressed.toml", kPressed));
+  const Model model = build_model(pressed);
+  RunOptions options;
+  options.directory = out("pressed");
+  run(pressed, model, options);
+  double size = 0;
+  for (const auto& frame : fs::directory_iterator(out("pressed") / "frames")) {
+    EXPECT_EQ(content(frame.path()).find("velocity"), std::string::npos) << frame.path();
+    size += static_cast<double>(fs::file_size(frame.path()));
+  }
+  EXPECT_NEAR(size, 5 * estimated_output(pressed, model).frame_bytes, 0.1 * size);
+}
 
 // In the middle of a load step: what was written is that of the steps before it, energies too, and
 // a resumed run goes on to what it would have been.
