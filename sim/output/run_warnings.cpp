@@ -20,6 +20,9 @@ namespace {
 constexpr double kMuchLost = 0.05, kMuchMade = 0.01;
 /// Of the depth to which contact is followed: half an element, where it is a tissue's.
 constexpr double kDeep = 0.5;
+/// Of the volume at rest: the law "neo-hookean" stays crushed below 0.16 at ν = 0, and below 0.02
+/// at ν = 0.3 (fem/THEORY.md).
+constexpr double kCrushed = 0.1;
 /// Of |F − I|: a beam whose end is turned by 20 degrees is off by some per cent.
 constexpr double kSmallMotion = 0.5;
 /// Of the smaller element: points so deep with no force at all lie between the nodes that would
@@ -170,6 +173,16 @@ std::vector<std::string> run_warnings(const Model& model, const State& state,
         extrema.element,
         name_of(model, model.tissues[static_cast<std::size_t>(extrema.tissue)].body),
         extrema.squeezed_at, extrema.volume_ratio));
+  else if (extrema.volume_ratio < kCrushed)
+    warnings.push_back(fmt::format(
+        "element {} of tissue `{}` was crushed to {:.2g} of its volume at t = {:.4g} s: some laws "
+        "do not spring back from there, and forces may be far too small; expected a stiffer "
+        "tissue, "
+        "a smaller motion or load, or another law (for what is pressed far: "
+        "coupled-neo-hookean)",
+        extrema.element,
+        name_of(model, model.tissues[static_cast<std::size_t>(extrema.tissue)].body),
+        extrema.volume_ratio, extrema.squeezed_at));
   if (extrema.overlap > kDeep) {
     const ContactModel contact = model.contacts[extrema.contact];
     warnings.push_back(fmt::format(

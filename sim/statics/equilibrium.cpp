@@ -28,6 +28,9 @@ using sundials::view;
 /// A full correction below this part of what may move in one changes nothing: where nothing is
 /// strained, forces are round-off, and their balance says nothing.
 constexpr double kNoMotion = 1e-10;
+/// Of a rigid body in one correction [rad]. Farther off nothing is linear, and where no contact
+/// bounds a correction it would lead to another equilibrium.
+constexpr double kMostTurn = 0.2;
 /// The largest force is that at the solution: it is known there only.
 constexpr int kMostRounds = 4;
 /// Iterations with contact as stiff as it should be, before it is tried softer: they take a dozen
@@ -117,6 +120,7 @@ class Equilibrium::Solver {
     return std::isfinite(model_.trusted_motion) ? model_.trusted_motion : 1;
   }
   double largest_displacement(const Eigen::VectorXd& u) const;
+  double largest_turn(const Eigen::VectorXd& u) const;
   const Eigen::VectorXd& searched_residual(double part);
 
   const Model& model_;
@@ -269,6 +273,15 @@ double Equilibrium::Solver::largest_displacement(const Eigen::VectorXd& u) const
   return largest;
 }
 
+double Equilibrium::Solver::largest_turn(const Eigen::VectorXd& u) const {
+  double largest = 0;
+  for (int r = 0; r < model_.layout.num_rigid; ++r)
+    largest = std::max(
+        largest,
+        u.segment<3>(3 * model_.rigid_bodies[static_cast<std::size_t>(r)].block + 3).norm());
+  return largest;
+}
+
 /// correction_ from before_, with contact as it is foreseen.
 bool Equilibrium::Solver::solve_for_correction() {
   rhs_ = -r_before_;
@@ -295,12 +308,12 @@ void Equilibrium::Solver::make_way() {
     correction_.segment<3>(row) =
         inverse_tangent_map(before_.segment<3>(row)) * correction_.segment<3>(row);
   }
-  // What can touch must not be carried through what it is to meet. Nothing else bounds a
-  // correction: the search sees where the laws take it.
+  // What can touch must not be carried through what it is to meet. But for turns nothing else
+  // bounds a correction: the search sees where the laws take it.
   const double trusted =
       model_.contacts.empty() ? std::numeric_limits<double>::infinity() : model_.trusted_motion;
-  const double motion = largest_displacement(correction_);
-  most_ = motion > trusted ? trusted / motion : 1;
+  const double motion = largest_displacement(correction_), turn = largest_turn(correction_);
+  most_ = std::min({1.0, trusted / motion, kMostTurn / turn});
   if (*cover_) (*cover_)(dynamics_.now().configuration, most_ * motion);
 }
 

@@ -11,6 +11,7 @@ namespace articular::sim {
 struct OverlapReport {
   ContactId contact = 0;
   bool is_set_apart = false;  // before the run
+  bool is_deep = false;       // a quarter of an element and more
   std::string words;          // "`a` and `b` overlap at the start by 0.2 mm, ..."
 };
 
@@ -21,8 +22,9 @@ struct OverlapReport {
 std::vector<OverlapReport> overlap_reports(const Scenario& scenario, const Model& model,
                                            const Eigen::VectorXd& y);
 
-/// Adds to the model's warnings what stays overlapping at the start, if contact can tell: what a
-/// run sets apart it says itself.
+/// Adds to the model's warnings what stays overlapping at the start, if contact can tell, and what
+/// is deep: a run sets it apart, but that much is a mistake of the geometry, and enters the
+/// results.
 void warn_of_overlaps(const Scenario& scenario, Model& model);
 
 }  // namespace articular::sim

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/assembly/contact_imbalance.hpp"
+#include "sim/assembly/body_imbalance.hpp"
 #include "sim/assembly/line_search.hpp"
 #include "sim/base/stopwatch.hpp"
 #include "sim/contact/touch_left.hpp"
@@ -226,7 +226,7 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   mass_rhs_ += gamma * pull_.head(num_velocities);
   keep_free_part(model_, mass_rhs_);
 
-  imbalance_ = contact_imbalance(model_, dynamics_, mass_rhs_, gamma);
+  imbalance_ = body_imbalance(model_, dynamics_, mass_rhs_, gamma);
   last_residual_ = residual_;
   residual_ = mass_rhs_.norm();
   w_.resize(num_velocities);

@@ -47,7 +47,7 @@ class NewtonSystem {
   bool used_projected_only() const { return !used_consistent_; }
   /// The last correction is not Newton's own: however small, it says nothing of convergence.
   bool changed() const { return changed_; }
-  /// contact_imbalance() of the state that the last solve() corrected.
+  /// body_imbalance() of the state that the last solve() corrected.
   double imbalance() const { return imbalance_; }
   double solve_seconds() const { return solve_seconds_; }
 

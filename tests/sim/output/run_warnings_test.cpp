@@ -112,6 +112,20 @@ TEST(RunWarnings, ElementsInsideOutAreNamed) {
   EXPECT_TRUE(has(all_warnings(run), "of tissue `block` was inside out")) << all_warnings(run);
 }
 
+TEST(RunWarnings, ElementsThatAreCrushedAreNamed) {
+  for (const double size : {0.2, 0.9}) {
+    Scenario s = scene(1e-5);
+    s.bodies = {box_body("block", Body::Kind::Tissue, {0.01, 0.01, 0.01}, Vec3::Zero(), {2, 2, 2})};
+    Simulation run(s);
+    run.state.y.head(3 * run.model.layout.num_free_nodes) *= size;
+    run.stepper.restart(run.state);
+    run.state.energy.start = run.stepper.stored_energy().total();
+    run.advance(1e-5);
+    EXPECT_EQ(has(all_warnings(run), "of tissue `block` was crushed to 0.00"), size == 0.2)
+        << all_warnings(run);
+  }
+}
+
 /// Soft tissue between two plates, pressed to a part of its height, and let go again.
 Scenario press(double stretch, bool lifted) {
   constexpr double kSide = 0.01;

@@ -147,6 +147,49 @@ Scenario falling_block() {
   return s;
 }
 
+constexpr double kArm = 0.1, kOut = 0.04, kTie = 0.1, kPull = 1e4;  // [m], [m], [m], [N/m]
+
+/// An arm on a hinge along y, its centre kArm out along x. At kOut a tie of the length kTie and a
+/// bit, straight above, which is slack.
+Scenario arm_on_a_tie(double slack) {
+  Scenario s = static_scene(1);
+  s.bodies = {mass_body("arm", 1, {kArm, 0, 0}), stand("wall")};
+  Hold& hinge = s.bodies[0].hold.emplace();
+  hinge.held = {true, true, true, true, false, true};
+  hinge.at = Vec3::Zero();
+  Ligament tie;
+  tie.name = "tie";
+  tie.path = {anchor("wall", {kOut, 0, kTie}), anchor("arm", {kOut, 0, 0})};
+  tie.stiffness = kPull;
+  tie.slack_length = kTie + slack;
+  s.ligaments = {tie};
+  s.loads = {gravity({0, 0, -9.81})};
+  return s;
+}
+
+/// The moment of the weight less that of the tie, where the arm has turned downwards [N m].
+double moment_on_arm(double slack, double turn) {
+  const double c = std::cos(turn), s = std::sin(turn);
+  const Vec3 to_wall(kOut * (1 - c), 0, kTie + kOut * s);
+  const double pull = std::max(0.0, kPull * (to_wall.norm() - kTie - slack)) / to_wall.norm();
+  return 9.81 * kArm * c - pull * kOut * (c * to_wall.z() + s * to_wall.x());
+}
+
+// Until the tie is taut only the weight resists, and corrections are of many turns.
+TEST(Equilibrium, AnArmSinksIntoItsSlackTie) {
+  for (const double slack : {0.0, 0.2e-3, 0.5e-3, 1e-3, 2e-3, 3e-3, 4e-3}) {
+    Simulation run(arm_on_a_tie(slack));
+    run.advance(1);
+    double low = 0, high = 0.5;
+    for (int k = 0; k < 60; ++k) {
+      const double middle = 0.5 * (low + high);
+      (moment_on_arm(slack, middle) > 0 ? low : high) = middle;
+    }
+    const Mat3& R = run.now().poses.front().R;
+    EXPECT_NEAR(std::atan2(-R(2, 0), R(0, 0)), low, 1e-6) << slack;
+  }
+}
+
 // Nothing holds the block until it lies on the floor: pseudo-time carries it there, and takes the
 // energy of the fall.
 TEST(Equilibrium, ABlockSettlesOnTheFloorAndItsWeightIsBalanced) {

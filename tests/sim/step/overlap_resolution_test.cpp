@@ -198,6 +198,9 @@ TEST(OverlapReport, SaysOfEachOverlapWhatRunDoes) {
   EXPECT_EQ(words_of(0), "");
   EXPECT_EQ(words_of(1e-3).find("`base` and `top` overlap at the start by 1 mm, at ("), 0U);
   EXPECT_NE(words_of(1e-3).find(": `run` sets them apart first"), std::string::npos);
+  const std::string mistake = "expected bodies that do not overlap";
+  EXPECT_EQ(words_of(1e-3).find(mistake), std::string::npos);
+  EXPECT_NE(words_of(4e-3).find(mistake), std::string::npos);
   EXPECT_EQ(words_of(1e-6).find("`base` and `top` overlap at the start by 0.001 mm"), 0U);
   EXPECT_NE(words_of(1e-6).find(": `run` starts so, pressed together"), std::string::npos);
 }

@@ -1,4 +1,4 @@
-#include "sim/assembly/contact_imbalance.hpp"
+#include "sim/assembly/body_imbalance.hpp"
 
 #include <algorithm>
 
@@ -11,20 +11,25 @@ namespace {
 /// tolerance in a step.
 constexpr double kPartOfContact = 1e-3, kPartOfTolerance = 1e-3;
 
+bool is_tied(const Tissue& tissue) {
+  return std::any_of(tissue.nodes.begin(), tissue.nodes.end(),
+                     [](const NodeRef& node) { return node.rigid >= 0; });
+}
+
 }  // namespace
 
-double contact_imbalance(const Model& model, const Dynamics& dynamics,
-                         const Eigen::VectorXd& residual, double gamma) {
-  if (!dynamics.now().contact.has_patches()) return 0;
+double body_imbalance(const Model& model, const Dynamics& dynamics, const Eigen::VectorXd& residual,
+                      double gamma) {
   const std::vector<double>& contact = dynamics.now().contact.force_on_bodies();
+  const auto touch = [&](int body) { return contact[static_cast<std::size_t>(body)]; };
   const auto ratio = [&](double left, int body, double mass) {
-    const double touching = contact[static_cast<std::size_t>(body)];
-    if (touching == 0) return 0.0;
+    const double touching = touch(body);
     const double drift = mass * model.position_tolerance / (gamma * gamma);
     return left / gamma / std::max(kPartOfContact * touching, kPartOfTolerance * drift);
   };
   double largest = 0;
   for (const Tissue& tissue : model.tissues) {
+    if (touch(tissue.body) == 0 && is_tied(tissue)) continue;
     Vec3 left = Vec3::Zero();
     double mass = 0;
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
@@ -37,7 +42,8 @@ double contact_imbalance(const Model& model, const Dynamics& dynamics,
   for (int r = 0; r < model.layout.num_rigid; ++r) {
     const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(r)];
     const double force = residual.segment<3>(3 * rigid.block).norm();
-    const double moment = residual.segment<3>(3 * rigid.block + 3).norm();
+    const double moment =
+        touch(rigid.body) == 0 ? 0 : residual.segment<3>(3 * rigid.block + 3).norm();
     largest = std::max(largest, ratio(std::max(force, moment / turning_radius(rigid)), rigid.body,
                                       rigid.mass.mass));
   }
