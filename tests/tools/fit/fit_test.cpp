@@ -114,6 +114,19 @@ TEST(Fit, AMistypedColumnEndsItAtTheFirstRun) {
   EXPECT_NE(result.err.find("did you mean `end.position.x [mm]`"), std::string::npos) << result.err;
 }
 
+// The line from nothing to the whole weight would give the half of it.
+TEST(Fit, AStaticRunIsAskedForItsLoadStepsAlone) {
+  const TemporaryFolder folder;
+  folder.file("f.toml", kHead + kModulus +
+                            "[[measurement]]\nname = 'm'\ncolumn = 'end.position.z [mm]'\nat = "
+                            "'0.5 s'\nvalue = -101\nspread = 1\n");
+  const ProgramResult result = run_program(folder, "fit f.toml --quiet");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("no equilibrium at 0.5 s; the nearest are at 0 and 1 s"),
+            std::string::npos)
+      << result.err;
+}
+
 // What a fit asks of its runs.
 TEST(Frames, CanBeLeftOut) {
   const TemporaryFolder folder;
