@@ -114,6 +114,25 @@ TEST(Fit, AMistypedColumnEndsItAtTheFirstRun) {
   EXPECT_NE(result.err.find("did you mean `end.position.x [mm]`"), std::string::npos) << result.err;
 }
 
+// By the slope at 30 kPa the bar would hang down by 9 mm with a modulus below zero, which the user
+// never wrote.
+TEST(Fit, AParameterThatLeavesItsRangeIsNamed) {
+  const TemporaryFolder folder;
+  folder.file("f.toml", kHead +
+                            "[[parameter]]\nname = 'modulus'\npath = "
+                            "'body.beam.material.young_modulus'\nstart = '30 kPa'\n"
+                            "spread = '50 kPa'\n" +
+                            sag("sag", -9));
+  const ProgramResult result = run_program(folder, "fit f.toml --quiet");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err.rfind("articular: f.toml: parameter `modulus` went to -", 0), 0u)
+      << result.err;
+  EXPECT_NE(result.err.find(" kPa, where the scenario can't be run; give `lowest` or `highest`. "
+                            "What it says: --set"),
+            std::string::npos)
+      << result.err;
+}
+
 // The line from nothing to the whole weight would give the half of it.
 TEST(Fit, AStaticRunIsAskedForItsLoadStepsAlone) {
   const TemporaryFolder folder;
