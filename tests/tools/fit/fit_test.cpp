@@ -133,6 +133,19 @@ TEST(Fit, AParameterThatLeavesItsRangeIsNamed) {
       << result.err;
 }
 
+// Best is their mean, -2.6 mm: 0.7 mm from the one, and 0.4 and 0.3 mm from the others.
+TEST(Fit, SaysWhichMeasurementsItMisses) {
+  const TemporaryFolder folder;
+  folder.file("f.toml", kHead + kModulus + sag("less", -2.2) + sag("a bit less", -2.3) +
+                            sag("more", -3.3) + sag("not fitted", -9, "held_out = true\n"));
+  const ProgramResult result = run_program(folder, "fit f.toml --quiet");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err.rfind("articular: warning: missed: `more` by ", 0), 0u) << result.err;
+  EXPECT_NE(result.err.find(" spreads, `less` by -"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("not fitted"), std::string::npos) << result.err;
+  EXPECT_NE(content(folder / "out/f/fit.md").find("\n**Missed**: `more` by "), std::string::npos);
+}
+
 // The line from nothing to the whole weight would give the half of it.
 TEST(Fit, AStaticRunIsAskedForItsLoadStepsAlone) {
   const TemporaryFolder folder;
