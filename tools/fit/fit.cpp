@@ -65,14 +65,43 @@ class FitProblem {
     return fit_.parameters[static_cast<std::size_t>(i)];
   }
 
+  std::vector<TrialValues> run(const std::vector<FitTrial>& trials) const {
+    try {
+      return run_trials(fit_, trials, FitPart::Fitted, options_);
+    } catch (const sim::InputError& error) {
+      if (trials_ == 0) throw;  // the start is what the user wrote
+      throw sim::InputError({fit_.file.string()},
+                            fmt::format("{}, where the scenario can't be run; give `lowest` or "
+                                        "`highest`. What it says: {}",
+                                        gone_to(trials, error.what()), error.what()));
+    }
+  }
+
+  /// Which parameters went where: those whose path is spoken of, or all. Of trials for difference
+  /// quotients each changes the parameter of its name.
+  std::string gone_to(const std::vector<FitTrial>& trials, const std::string& error) const {
+    std::string spoken_of, all;
+    for (const FitTrial& trial : trials)
+      for (Index i = 0; i < trial.parameters.size(); ++i) {
+        const FitParameter& p = parameter(i);
+        if (trials.size() > 1 && trial.name != p.name) continue;
+        const std::string text =
+            fmt::format("parameter `{}` went to {:.6g}{}{}, ", p.name, trial.parameters[i],
+                        p.unit.empty() ? "" : " ", p.unit);
+        all += text;
+        if (!p.path.empty() && error.find(p.path) != std::string::npos) spoken_of += text;
+      }
+    const std::string& text = spoken_of.empty() ? all : spoken_of;
+    return text.substr(0, text.size() - 2);
+  }
+
   bool evaluate(const VectorXd& x, VectorXd& r) {
     if (at_.size() == x.size() && x == at_) {  // asked for again, with the derivatives
       r = residuals_;
       return true;
     }
     const std::string name = trials_ == 0 ? "start" : fmt::format("step {}", trials_);
-    const TrialValues trial =
-        run_trials(fit_, {{name, parameters(x)}}, FitPart::Fitted, options_)[0];
+    const TrialValues trial = run({{name, parameters(x)}})[0];
     ++trials_;
     if (!trial.failure.empty()) return false;
     const Index m = static_cast<Index>(measured_.size());
@@ -128,7 +157,7 @@ class FitProblem {
       changed[i] += steps[i];
       trials.push_back({parameter(i).name, parameters(changed)});
     }
-    const std::vector<TrialValues> results = run_trials(fit_, trials, FitPart::Fitted, options_);
+    const std::vector<TrialValues> results = run(trials);
     std::vector<Index> failed;
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       if (results[k].failure.empty())

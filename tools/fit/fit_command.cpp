@@ -7,6 +7,7 @@
 
 #include "sim/base/atomic_file.hpp"
 #include "tools/fit/fit_report.hpp"
+#include "tools/fit/missed_target.hpp"
 #include "tools/process/interruption.hpp"
 #include "tools/shipped/shipped_scenarios.hpp"
 #include "tools/study/study_prepare.hpp"
@@ -50,6 +51,7 @@ int run_fit(const FitArguments& arguments) {
     sim::write_text_file(options.directory / name, text);
     fmt::print("{}\n", (options.directory / name).string());
   }
+  warn_of_missed(missed_measurements(fit, result));
   if (result.converged) return 0;
   fmt::print(stderr, "articular: not converged after {} iterations: {}\n", result.iterations,
              result.message);

@@ -6,6 +6,7 @@
 
 #include "sim/output/history_column.hpp"
 #include "tools/fit/fit_values.hpp"
+#include "tools/fit/missed_target.hpp"
 #include "tools/fit/parameter_text.hpp"
 #include "tools/study/csv_cell.hpp"
 
@@ -102,6 +103,17 @@ std::string ending(const FitResult& result) {
 
 }  // namespace
 
+std::string missed_measurements(const Fit& fit, const FitResult& result) {
+  std::vector<TargetMisfit> misfits;
+  for (std::size_t k = 0; k < fit.measurements.size(); ++k) {
+    const FitMeasurement& m = fit.measurements[k];
+    if (!m.held_out)
+      misfits.push_back(
+          {fmt::format("`{}`", m.name), misfit(m, result.after[static_cast<Index>(k)])});
+  }
+  return missed_text(std::move(misfits));
+}
+
 std::string fit_text(const Fit& fit, const FitResult& result) {
   const Determination& d = result.determination;
   std::string text = fmt::format("# {}\n\n{}\n\n## Measurements\n\n", fit.title, ending(result));
@@ -109,6 +121,7 @@ std::string fit_text(const Fit& fit, const FitResult& result) {
   text +=
       fmt::format("\nMean misfit: {:.2f} spreads, {:.2f} at the start.\n",
                   mean_misfit(fit, result.after, false), mean_misfit(fit, result.before, false));
+  text += missed_paragraph(missed_measurements(fit, result));
   const bool any_held_out = mean_misfit(fit, result.after, true) > 0;
   if (any_held_out) {
     text += "\n## Held out\n\nNot fitted; they say what the fit is worth elsewhere.\n\n" +

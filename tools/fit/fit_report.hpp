@@ -10,6 +10,9 @@ namespace articular::tools {
 /// widths, and what determines them; which of them can't be told from each other.
 std::string fit_text(const Fit& fit, const FitResult& result);
 
+/// The fitted measurements that are missed, in words; "" where none is.
+std::string missed_measurements(const Fit& fit, const FitResult& result);
+
 /// A row a measurement: what was measured, its value before and after, misfit in spreads.
 std::string measurements_csv(const Fit& fit, const FitResult& result);
 

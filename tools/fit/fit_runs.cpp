@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "sim/base/error.hpp"
 #include "tools/fit/fit_values.hpp"
@@ -49,6 +51,26 @@ class FitCases {
   std::vector<StudyCase> cases_;
 };
 
+/// What a run has to say.
+struct RunResults {
+  RunHistory history;
+  sim::Scenario::Analysis analysis = sim::Scenario::Analysis::Dynamic;
+};
+
+RunResults read_results(const std::filesystem::path& results) {
+  using Analysis = sim::Scenario::Analysis;
+  const std::filesystem::path file = results / "summary.json";
+  std::ifstream stream(file);
+  const auto summary = nlohmann::json::parse(stream, nullptr, false);
+  try {
+    const bool is_static = summary.at("settings").at("analysis") == "static";
+    return {read_history(results / "history.csv"),
+            is_static ? Analysis::Static : Analysis::Dynamic};
+  } catch (const nlohmann::json::exception&) {
+    throw sim::SystemError(file.string() + ": can't be read");
+  }
+}
+
 /// Why a run gave no values. What is no question of the parameters (bad input, a full disk, a bug)
 /// ends the fit.
 std::string failure_of(const StudyCase& c, const CaseRecord& record) {
@@ -89,20 +111,21 @@ std::vector<TrialValues> run_trials(const Fit& fit, const std::vector<FitTrial>&
   const std::vector<FitMeasurement> measurements = measurements_of(fit, part);
   std::vector<TrialValues> results(trials.size());
   for (std::size_t t = 0; t < trials.size(); ++t) {
-    std::vector<RunHistory> histories(fit.runs.size());
+    std::vector<RunResults> of_run(fit.runs.size());
     for (const std::size_t run : runs) {
       const std::size_t c = case_of_run[t][run];
       if (!records[c].succeeded())
         results[t].failure = failure_of(cases.all()[c], records[c]);
       else
-        histories[run] =
-            read_history(results_of(options.directory, cases.all()[c]) / "history.csv");
+        of_run[run] = read_results(results_of(options.directory, cases.all()[c]));
     }
     if (!results[t].failure.empty()) continue;
     results[t].values.resize(static_cast<Eigen::Index>(measurements.size()));
-    for (std::size_t m = 0; m < measurements.size(); ++m)
+    for (std::size_t m = 0; m < measurements.size(); ++m) {
+      const RunResults& run = of_run[measurements[m].run];
       results[t].values[static_cast<Eigen::Index>(m)] =
-          measured_value(measurements[m], histories[measurements[m].run], fit.file.string());
+          measured_value(measurements[m], run.history, run.analysis, fit.file.string());
+    }
   }
   return results;
 }

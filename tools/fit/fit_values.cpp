@@ -41,22 +41,39 @@ Moment moment_of(double time, const std::vector<double>& times, const std::strin
   return {i - 1, std::clamp(share, 0.0, 1.0)};
 }
 
+constexpr double kOnARow = 1e-6;  // of the way to the next one
+
+bool is_on_a_row(const Moment& moment) {
+  return moment.share < kOnARow || moment.share > 1 - kOnARow;
+}
+
+void refuse_between_rows(double time, const std::vector<double>& times, const Moment& moment,
+                         const std::string& what) {
+  if (is_on_a_row(moment)) return;
+  throw sim::InputError(fmt::format(
+      "{}: the static run has no equilibrium at {:g} s; the nearest are at {:g} and {:g} s. Choose "
+      "one of them, or an `integrator.step` of which {:g} s is a multiple",
+      what, time, times[moment.before], times[moment.before + 1], time));
+}
+
 double value_at(const std::vector<double>& values, const Moment& moment) {
-  constexpr double kOnARow = 1e-6;  // its neighbour may be empty
-  if (moment.share < kOnARow) return values[moment.before];
-  if (moment.share > 1 - kOnARow) return values[moment.before + 1];
+  if (is_on_a_row(moment))  // its neighbour may be empty
+    return values[moment.share < kOnARow ? moment.before : moment.before + 1];
   return (1 - moment.share) * values[moment.before] + moment.share * values[moment.before + 1];
 }
 
 double sum_at(const FitMeasurement& measurement, double time, const RunHistory& history,
-              const std::string& what) {
+              sim::Scenario::Analysis analysis, const std::string& what) {
+  const std::vector<double>& times = history.columns[0];
+  const Moment moment = moment_of(time, times, what);
+  if (analysis == sim::Scenario::Analysis::Static) refuse_between_rows(time, times, moment, what);
   double sum = 0;
   for (const std::string& name : measurement.columns) {
     if (sim::history_column(name).unit != sim::history_column(measurement.columns.front()).unit)
       throw sim::InputError(fmt::format("{}: columns `{}` and `{}` have different units", what,
                                         measurement.columns.front(), name));
     const std::vector<double>& values = column_of(name, history, what);
-    const double value = value_at(values, moment_of(time, history.columns[0], what));
+    const double value = value_at(values, moment);
     if (!std::isfinite(value))
       throw sim::InputError(fmt::format("{}: column `{}` is empty at {:g} s", what, name, time));
     sum += value;
@@ -67,12 +84,13 @@ double sum_at(const FitMeasurement& measurement, double time, const RunHistory& 
 }  // namespace
 
 double measured_value(const FitMeasurement& measurement, const RunHistory& history,
-                      const std::string& fit_file) {
+                      sim::Scenario::Analysis analysis, const std::string& fit_file) {
   const std::string what = fmt::format("{}: measurement `{}`", fit_file, measurement.name);
   if (history.columns[0].size() < 2)
     throw sim::InputError(fmt::format("{}: history.csv has one row alone", what));
-  const double value = sum_at(measurement, measurement.at, history, what);
-  return measurement.minus ? value - sum_at(measurement, *measurement.minus, history, what) : value;
+  const double value = sum_at(measurement, measurement.at, history, analysis, what);
+  if (!measurement.minus) return value;
+  return value - sum_at(measurement, *measurement.minus, history, analysis, what);
 }
 
 double misfit(const FitMeasurement& measurement, double value) {

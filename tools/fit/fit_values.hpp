@@ -2,17 +2,19 @@
 
 #include <string>
 
+#include "sim/scenario/scenario.hpp"
 #include "tools/fit/fit_file.hpp"
 #include "tools/study/study_values.hpp"
 
 /// What the results of a run say of a measurement.
 namespace articular::tools {
 
-/// The value of a measurement in a run, linear between the rows of its history.
+/// The value of a measurement in a run. In time it is linear between the rows of the history. A
+/// static run has its rows alone: no line joins equilibria that were not computed.
 /// @throws sim::InputError       no such column (names the nearest), columns of different units, a
 ///                               time that the run does not have, or a cell that is empty there
 double measured_value(const FitMeasurement& measurement, const RunHistory& history,
-                      const std::string& fit_file);
+                      sim::Scenario::Analysis analysis, const std::string& fit_file);
 
 /// How far a value is from what was measured, in standard deviations; 0 on the allowed side of a
 /// limit.

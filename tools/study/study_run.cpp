@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <mutex>
 
 #include "parallel/thread_pool.hpp"
 #include "sim/base/error.hpp"
+#include "sim/base/hash.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "tools/engine/serve_tasks.hpp"
 #include "tools/process/interruption.hpp"
@@ -43,6 +45,11 @@ fs::path prepared_folder(const fs::path& directory, const StudySettings& setting
          fmt::format("{:016x}", std::hash<std::string>{}(joined(settings.prepare)));
 }
 
+/// When it is run, which no other case waits for.
+bool makes_its_own_meshes(const StudyCase& c) {
+  return c.prepares_alone && !c.settings.prepare.empty();
+}
+
 class CaseRunner {
  public:
   CaseRunner(const Study& study, const StudyRunOptions& options)
@@ -53,7 +60,7 @@ class CaseRunner {
         fixed_key_(text_of(study.scenario) + identity(program_)) {}
 
   /// Reads the scenario as the case has it, so that a mistake costs seconds and not hours.
-  void check(const StudyCase& c) const {
+  void check(const StudyCase& c) {
     if (!c.command.empty()) return;
     ::setenv(kPrepared, prepared_of(c).c_str(), 1);
     for (const std::string& variable : c.environment) {
@@ -61,7 +68,8 @@ class CaseRunner {
       ::setenv(variable.substr(0, is).c_str(), variable.substr(is + 1).c_str(), 1);
     }
     try {
-      sim::read_scenario(study_.scenario, c.settings.overrides);
+      std::vector<fs::path> files = sim::read_scenario(study_.scenario, c.settings.overrides).files;
+      if (!makes_its_own_meshes(c)) files_of_case_[c.folder] = std::move(files);
     } catch (const sim::InputError& error) {
       throw sim::InputError(
           fmt::format("{} (case `{}` of {})", error.what(), c.name, study_.file.string()));
@@ -70,7 +78,7 @@ class CaseRunner {
 
   /// Of cases that make their own meshes when they are run: those of one, so that it can be read.
   /// That they can't be made is a failure of that case, which it says when it is run.
-  void check_alone(const StudyCase& c) const {
+  void check_alone(const StudyCase& c) {
     if (prepare_meshes(prepared_of(c), c.settings.prepare, false).empty()) check(c);
   }
 
@@ -84,6 +92,18 @@ class CaseRunner {
                             fmt::format("case `{}`: `prepare` failed {}", c.name, failure));
   }
 
+  /// Takes note of what the files hold that cases name, once all of them are made. A case that is
+  /// run later has this in its key: should a file change meanwhile, the next call runs it again.
+  void look_at_files(const std::vector<StudyCase>& cases) {
+    for (const StudyCase& c : cases) {
+      const auto files = files_of_case_.find(c.folder);
+      if (files == files_of_case_.end()) continue;
+      std::vector<std::string>& seen = seen_of_case_[c.folder];
+      for (const fs::path& file : files->second)
+        seen.push_back(fmt::format("{} {}", file.string(), hash_of(file)));
+    }
+  }
+
   CaseRecord finished(const StudyCase& c) const {
     if (options_.fresh) return {};
     return read_record(folder_of(directory_, c) / "case.json", key_of(c));
@@ -94,7 +114,7 @@ class CaseRunner {
     const fs::path folder = folder_of(directory_, c);
     fs::create_directories(folder);
     Task task{c.folder, key_of(c), {}, c.environment, folder / "log", study_.time_limit};
-    if (c.prepares_alone && !c.settings.prepare.empty()) {
+    if (makes_its_own_meshes(c)) {
       fs::create_directories(prepared_of(c));
       task.commands.push_back(prepare_command(prepared_of(c), c.settings.prepare));
     }
@@ -153,9 +173,20 @@ class CaseRunner {
     words.insert(words.end(), c.settings.prepare.begin(), c.settings.prepare.end());
     words.insert(words.end(), c.environment.begin(), c.environment.end());
     words.push_back(fixed_key_);
+    if (const auto seen = seen_of_case_.find(c.folder); seen != seen_of_case_.end())
+      words.insert(words.end(), seen->second.begin(), seen->second.end());
     // Of a population times are not compared.
     if (!study_.population) words.push_back(fmt::format("{} side by side", options_.jobs));
     return fmt::format("{:016x}", std::hash<std::string>{}(joined(words)));
+  }
+
+  /// Of what a file holds. That it can't be read is said by the run that needs it.
+  const std::string& hash_of(const fs::path& file) {
+    const auto [known, is_new] = hashes_.try_emplace(file.string());
+    std::error_code none;
+    if (is_new && fs::is_regular_file(file, none))
+      known->second = fmt::format("{:016x}", sim::hash_bytes(text_of(file)));
+    return known->second;
   }
 
   fs::path prepared_of(const StudyCase& c) const {
@@ -167,6 +198,9 @@ class CaseRunner {
   const StudyRunOptions& options_;
   fs::path directory_;
   std::string program_, fixed_key_;
+  std::map<std::string, std::vector<fs::path>> files_of_case_;    // by its folder
+  std::map<std::string, std::vector<std::string>> seen_of_case_;  // the same with what they hold
+  std::map<std::string, std::string> hashes_;                     // by file
 };
 
 /// Tells the user how far the study is.
@@ -262,14 +296,12 @@ fs::path results_of(const fs::path& directory, const StudyCase& c) {
 std::vector<CaseRecord> run_cases(const Study& study, const std::vector<StudyCase>& cases,
                                   const StudyRunOptions& options) {
   CaseRunner runner(study, options);
-  const auto makes_its_own = [](const StudyCase& c) {
-    return c.prepares_alone && !c.settings.prepare.empty();
-  };
   for (const StudyCase& c : cases)
-    if (!makes_its_own(c)) runner.check(c);
-  const auto first = std::find_if(cases.begin(), cases.end(), makes_its_own);
+    if (!makes_its_own_meshes(c)) runner.check(c);
+  const auto first = std::find_if(cases.begin(), cases.end(), makes_its_own_meshes);
   if (first != cases.end()) runner.check_alone(*first);
   for (const StudyCase& c : cases) runner.prepare(c);
+  runner.look_at_files(cases);
   std::vector<CaseRecord> records;
   records.reserve(cases.size());
   for (const StudyCase& c : cases) records.push_back(runner.finished(c));

@@ -36,8 +36,8 @@ struct StudyRunOptions {
 std::filesystem::path results_of(const std::filesystem::path& directory, const StudyCase& c);
 
 /// Runs each case as often as the study says, round by round, so that a slow quarter of an hour of
-/// the machine falls on all of them. What an earlier call finished is kept if scenario, arguments
-/// and program are the same.
+/// the machine falls on all of them. What an earlier call finished is kept if scenario, arguments,
+/// program and all files that the scenario names are the same.
 /// With an engine but the local one cases wait in DIR/queue for workers, see tools/engine. One that
 /// is lost there is not kept, so that the next call runs it again.
 /// @return one record a case; fewer runs than asked for after a failure

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "sim/base/atomic_file.hpp"
+#include "tools/fit/missed_target.hpp"
 #include "tools/process/interruption.hpp"
 #include "tools/process/status_line.hpp"
 #include "tools/shipped/shipped_scenarios.hpp"
@@ -83,6 +84,7 @@ int run_track(const TrackArguments& arguments) {
   if (!result.points.empty()) {
     sim::make_folders(directory);
     write(track, result, directory);
+    warn_of_missed(missed_targets(track, result));
   }
   if (result.interrupted) {
     fmt::print(stderr, "articular: interrupted; what is written ends before\n");

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "sim/output/history_column.hpp"
+#include "sim/scenario/curve.hpp"
+#include "tools/fit/missed_target.hpp"
 #include "tools/study/csv_cell.hpp"
 
 namespace articular::tools {
@@ -165,6 +167,30 @@ std::string targets_csv(const Track& track, const TrackResult& result) {
   return text;
 }
 
+std::string missed_targets(const Track& track, const TrackResult& result) {
+  std::vector<TargetMisfit> misfits;
+  /// @param off_at  in spreads; NaN where it does not count
+  const auto add = [&](const std::string& name, auto off_at) {
+    TargetMisfit worst;
+    for (const TrackPoint& point : result.points)
+      if (const double off = off_at(point); std::abs(off) > std::abs(worst.spreads))
+        worst = {fmt::format("{} at {:g} s", name, point.time), off};
+    misfits.push_back(std::move(worst));
+  };
+  for (std::size_t k = 0; k < track.targets.size(); ++k)
+    add(fmt::format("`{}`", track.targets[k].name), [&](const TrackPoint& point) {
+      const auto i = static_cast<Index>(k);
+      return (point.got[i] - point.wanted[i]) / track.targets[k].spread;
+    });
+  for (std::size_t u = 0; u < result.unknowns.size(); ++u)
+    if (const TrackMuscle& given = *result.unknowns[u].given; !given.emg.time.empty())
+      add(fmt::format("EMG of `{}`", result.unknowns[u].name), [&](const TrackPoint& point) {
+        return (point.excitation[static_cast<Index>(u)] - sim::value_at(given.emg, point.time)) /
+               given.emg_spread;
+      });
+  return missed_text(std::move(misfits));
+}
+
 std::string muscles_csv(const TrackResult& result) {
   std::string text = "time [s],muscle,excitation,width,from_targets,squares,cubes,largest\n";
   for (const TrackPoint& point : result.points)
@@ -187,6 +213,7 @@ std::string track_text(const Track& track, const TrackResult& result,
   text += fmt::format("Until {:g} s. To run it:\n\n    articular run {} --set @{}\n",
                       result.points.back().time, track.scenario.string(), overrides.string());
   text += "\n## Targets\n\n" + target_table(track, result);
+  text += missed_paragraph(missed_targets(track, result));
   text += "\n## Muscles\n\n" + muscle_table(result);
   text += "\n## Other costs\n\n" + cost_table(track, result);
   text += "\n## Times\n\n" + time_table(result);

@@ -18,6 +18,10 @@ std::string excitation_overrides(const Track& track, const std::filesystem::path
 /// targets.csv: what was wanted and what it came to, at each time.
 std::string targets_csv(const Track& track, const TrackResult& result);
 
+/// Targets that are missed at some time, with the time where most, in words; also EMG. "" where
+/// none is.
+std::string missed_targets(const Track& track, const TrackResult& result);
+
 /// muscles.csv: each excitation at each time, how well it is known, and what other costs would have
 /// given.
 std::string muscles_csv(const TrackResult& result);

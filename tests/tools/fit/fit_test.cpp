@@ -114,6 +114,51 @@ TEST(Fit, AMistypedColumnEndsItAtTheFirstRun) {
   EXPECT_NE(result.err.find("did you mean `end.position.x [mm]`"), std::string::npos) << result.err;
 }
 
+// By the slope at 30 kPa the bar would hang down by 9 mm with a modulus below zero, which the user
+// never wrote.
+TEST(Fit, AParameterThatLeavesItsRangeIsNamed) {
+  const TemporaryFolder folder;
+  folder.file("f.toml", kHead +
+                            "[[parameter]]\nname = 'modulus'\npath = "
+                            "'body.beam.material.young_modulus'\nstart = '30 kPa'\n"
+                            "spread = '50 kPa'\n" +
+                            sag("sag", -9));
+  const ProgramResult result = run_program(folder, "fit f.toml --quiet");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err.rfind("articular: f.toml: parameter `modulus` went to -", 0), 0u)
+      << result.err;
+  EXPECT_NE(result.err.find(" kPa, where the scenario can't be run; give `lowest` or `highest`. "
+                            "What it says: --set"),
+            std::string::npos)
+      << result.err;
+}
+
+// Best is their mean, -2.6 mm: 0.7 mm from the one, and 0.4 and 0.3 mm from the others.
+TEST(Fit, SaysWhichMeasurementsItMisses) {
+  const TemporaryFolder folder;
+  folder.file("f.toml", kHead + kModulus + sag("less", -2.2) + sag("a bit less", -2.3) +
+                            sag("more", -3.3) + sag("not fitted", -9, "held_out = true\n"));
+  const ProgramResult result = run_program(folder, "fit f.toml --quiet");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err.rfind("articular: warning: missed: `more` by ", 0), 0u) << result.err;
+  EXPECT_NE(result.err.find(" spreads, `less` by -"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("not fitted"), std::string::npos) << result.err;
+  EXPECT_NE(content(folder / "out/f/fit.md").find("\n**Missed**: `more` by "), std::string::npos);
+}
+
+// The line from nothing to the whole weight would give the half of it.
+TEST(Fit, AStaticRunIsAskedForItsLoadStepsAlone) {
+  const TemporaryFolder folder;
+  folder.file("f.toml", kHead + kModulus +
+                            "[[measurement]]\nname = 'm'\ncolumn = 'end.position.z [mm]'\nat = "
+                            "'0.5 s'\nvalue = -101\nspread = 1\n");
+  const ProgramResult result = run_program(folder, "fit f.toml --quiet");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("no equilibrium at 0.5 s; the nearest are at 0 and 1 s"),
+            std::string::npos)
+      << result.err;
+}
+
 // What a fit asks of its runs.
 TEST(Frames, CanBeLeftOut) {
   const TemporaryFolder folder;

@@ -18,7 +18,11 @@ FitMeasurement measurement(std::vector<std::string> columns, double at) {
   return m;
 }
 
-double value(const FitMeasurement& m) { return measured_value(m, kHistory, "f.toml"); }
+using Analysis = sim::Scenario::Analysis;
+
+double value(const FitMeasurement& m, Analysis analysis = Analysis::Dynamic) {
+  return measured_value(m, kHistory, analysis, "f.toml");
+}
 
 TEST(FitValues, AreSumsAndDifferencesBetweenRows) {
   EXPECT_EQ(value(measurement({"a.force [N]"}, 2)), 30);
@@ -31,6 +35,25 @@ TEST(FitValues, AreSumsAndDifferencesBetweenRows) {
 
 TEST(FitValues, ARowCountsThoughTheNextIsEmpty) {
   EXPECT_EQ(value(measurement({"b.force [N]"}, 1)), 1);
+}
+
+// Between equilibria nothing was computed, and a line from one to the next may be far off.
+TEST(FitValues, OfAStaticRunAreThoseOfItsRowsAlone) {
+  EXPECT_EQ(value(measurement({"a.force [N]"}, 2), Analysis::Static), 30);
+  EXPECT_EQ(value(measurement({"b.force [N]"}, 1 + 1e-9), Analysis::Static), 1);
+  FitMeasurement between = measurement({"a.force [N]"}, 2);
+  between.minus = 0.25;
+  for (const FitMeasurement& m : {measurement({"a.force [N]"}, 0.25), between}) {
+    try {
+      value(m, Analysis::Static);
+      ADD_FAILURE() << "not refused";
+    } catch (const sim::InputError& e) {
+      EXPECT_STREQ(e.what(),
+                   "f.toml: measurement `m`: the static run has no equilibrium at 0.25 s; the "
+                   "nearest are at 0 and 1 s. Choose one of them, or an `integrator.step` of which "
+                   "0.25 s is a multiple");
+    }
+  }
 }
 
 TEST(FitValues, MistakesAreNamed) {

@@ -81,6 +81,41 @@ TEST(Study, RunsAgainOnlyWhatIsMissing) {
   EXPECT_EQ(count(run_program(folder, "study s.toml --fresh").err, "\n"), 4u);
 }
 
+/// A block of six tetrahedra, 10 mm wide.
+std::string block(const std::string& height) {
+  return "# vtk DataFile Version 3.0\nblock\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
+         "0 0 0 10 0 0 10 10 0 0 10 0 0 0 " +
+         height + " 10 0 " + height + " 10 10 " + height + " 0 10 " + height +
+         "\nCELLS 6 30\n4 0 1 2 6\n4 0 2 3 6\n4 0 3 7 6\n4 0 7 4 6\n4 0 4 5 6\n4 0 5 1 6\n"
+         "CELL_TYPES 6\n10 10 10 10 10 10\n";
+}
+
+// The scenario's text and the command are as they were, and results would be those of the old file.
+TEST(Study, RunsAgainWhatReadAFileThatHasChanged) {
+  const TemporaryFolder folder;
+  folder.file("block.toml",
+              "duration = '1 s'\nanalysis = 'static'\n[integrator]\nstep = '1 s'\n"
+              "[[body]]\nname = 'floor'\nkind = 'fixed'\n"
+              "[[body]]\nname = 'block'\nkind = 'tissue'\ndensity = '1 g/cm^3'\n"
+              "mesh = { file = 'block.vtk' }\n"
+              "material = { law = 'neo-hookean', young_modulus = '15 kPa', poisson_ratio = 0.3 }\n"
+              "[[attach]]\nbody = 'block'\nto = 'floor'\n"
+              "region = { box = ['-1 -1 -1 mm', '11 11 1 mm'] }\n"
+              "[[probe]]\nname = 'top'\nkind = 'point'\nbody = 'block'\npoint = '0 0 10 mm'\n");
+  folder.file("s.toml",
+              "scenario = 'block.toml'\n"
+              "[[knob]]\nname = 'stiffness'\npath = 'body.block.material.young_modulus'\n"
+              "values = ['20 kPa']\n[[output]]\nname = 'top'\ncolumn = 'top.position.z [mm]'\n");
+  folder.file("block.vtk", block("10"));
+  ASSERT_EQ(run_program(folder, "study s.toml").exit_code, 0);
+  EXPECT_EQ(run_program(folder, "study s.toml").err, "");
+  folder.file("block.vtk", block("12"));
+  const ProgramResult again = run_program(folder, "study s.toml");
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(count(again.err, ": done"), 2u) << again.err;
+  EXPECT_EQ(run_program(folder, "study s.toml").err, "");
+}
+
 // No step is made: that case fails with what the run says, and the study goes on.
 TEST(Study, AFailedCaseIsAResult) {
   const TemporaryFolder folder;

@@ -194,6 +194,22 @@ TEST_F(Track, MusclesTogetherHaveOneExcitation) {
   EXPECT_EQ(found["pull_y"], found["pull_z"]);
 }
 
+// Two targets ask for forces that are 20 spreads apart at the end, of a muscle that was silent.
+TEST_F(Track, SaysWhichTargetsItMissesAndWhenMost) {
+  const ProgramResult result =
+      track(kStatic +
+            "duration = \"0.5 s\"\n[[muscle]]\nname = \"pull_y\"\nemg = 0\nemg_spread = "
+            "0.05\n[[target]]\ncolumn = \"pull_y.force [N]\"\nvalue = 3\nspread = 0.01\n"
+            "[[target]]\nname = \"other\"\ncolumn = \"pull_y.force [N]\"\nvalue = { time = "
+            "[\"0 s\", \"0.5 s\"], value = [3, 3.2] }\nspread = 0.01\n");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err.rfind("articular: warning: missed: ", 0), 0u) << result.err;
+  EXPECT_NE(result.err.find("`pull_y.force [N]` at 0.5 s by "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("`other` at 0.5 s by -"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("EMG of `pull_y` at "), std::string::npos) << result.err;
+  EXPECT_NE(content(folder_ / "out/t/track.md").find("\n**Missed**: "), std::string::npos);
+}
+
 /// Moves in time, for a tenth of a second.
 const std::string kInTime =
     "set = { analysis = \"dynamic\", duration = \"0.1 s\", \"integrator.step\" = \"1 ms\", "
