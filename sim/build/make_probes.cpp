@@ -75,13 +75,15 @@ struct Resolver {
                                    "not touch itself in this scene; expected two bodies, or a "
                                    "[[contact]] with self = \"{}\"",
                                    probe.name, contact.first, contact.first));
-    if (!pair && first != second && scenario.contact)
+    if (!pair)
       throw InputError(probe.where,
                        fmt::format("probe `{}` observes contact of `{}` and `{}`, which do not "
-                                   "touch in this scene: [[contact]] names other pairs, or neither "
-                                   "of them moves",
-                                   probe.name, contact.first, contact.second));
-    if (pair) observed.contact = *pair;
+                                   "touch in this scene: {}",
+                                   probe.name, contact.first, contact.second,
+                                   scenario.contact ? "[[contact]] names other pairs, or neither "
+                                                      "of them moves"
+                                                    : "contact = false"));
+    observed.contact = *pair;
     if (contact.region) observed.faces = faces_in(*contact.region, contact.first);
     return observed;
   }

@@ -20,9 +20,13 @@ struct Usual {
 };
 
 // Of what moves or gives way. Lungs have 200 kg/m³, tungsten has 19300; brain has a shear modulus
-// of about 500 Pa, diamond one of 5e11 Pa; the strongest muscle of a man has some thousand newtons.
+// of about 500 Pa, tendon and plastics have less than 4e8 Pa (Young's modulus 1 GPa), bone has
+// more; the strongest muscle of a man has some thousand newtons, fibres pull with up to 1 MPa.
 constexpr Usual kExtent{1e-4, 1}, kTissueDensity{100, 4000}, kRigidDensity{100, 25000},
-    kShearModulus{10, 1e12}, kForce{0, 2e4};
+    kShearModulus{10, 4e8}, kForce{0, 2e4}, kMass{0, 100}, kFibreStress{0, 3e6}, kGravity{0, 100},
+    kSlackLength{0, 1};
+
+constexpr double kFarthest = 2;  // [m] of the end of a muscle or ligament from its body's middle
 
 constexpr double kMostTurn = 2 * std::numbers::pi * (1 + 1e-9);  // [rad]
 
@@ -86,6 +90,43 @@ void doubt_surface_loads(const Scenario& scenario, const Model& model, const Dou
   }
 }
 
+/// Points of muscles and ligaments that lie nowhere near their bodies: metres for millimetres.
+template <class Doubt>
+void doubt_points(const Scenario& scenario, const Model& model, const Doubt& doubt) {
+  const auto middle_of = [&](const BodyModel& body) -> Vec3 {
+    const Positions x = start_positions(model, body);
+    if (x.cols() > 0) return x.rowwise().mean();
+    if (body.rigid < 0) return Vec3::Zero();
+    return model.rigid_bodies[static_cast<std::size_t>(body.rigid)].rest.p;
+  };
+  std::vector<Vec3> middles;
+  for (const BodyModel& body : model.bodies) middles.push_back(middle_of(body));
+  const auto look_at = [&](const auto& lines, const char* kind) {
+    for (const auto& line : lines)
+      for (const Anchor& anchor : line.path) {
+        const auto body = static_cast<std::size_t>(body_index(scenario, anchor.body));
+        const double distance = (anchor.point - middles[body]).norm();
+        if (distance <= kFarthest) continue;
+        doubt(line.where, fmt::format("{} `{}` has a point {:.3g} m from the middle of `{}`, usual "
+                                      "is less than {} m",
+                                      kind, line.name, distance, anchor.body, kFarthest));
+        break;
+      }
+  };
+  look_at(scenario.muscles, "muscle");
+  look_at(scenario.ligaments, "ligament");
+}
+
+template <class Doubt>
+void doubt_gravity(const Scenario& scenario, const Doubt& doubt) {
+  for (const Load& any : scenario.loads)
+    if (const auto* const load = std::get_if<GravityLoad>(&any)) {
+      const double most = load->acceleration.norm() * largest_factor(load->profile);
+      if (!is_usual(most, kGravity))
+        doubt(load->where, fmt::format("gravity is {:.3g} m/s^2, on earth it is 9.81 m/s^2", most));
+    }
+}
+
 /// Radians are read as degrees, and degrees as radians.
 template <class Doubt>
 void doubt_turns(const Scenario& scenario, const Doubt& doubt) {
@@ -121,14 +162,30 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
       doubt(body.where,
             fmt::format("`{}` has a density of {:.3g} kg/m^3, {:.2g} times that of water",
                         body.name, *body.density, *body.density / 1000));
+    if (body.mass && !is_usual(*body.mass, kMass))
+      doubt(body.where, fmt::format("`{}` has a mass of {:.3g} kg, usual is up to {:.0f} kg",
+                                    body.name, *body.mass, kMass.most));
     if (is_tissue && !is_usual(tissue->shear_modulus, kShearModulus))
       doubt(body.material->where,
-            fmt::format("`{}` has a shear modulus of {:.3g} Pa", body.name, tissue->shear_modulus));
+            fmt::format("`{}` has a shear modulus of {:.3g} Pa, usual is {:g} Pa to {:g} MPa",
+                        body.name, tissue->shear_modulus, kShearModulus.least,
+                        1e-6 * kShearModulus.most));
+    if (is_tissue && !is_usual(tissue->active_stress, kFibreStress))
+      doubt(body.material->where,
+            fmt::format("fibres of `{}` pull with {:.3g} MPa, usual is up to 1 MPa", body.name,
+                        1e-6 * tissue->active_stress));
   }
   for (const Muscle& muscle : scenario.muscles)
     if (muscle.tissue.empty() && !is_usual(muscle.max_force, kForce))
       doubt(muscle.where, fmt::format("muscle `{}` has a largest force of {:.3g} N", muscle.name,
                                       muscle.max_force));
+  for (const Ligament& ligament : scenario.ligaments)
+    if (ligament.slack_length && !is_usual(*ligament.slack_length, kSlackLength))
+      doubt(ligament.where, fmt::format("ligament `{}` has a slack length of {:.3g} m, usual is "
+                                        "less than {} m",
+                                        ligament.name, *ligament.slack_length, kSlackLength.most));
+  doubt_points(scenario, model, doubt);
+  doubt_gravity(scenario, doubt);
   doubt_turns(scenario, doubt);
   doubt_surface_loads(scenario, model, doubt);
   doubt_times(scenario, doubt);

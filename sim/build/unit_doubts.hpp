@@ -7,9 +7,9 @@
 
 namespace articular::sim {
 
-/// Sizes, densities, stiffnesses and forces that no tissue, bone or tool has, and curves that begin
-/// when the run is over: most often a unit was meant otherwise. One line each, with the place in
-/// the scenario.
+/// Sizes, masses, stiffnesses, forces and places that no tissue, bone or tool has, gravity of no
+/// planet, and curves that begin when the run is over: most often a unit was meant otherwise. One
+/// line each, with the place in the scenario.
 std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& model);
 
 }  // namespace articular::sim

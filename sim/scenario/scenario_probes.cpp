@@ -256,7 +256,7 @@ struct ProbeKind {
 constexpr ProbeKind kProbeKinds[] = {
     {"point", read_point, true, "motion of a place"},
     {"way", read_way, true, "velocity of a place, and how far it has come"},
-    {"angle", read_angle, true, "rotation of a body"},
+    {"angle", read_angle, true, "rotation of a body since the start, in (-180, 180] deg"},
     {"helical_axis", read_helical_axis, false,
      "the axis about which a body has turned since the start, and turns now"},
     {"contact", read_contact, true, "what passes between two bodies"},

@@ -121,7 +121,9 @@ Direction coarser_meshes(const sim::Scenario& scenario, const std::vector<std::s
         "{} can't be made coarser: no `made_by` with an articular command "
         "and its --size",
         fmt::join(varied.as_they_are, ", "));
-  if (varied.bodies.empty()) {
+  mesh.is_needed = std::any_of(scenario.bodies.begin(), scenario.bodies.end(),
+                               [](const Body& body) { return body.kind == Body::Kind::Tissue; });
+  if (varied.bodies.empty() || (mesh.is_needed && !varied.has_tissue)) {
     if (mesh.left_out.empty()) mesh.remark = "the scene has no elements";
     return mesh;
   }

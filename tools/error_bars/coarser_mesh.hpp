@@ -17,7 +17,8 @@ std::pair<double, double> coarsening_of(const std::vector<int>& counts);
 
 /// Every built-in geometry with fewer cells, and every mesh file whose `made_by` is an `articular`
 /// command with a --size made again by it. Sizes are told by the number of elements of tissue (of
-/// all bodies that are made coarser, if none is tissue), to the power -1/3.
+/// all bodies that are made coarser, if none is tissue), to the power -1/3. Where there is tissue
+/// and none of it can be made coarser, there are no runs, and without them no bars.
 /// @param folder  where the meshes of commands go
 /// @param fresh   makes them again
 /// @param ratio   of sizes from mesh to mesh; 0 chooses one

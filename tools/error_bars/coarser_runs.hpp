@@ -25,7 +25,8 @@ struct Direction {
   std::vector<CoarserRun> runs = {};  // from finer to coarser; none: the next two say why
   std::string left_out = {};          // what of this error is not in the bar, and why; "": nothing
   std::string remark = {};            // what a reader has to know of it; "": nothing
-  int wanted_runs = 2;  // with fewer than two no order can be seen, nor is it asked for
+  int wanted_runs = 2;     // with fewer than two no order can be seen, nor is it asked for
+  bool is_needed = false;  // without its part there is no bar: the others would promise too much
 };
 
 /// Steps twice and four times as long, with frames and restart points as much rarer, so that steps

@@ -63,7 +63,7 @@ DiscretisationError part_of(const Direction& direction, ErrorBar& bar) {
     if (run.failure.empty())
       values.push_back({run.size, quantity_value(run.history, bar.column, bar.quantity)});
     else
-      append(failures, fmt::format("the coarser run `{}` failed: {}", run.name, run.failure));
+      append(failures, fmt::format("the coarser run `{}` failed", run.name));
   }
   if (!direction.left_out.empty()) append(bar.left_out, direction.name + ": " + direction.left_out);
   if (direction.runs.empty()) return {};
@@ -84,7 +84,10 @@ void sum_up(const std::vector<Direction>& directions, ErrorBar& bar) {
   bool any = bar.left_out.empty();  // a scene may have no such error at all
   for (std::size_t d = 0; d < directions.size(); ++d) {
     const DiscretisationError& part = bar.parts[d];
-    if (!std::isfinite(part.bar)) continue;
+    if (!std::isfinite(part.bar)) {
+      if (directions[d].is_needed) return;
+      continue;
+    }
     any = true;
     sum += part.bar;
     if (is_doubted(directions[d], part)) doubted += part.bar;

@@ -41,7 +41,8 @@ void add_force_sizes(RunHistory& history);
 /// between the first and the last row. Columns without a value are left out.
 ///
 /// A bar is the sum of those of the directions: these errors are no chance, and may all have the
-/// same sign. It counts as asymptotic where nine tenths of it are.
+/// same sign. It counts as asymptotic where nine tenths of it are. Without the part of a direction
+/// that is needed there is none.
 std::vector<ErrorBar> error_bars(const RunHistory& history,
                                  const std::vector<Direction>& directions);
 

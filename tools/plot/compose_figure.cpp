@@ -160,12 +160,10 @@ void set_axes(FigurePanel& panel, const std::string& x_name, const ShownUnit& x_
 /// Runs, or the components of vectors where there is one run.
 std::vector<LegendEntry> curve_legend(const FigureRequest& request, const CurvePlan& plan) {
   std::vector<LegendEntry> legend;
-  const bool has_vector = std::any_of(plan.panels.begin(), plan.panels.end(),
-                                      [](const ProbePanel& p) { return p.columns.size() == 3; });
   if (request.runs.size() > 1)
     for (std::size_t r = 0; r < request.runs.size(); ++r)
       legend.push_back({request.labels[r], LegendEntry::Kind::Curve, r});
-  else if (has_vector)
+  else if (has_vector(plan.panels))
     for (std::size_t c = 0; c < 3; ++c)
       legend.push_back({std::string(1, "xyz"[c]), LegendEntry::Kind::Curve, c});
   return legend;

@@ -35,6 +35,7 @@ CurvePlan make_plan(const std::vector<PlottedRun>& runs, const std::vector<std::
   if (names.empty()) throw sim::InputError("these runs have no probes to plot");
   const bool is_single = runs.size() == 1;
   plan.panels = probe_panels(plan.columns, chosen_columns(names, probes), is_single);
+  const bool names_components = is_single && has_vector(plan.panels);
   for (std::size_t p = 0; p < plan.panels.size(); ++p) {
     const ProbePanel& panel = plan.panels[p];
     plan.units.emplace_back();
@@ -54,8 +55,8 @@ CurvePlan make_plan(const std::vector<PlottedRun>& runs, const std::vector<std::
         has_unit = true;
         require_dimension(unit.dimension, plan.units[p],
                           folder + ": column " + sim::in_ticks(name));
-        plan.curves.push_back(
-            {p, r, is_single ? c : r, unit.size / plan.units[p].size, *found, {}});
+        const std::size_t style = names_components ? component_of(name) : r;
+        plan.curves.push_back({p, r, style, unit.size / plan.units[p].size, *found, {}});
       }
     }
   }

@@ -92,4 +92,14 @@ std::vector<ProbePanel> probe_panels(const std::vector<sim::HistoryColumn>& colu
   return panels;
 }
 
+bool has_vector(const std::vector<ProbePanel>& panels) {
+  return std::any_of(panels.begin(), panels.end(),
+                     [](const ProbePanel& panel) { return panel.columns.size() == 3; });
+}
+
+std::size_t component_of(std::string_view column) {
+  if (column.ends_with(".y")) return 1;
+  return column.ends_with(".z") ? 2 : 0;
+}
+
 }  // namespace articular::tools

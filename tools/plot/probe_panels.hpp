@@ -38,4 +38,10 @@ struct ProbePanel {
 std::vector<ProbePanel> probe_panels(const std::vector<sim::HistoryColumn>& columns,
                                      const std::vector<std::size_t>& chosen, bool join_vectors);
 
+/// Whether a panel has the components of a vector: the legend then names x, y and z.
+bool has_vector(const std::vector<ProbePanel>& panels);
+
+/// 0, 1 and 2 of "p.x", "p.y" and "p.z"; 0 of any other name.
+std::size_t component_of(std::string_view column);
+
 }  // namespace articular::tools

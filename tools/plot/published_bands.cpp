@@ -47,6 +47,11 @@ std::vector<std::size_t> panels_meant(const CurvePlan& plan, const std::string& 
                       option + " of " + sim::in_ticks(plan.panels[others.front()].title));
   std::vector<std::string> titles;
   for (const ProbePanel& panel : plan.panels) titles.push_back(panel.title);
+  if (probe.empty() && unit.dimension == sim::Dimension{} && !plan.units.empty())
+    throw sim::InputError(
+        fmt::format("{}: numbers without a unit are given, and no panel shows "
+                    "such: {} is in {}",
+                    option, sim::in_ticks(titles.front()), sim::one_line(plan.units.front().text)));
   if (probe.empty())
     throw sim::InputError(fmt::format("{}: {} is given, and no panel shows one", option,
                                       sim::noun_of(unit.dimension)));

@@ -25,6 +25,7 @@ namespace {
 constexpr double kSmall = 0.9;  // text of labels, of the page's
 constexpr double kBar = 0.9;    // thickness of colour bars, of the page's text
 constexpr double kLine = 1.35;  // from one line of text to the next
+constexpr const char* kNoValue = "no value";
 
 void shape_text(vtkTextProperty& property, int size, bool bold) {
   property.SetFontFamilyToArial();
@@ -181,6 +182,7 @@ double legend_width(const Page& page, const ColourScale& scale) {
   };
   const double* const range = scale.colours->GetRange();
   for (const double value : round_labels(range[0], range[1])) add(label_of(value), kSmall, false);
+  if (scale.has_blank) add(kNoValue, kSmall, false);
   widest += (kBar + 0.5) * page.text;
   for (const std::string& line : lines_of(scale.title)) add(line, 1, true);
   if (scale.highest_above) add(fmt::format("peak {:.3g}", *scale.highest_above), kSmall, false);
@@ -219,7 +221,7 @@ void add_field_legend(const Sheet& sheet, const Rect& rect, const ColourScale& s
   }
   if (scale.has_blank) {
     add_box(sheet, {rect.x, y - 0.5 * kBar * text, kBar * text, kBar * text}, kBlankColour);
-    add_text(sheet, "no value", rect.x + (kBar + 0.45) * text, y, {kSmall});
+    add_text(sheet, kNoValue, rect.x + (kBar + 0.45) * text, y, {kSmall});
   }
 }
 

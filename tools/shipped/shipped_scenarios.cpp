@@ -105,6 +105,18 @@ std::optional<fs::path> existing_folder() {
   return std::nullopt;
 }
 
+/// A `.toml` of nearly that name in the same folder: "bar.toml" for "bar.tml"; "" without one.
+fs::path nearest_beside(const fs::path& given) {
+  std::vector<std::string> names;
+  std::error_code error;
+  const fs::path folder = given.has_parent_path() ? given.parent_path() : ".";
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+    if (it->path().extension() == ".toml") names.push_back(it->path().filename().string());
+  std::sort(names.begin(), names.end());
+  const std::string near = sim::nearest_name(given.filename().string(), names);
+  return near.empty() ? fs::path() : given.parent_path() / near;
+}
+
 }  // namespace
 
 fs::path shipped_folder() {
@@ -146,6 +158,9 @@ fs::path find_file(const fs::path& given) {
   if (const auto shipped = shipped_file(given)) return *shipped;
   const sim::Location where{sim::one_line(given.string())};
   if (is_folder(given)) throw sim::InputError(where, "expected a scenario file, found a folder");
+  if (const fs::path beside = nearest_beside(given); !beside.empty())
+    throw sim::InputError(
+        where, fmt::format("no such file; did you mean {}?", sim::in_ticks(beside.string())));
   const auto folder = existing_folder();
   const std::string near = folder ? nearest_shipped(given, names_in(*folder)) : "";
   throw sim::InputError(

@@ -139,7 +139,7 @@ std::string excitations_csv(const TrackResult& result) {
   for (const TrackUnknown& unknown : result.unknowns)
     for (const std::string& name : unknown.muscle_names) text += "," + csv_cell(name);
   const auto row = [&](double time, const Eigen::VectorXd& excitation) {
-    text += fmt::format("\n{}", time);
+    text += fmt::format("\n{:.12g}", time);
     for (std::size_t u = 0; u < result.unknowns.size(); ++u)
       for (std::size_t k = 0; k < result.unknowns[u].muscles.size(); ++k)
         text += fmt::format(",{}", excitation[static_cast<Index>(u)]);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "sim/base/error.hpp"
 #include "sim/build/build_model.hpp"
 #include "tests/sim/support/scene.hpp"
@@ -36,11 +38,19 @@ TEST(MakeProbes, ContactOfBodiesThatMayNotTouchIsRefused) {
     EXPECT_THROW(build_model(balls(first, second)), InputError) << first << second;
 }
 
-// One key turns all contact off: probes then read 0, and need not be taken out.
-TEST(MakeProbes, ContactThatIsTurnedOffIsNoMistakeOfAProbe) {
-  Scenario s = balls("right", "floor");
+// Forces of 0 would look like a result.
+TEST(MakeProbes, ContactThatIsTurnedOffIsRefusedToo) {
+  Scenario s = balls("left", "floor");
   s.contact = false;
-  EXPECT_NO_THROW(build_model(s));
+  s.contacts.clear();
+  try {
+    build_model(s);
+    FAIL() << "a probe of contact without contact";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("touch in this scene: contact = false"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace articular::sim::make_probes_test

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fem/material/any_material.hpp"
 #include "sim/build/build_model.hpp"
 #include "tests/sim/support/scene.hpp"
 
@@ -45,10 +46,60 @@ TEST(UnitDoubts, AreOfDensityBothWays) {
 }
 
 TEST(UnitDoubts, AreOfStiffnessBothWays) {
-  for (const double young : {1.0, 1e15}) {
+  for (const double young : {1.0, 2e9, 1e15}) {
     Scenario s = usual();
     s.bodies[0].material = linear(young, 0.3);
     EXPECT_EQ(num_doubts(s), 1U) << young;
+  }
+}
+
+TEST(UnitDoubts, AreOfTheStressOfFibres) {
+  for (const double stress : {1e6, 4e6}) {
+    Scenario s = usual();
+    s.bodies[0].material =
+        material_of(fem::BlemkerMuscle<>(fem::MuscleFibre({.max_stress = stress}), {}));
+    s.bodies[0].material->fibres = Fibres{.along = Vec3::UnitZ()};
+    s.bodies[0].material->element = TissueMaterial::Element::Smoothed;  // plain ones would lock
+    EXPECT_EQ(num_doubts(s), stress < 3e6 ? 0U : 1U) << stress;
+  }
+}
+
+TEST(UnitDoubts, AreOfAMass) {
+  for (const double mass : {99.0, 101.0}) {
+    Scenario s = usual();
+    s.bodies.push_back(mass_body("bob", mass, {0, 0, 0.5}, Vec3::Constant(1)));
+    EXPECT_EQ(num_doubts(s), mass < 100 ? 0U : 1U) << mass;
+  }
+}
+
+TEST(UnitDoubts, AreOfGravity) {
+  for (const double g : {99.0, 101.0}) {
+    Scenario s = usual();
+    s.loads = {GravityLoad{{0, 0, -g / 2}, {}, {{0, 1}, {0, 2}}}};
+    EXPECT_EQ(num_doubts(s), g < 100 ? 0U : 1U) << g;
+  }
+}
+
+TEST(UnitDoubts, AreOfALigamentsLength) {
+  for (const double length : {0.9, 1.1}) {
+    Scenario s = usual();
+    Ligament ligament;
+    ligament.name = "acl";
+    ligament.path = {anchor("bone", {1, 0, 0}), anchor("floor", {1, 0, 0.3})};
+    ligament.stiffness = 100;
+    ligament.slack_length = length;
+    s.ligaments = {ligament};
+    EXPECT_EQ(num_doubts(s), length < 1 ? 0U : 1U) << length;
+  }
+}
+
+// The middle of the bone lies at x = 1 m.
+TEST(UnitDoubts, AreOfAPointFarFromItsBody) {
+  for (const double apart : {1.9, 2.1}) {
+    Scenario s = usual();
+    s.muscles[0].path[0].point = {1 + apart, 0, 0};
+    s.muscles[0].path[0].beyond_mesh = true;
+    EXPECT_EQ(num_doubts(s), apart < 2 ? 0U : 1U) << apart;
   }
 }
 

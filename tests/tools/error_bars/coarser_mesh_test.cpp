@@ -107,6 +107,7 @@ TEST(CoarserMeshes, OfOneCellThereAreNone) {
   const Direction mesh = meshes_of(folder, tissue("block", box("[1, 1, 1]")));
   EXPECT_TRUE(mesh.runs.empty());
   EXPECT_EQ(mesh.left_out, "there are no fewer cells to take");
+  EXPECT_TRUE(mesh.is_needed);
 }
 
 // A mesh file of unknown origin is named, and its error is not in the bar; the block's is.
@@ -117,6 +118,9 @@ TEST(CoarserMeshes, AFileOfUnknownOriginIsSaidToBeLeftOut) {
   const std::string scan = tissue("scan", "mesh = { file = 'scan.vtu' }");
   const Direction alone = meshes_of(folder, scan);
   EXPECT_TRUE(alone.runs.empty());
+  EXPECT_TRUE(alone.is_needed);
+  const std::string plate = "[[body]]\nname = 'plate'\nkind = 'fixed'\n" + box("[4, 4, 4]") + "\n";
+  EXPECT_TRUE(meshes_of(folder, scan + plate).runs.empty());  // a coarser plate says nothing of it
   EXPECT_EQ(alone.left_out.rfind("`scan` can't be made coarser", 0), 0U) << alone.left_out;
   const Direction both = meshes_of(folder, scan + tissue("block", box("[4, 4, 4]")));
   EXPECT_FALSE(both.runs.empty());

@@ -100,10 +100,11 @@ TEST(RunErrorBars, OfFailedCoarserRunsAreNotEstimatedAndTheRunIsWhole) {
       folder, "run beam.toml --out bars --error-bars --set integrator.step='1 s' --quiet");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string table = content(folder / "bars/error_bars.csv");
-  EXPECT_NE(
-      table.find("not estimated (mesh: the coarser run `mesh 1.33 times` failed: bad input: "),
-      std::string::npos)
+  EXPECT_NE(table.find("not estimated (mesh: the coarser run `mesh 1.33 times` failed; "),
+            std::string::npos)
       << table;
+  EXPECT_NE(result.out.find("`mesh 1.33 times` failed: bad input: "), std::string::npos)
+      << result.out;
   EXPECT_NE(content(folder / "bars/summary.json").find("\"finished\""), std::string::npos);
 }
 

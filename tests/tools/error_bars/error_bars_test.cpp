@@ -76,10 +76,8 @@ TEST(ErrorBars, AFailedRunLeavesABarOfTheOtherAndSaysSo) {
   mesh.runs[1] = failed("could not go on: t = 3 ms");
   const ErrorBar bar = only_bar(ends_with(1), {mesh});
   EXPECT_NEAR(bar.bar, 3 * 0.03 / 3, 1e-12);
-  EXPECT_EQ(
-      verdict(bar),
-      "not asymptotic (mesh: order 2 taken, not seen; the coarser run `run` failed: could not "
-      "go on: t = 3 ms)");
+  EXPECT_EQ(verdict(bar),
+            "not asymptotic (mesh: order 2 taken, not seen; the coarser run `run` failed)");
 }
 
 TEST(ErrorBars, WhereAllFailThereIsNone) {
@@ -87,8 +85,34 @@ TEST(ErrorBars, WhereAllFailThereIsNone) {
   const ErrorBar bar = only_bar(ends_with(1), {mesh});
   EXPECT_FALSE(bar.is_estimated());
   EXPECT_EQ(verdict(bar),
-            "not estimated (mesh: the coarser run `run` failed: a; the coarser run `run` failed: "
-            "b)");
+            "not estimated (mesh: the coarser run `run` failed; the coarser run `run` failed)");
+}
+
+// Steps say nothing of the elements: their tiny bar would promise too much.
+TEST(ErrorBars, WithoutTheMeshOfATissueThereIsNone) {
+  Direction mesh{"mesh", 2, {}, "there are no fewer cells to take", ""};
+  mesh.is_needed = true;
+  const Direction steps{
+      "step", 1, {run_with(2, ends_with(1 + 1e-9)), run_with(4, ends_with(1 + 2e-9))}, "", ""};
+  const ErrorBar bar = only_bar(ends_with(1), {mesh, steps});
+  EXPECT_FALSE(bar.is_estimated());
+  EXPECT_FALSE(bar.is_negligible());
+  EXPECT_EQ(verdict(bar), "not estimated (mesh: there are no fewer cells to take)");
+  EXPECT_LT(bar.parts[1].bar, 1e-8);  // is in the table
+  mesh = second_order("mesh", 1);
+  mesh.is_needed = true;
+  EXPECT_EQ(verdict(only_bar(ends_with(1), {mesh, steps})), "asymptotic");
+}
+
+// A long message would stand in each row.
+TEST(ErrorBarReport, SaysOnceWhyARunFailed) {
+  const RunHistory history{{"time [s]", "x [mm]", "y [mm]"}, {{0, 1}, {0, 1}, {0, 2}}};
+  const std::vector<Direction> directions{
+      {"mesh", 2, {failed("no node in the region"), failed("b")}, "", ""}};
+  const std::string text = error_bars_text(directions, error_bars(history, directions));
+  const std::size_t first = text.find("no node in the region");
+  ASSERT_NE(first, std::string::npos) << text;
+  EXPECT_EQ(text.find("no node in the region", first + 1), std::string::npos) << text;
 }
 
 TEST(ErrorBars, SayWhatIsNotInThem) {

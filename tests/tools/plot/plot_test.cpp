@@ -133,6 +133,19 @@ TEST_F(Plot, ABlankCellIsAGap) {
   for (const char* text : {"x", "y", "z", "tip.position"}) EXPECT_NE(seen.find(text), nullptr);
 }
 
+// The legend says which line is z, so a z alone has that line.
+TEST_F(Plot, AComponentAloneHasTheLineThatTheLegendGivesIt) {
+  run("a", 2, "N", ",tap.force.y [N]");
+  const SvgPage seen = page("a tap tip ramp");
+  const SvgPage::Shape &alone = seen.shapes.at(0), &x = seen.shapes.at(1), &y = seen.shapes.at(2),
+                       &scalar = seen.shapes.at(4);
+  EXPECT_EQ(alone.dashes, y.dashes);
+  EXPECT_NE(alone.dashes, x.dashes);
+  EXPECT_EQ(scalar.dashes, x.dashes);
+  const SvgPage without = page("a tap ramp");  // no vector, and no legend
+  EXPECT_EQ(without.shapes.at(0).dashes, x.dashes);
+}
+
 TEST_F(Plot, RunsShareAPanelAndDifferInDashes) {
   run("a", 2);
   run("b", 2000, "mN");  // the same force in another unit
@@ -279,9 +292,11 @@ TEST_F(Plot, BadInputIsOneLineAndWritesNothing) {
   expect_refused("a $'x\\x1b'", 2, "no run has a probe");
   expect_refused("a ramp --x tip.position", 2, "did you mean `tip.position.x`?");
   expect_refused("a ramp --band '1..2 mm'", 2, "--band: a length is given, and no panel shows one");
+  expect_refused("a ramp --range 0..1", 2,
+                 "--range: numbers without a unit are given, and no panel shows such: `ramp.force` "
+                 "is in N");
   expect_refused("a ramp --band 'ramp=1..2 mm'", 2, "expected a force, found a length");
   expect_refused("a --band 'tap=1..2 mm'", 2, "no panel shows a probe \"tap\"");
-  expect_refused("a ramp --range '1..2'", 2, "no unit");
   expect_refused("a ramp --x-range '1..2 mm'", 2, "--x-range: expected a time, found a length");
   expect_refused("a metres ramp", 2, "metres: column `ramp.force`: expected a force");
   expect_refused("a ramp --size 3", 2, "--size");

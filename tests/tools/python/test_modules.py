@@ -32,7 +32,7 @@ def box(cells=2, size=0.01):
 
 class Collision(InFolder):
     def test_pairs_are_those_of_the_program(self):
-        results = articular.run(block(contact=False, duration="0.5 s"), "out")
+        results = articular.run(block(contact=False, probe=[], duration="0.5 s"), "out")
         frames = results.frames[-1]
         lower = frames.mesh("block")
         subprocess.run(

@@ -22,6 +22,18 @@ TEST(Legend, HasRoomForTheNamesOfItsAxes) {
   }
 }
 
+// Beside a short title and short numbers "no value" is the widest.
+TEST(Legend, HasRoomForNoValue) {
+  const Page page{1600, 1000, 25, std::nullopt};
+  ColourScale scale;
+  scale.title = "p";
+  scale.colours = vtkSmartPointer<vtkLookupTable>::New();
+  scale.colours->SetRange(0, 1);
+  scale.has_blank = true;
+  EXPECT_GE(legend_width(page, scale),
+            (0.9 + 0.45) * page.text + text_width("no value", 0.9 * page.text, false));
+}
+
 TEST(Legend, LabelsAreRoundNumbersInside) {
   EXPECT_EQ(round_labels(0, 100), (std::vector<double>{0, 20, 40, 60, 80, 100}));
   for (int k = 0; k < 61; ++k) {

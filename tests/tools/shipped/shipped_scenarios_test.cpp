@@ -93,6 +93,13 @@ TEST_F(Shipped, AnUnknownNameGetsTheNearest) {
             std::string::npos);
 }
 
+TEST_F(Shipped, AMisspeltFileGetsTheOneBesideIt) {
+  std::filesystem::create_directories(folder_ / "work/own");
+  folder_.file("work/own/bar.toml", kScene);
+  EXPECT_EQ(program("run own/bar.tml").err,
+            "articular: own/bar.tml: no such file; did you mean `own/bar.toml`?\n");
+}
+
 TEST_F(Shipped, ANameNeverLeavesTheirFolder) {
   folder_.file("secret.toml", kScene);
   EXPECT_EQ(program("check ../secret").exit_code, 2);

@@ -210,6 +210,16 @@ TEST_F(Track, SaysWhichTargetsItMissesAndWhenMost) {
   EXPECT_NE(content(folder_ / "out/t/track.md").find("\n**Missed**: "), std::string::npos);
 }
 
+// Three tenths of a second are 0.30000000000000004 in binary.
+TEST_F(Track, TimesOfTheTableHaveNoRoundOff) {
+  make_twin();
+  const ProgramResult result = track("duration = \"0.4 s\"\ninterval = \"0.1 s\"\nset = { " +
+                                     kNoGuess + " }\n" + kTwoMuscles + kTargets);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(content(folder_ / "out/t/excitations.csv").find("\n0.3,"), std::string::npos)
+      << content(folder_ / "out/t/excitations.csv");
+}
+
 /// Moves in time, for a tenth of a second.
 const std::string kInTime =
     "set = { analysis = \"dynamic\", duration = \"0.1 s\", \"integrator.step\" = \"1 ms\", "
