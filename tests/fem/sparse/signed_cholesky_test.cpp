@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <cmath>
 #include <limits>
 
 #include "tests/fem/support/random_matrices.hpp"
@@ -152,20 +153,21 @@ TEST(SignedCholesky, SolvesInSinglePrecisionWhateverTheUnits) {
 
 /// The stiffness of a chain of springs, free but for one of stiffness k to the ground.
 SymmetricMatrix chain(int n, double k) {
+  const auto spring = [](int j) { return 1 + 0.3 * std::sin(j); };  // from j to j + 1
   SymmetricMatrix A;
   for (int j = 0; j < n; ++j) {
     if (j > 0) {
       A.row.push_back(j - 1);
-      A.value.push_back(-1);
+      A.value.push_back(-spring(j - 1));
     }
     A.row.push_back(j);
-    A.value.push_back((j == 0 ? k : 1) + (j == n - 1 ? 0 : 1));
+    A.value.push_back((j == 0 ? k : spring(j - 1)) + (j == n - 1 ? 0 : spring(j)));
     A.end_column();
   }
   return A;
 }
 
-// Its determinant is k, and so is its last pivot in any order, divided by those before.
+// What is left for the last pivot, in any order, is k or less.
 TEST(SignedCholesky, SaysWhereSinglePrecisionDoesNotTellTheSign) {
   constexpr int n = 50;
   const std::vector<int> signs(n, 1);
