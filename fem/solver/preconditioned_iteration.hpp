@@ -61,7 +61,7 @@ SolveReport preconditioned_iteration(const Multiply& multiply, const Preconditio
 
   report.relative_residual = std::numeric_limits<double>::infinity();
   while (true) {
-    if (report.iterations == 0 && x.isZero(0)) {
+    if (x.isZero(0)) {
       r = b;
     } else {
       multiply(x, q);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/model/newton_weights.hpp"
+#include "sim/model/tissue.hpp"
 
 namespace articular::sim {
 namespace {
@@ -10,11 +11,6 @@ namespace {
 /// What may remain: of the forces between the bodies, and of what would move a free one by the
 /// tolerance in a step.
 constexpr double kPartOfContact = 1e-3, kPartOfTolerance = 1e-3;
-
-bool is_tied(const Tissue& tissue) {
-  return std::any_of(tissue.nodes.begin(), tissue.nodes.end(),
-                     [](const NodeRef& node) { return node.rigid >= 0; });
-}
 
 }  // namespace
 

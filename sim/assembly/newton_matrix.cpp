@@ -299,8 +299,7 @@ void NewtonMatrix::add_tissue(std::size_t t, const Moment& now, const SystemScal
 
 /// What the two matrices do not share: the stiffness of the domains, and that of the elements.
 void NewtonMatrix::add_smoothed(const Moment& now, const SystemScale& scale) {
-  for_each_tissue(model_, [&](std::size_t t) {
-    if (model_.tissues[t].elements.smoothed() == nullptr) return;
+  for_each_smoothed(model_, [&](std::size_t t) {
     add_free(tissues_[t].own.K, tissues_[t].own, A_);
     add_free(tissues_[t].plain.K, tissues_[t].plain, plain_);
   });

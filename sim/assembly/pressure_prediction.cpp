@@ -8,13 +8,12 @@ namespace articular::sim {
 void PressurePrediction::predict(const Moment& now, const NewtonMatrix& matrix,
                                  const Eigen::VectorXd& dx) {
   of_tissue_.resize(now.tissues.size());
-  for_each_tissue(now.model, [&](std::size_t t) {
-    const fem::SmoothedElasticity* smoothed = now.model.tissues[t].elements.smoothed();
-    if (smoothed == nullptr) return;
+  for_each_smoothed(now.model, [&](std::size_t t) {
     Way& way = of_tissue_[t];
     displacements_of(now, t, dx, way.u);
     way.before = now.tissues[t].pressure;
-    smoothed->predicted_pressure(now.tissues[t].x, matrix.pressure_gradient(t), way.u, way.after);
+    now.model.tissues[t].elements.smoothed()->predicted_pressure(
+        now.tissues[t].x, matrix.pressure_gradient(t), way.u, way.after);
   });
 }
 

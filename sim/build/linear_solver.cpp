@@ -20,11 +20,6 @@ double poisson_ratio(const Tissue& tissue) {
   return (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
 }
 
-bool is_tied(const Tissue& tissue) {
-  return std::any_of(tissue.nodes.begin(), tissue.nodes.end(),
-                     [](const NodeRef& node) { return node.rigid >= 0; });
-}
-
 /// See fem::SolverProblem::reach. Of a body with the box a ≥ b ≥ c and the volume V, and its
 /// farthest point D from the nearest node that is tied, or where none is from its middle: D/h ·
 /// max(1, D a b/V).

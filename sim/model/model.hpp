@@ -237,7 +237,7 @@ struct ObservedAngle {
 };
 
 struct ObservedContact {
-  ContactId contact = -1;   // -1: the two cannot meet
+  ContactId contact = -1;
   int body = 0;             // index into Model::bodies: the one that it acts on
   std::vector<char> faces;  // of that body's collider: those that count; empty: all
 };

@@ -1,5 +1,6 @@
 #include "sim/model/tissue.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -9,6 +10,11 @@ double element_size(const Tissue& tissue) {
   const std::vector<double>& volume = tissue.elements.rest_volume();
   const double sum = std::accumulate(volume.begin(), volume.end(), 0.0);
   return std::cbrt(6 * sum / static_cast<double>(volume.size()));
+}
+
+bool is_tied(const Tissue& tissue) {
+  return std::any_of(tissue.nodes.begin(), tissue.nodes.end(),
+                     [](const NodeRef& node) { return node.rigid >= 0; });
 }
 
 double constrained_modulus(const Tissue& tissue) {

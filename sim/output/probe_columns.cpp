@@ -207,7 +207,6 @@ void list(const HelicalReading& reading, Columns& columns) {
 }
 
 ContactSummary measure(const ObservedContact& observed, const Now& now) {
-  if (observed.contact < 0) return {};
   ContactSummary sum = summary_through(now.model, now.moment().contact, now.configuration(),
                                        observed.contact, observed.body, observed.faces);
   if (now.model.contacts[observed.contact].a != observed.body) {

@@ -160,29 +160,34 @@ void warn_of_unresolved_contacts(const Model& model, const Stepper& stepper,
         fmt::format("{} more contacts are not resolved at the end either", count - kMostNamed));
 }
 
+void warn_of_squeezed_elements(const Model& model, const RunExtrema& extrema,
+                               std::vector<std::string>& warnings) {
+  if (extrema.volume_ratio >= kCrushed) return;
+  const std::string element =
+      fmt::format("element {} of tissue `{}`", extrema.element,
+                  name_of(model, model.tissues[static_cast<std::size_t>(extrema.tissue)].body));
+  if (extrema.volume_ratio <= 0)
+    warnings.push_back(
+        fmt::format("{} was inside out at t = {:.4g} s (volume ratio {:.3g}): it was "
+                    "driven or pressed harder than its law can bear",
+                    element, extrema.squeezed_at, extrema.volume_ratio));
+  else
+    warnings.push_back(
+        fmt::format("{} was crushed to {:.2g} of its volume at t = {:.4g} s: some laws "
+                    "do not spring back from there, and forces may be far too small; expected a "
+                    "stiffer tissue, "
+                    "a smaller motion or load, or another law (for what is pressed far: "
+                    "coupled-neo-hookean)",
+                    element, extrema.volume_ratio, extrema.squeezed_at));
+}
+
 }  // namespace
 
 std::vector<std::string> run_warnings(const Model& model, const State& state,
                                       const Stepper& stepper) {
   std::vector<std::string> warnings;
   const RunExtrema& extrema = state.extrema;
-  if (extrema.volume_ratio <= 0)
-    warnings.push_back(fmt::format(
-        "element {} of tissue `{}` was inside out at t = {:.4g} s (volume ratio {:.3g}): it was "
-        "driven or pressed harder than its law can bear",
-        extrema.element,
-        name_of(model, model.tissues[static_cast<std::size_t>(extrema.tissue)].body),
-        extrema.squeezed_at, extrema.volume_ratio));
-  else if (extrema.volume_ratio < kCrushed)
-    warnings.push_back(fmt::format(
-        "element {} of tissue `{}` was crushed to {:.2g} of its volume at t = {:.4g} s: some laws "
-        "do not spring back from there, and forces may be far too small; expected a stiffer "
-        "tissue, "
-        "a smaller motion or load, or another law (for what is pressed far: "
-        "coupled-neo-hookean)",
-        extrema.element,
-        name_of(model, model.tissues[static_cast<std::size_t>(extrema.tissue)].body),
-        extrema.volume_ratio, extrema.squeezed_at));
+  warn_of_squeezed_elements(model, extrema, warnings);
   if (extrema.overlap > kDeep) {
     const ContactModel contact = model.contacts[extrema.contact];
     warnings.push_back(fmt::format(

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "tests/scenarios/coarse_jaw.hpp"
+#include "tests/tools/support/number_columns.hpp"
 #include "tests/tools/support/program.hpp"
 
 namespace articular::chewing_test {
@@ -100,22 +100,6 @@ TEST(JawChewing, AChewOnTheRightIsTheMirrorImage) {
       ASSERT_NEAR(left.column(column)[i], sign * right.column(column).at(i), 1e-6) << column;
   }
   EXPECT_NEAR(left.last("bite.deepest [mm]"), right.last("bite.deepest [mm]"), 1e-6);
-}
-
-/// The columns of a table of numbers.
-std::map<std::string, std::vector<double>> columns(const std::filesystem::path& file) {
-  std::istringstream lines(content(file));
-  std::string line, cell;
-  std::vector<std::string> names;
-  std::getline(lines, line);
-  for (std::istringstream row(line); std::getline(row, cell, ',');) names.push_back(cell);
-  std::map<std::string, std::vector<double>> table;
-  while (std::getline(lines, line)) {
-    std::size_t c = 0;
-    for (std::istringstream row(line); std::getline(row, cell, ',');)
-      table[names[c++]].push_back(std::stod(cell));
-  }
-  return table;
 }
 
 // The beginning of chewing-track.toml, with few trials: the way is straight so far, and nobody told

@@ -3,10 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <sstream>
 #include <vector>
 
+#include "tests/tools/support/number_columns.hpp"
 #include "tests/tools/support/program.hpp"
 
 namespace articular::track_test {
@@ -23,22 +22,6 @@ const std::string kTargets =
     "[[target]]\ncolumn = \"bone.position.y [mm]\"\nfile = \"twin/history.csv\"\nspread = 0.01\n"
     "[[target]]\ncolumn = \"bone.position.z [mm]\"\nfile = \"twin/history.csv\"\nspread = 0.01\n";
 const std::string kTwoMuscles = "[[muscle]]\nname = \"pull_*\"\n";
-
-/// The columns of a table of numbers.
-std::map<std::string, std::vector<double>> columns(const std::filesystem::path& file) {
-  std::istringstream lines(content(file));
-  std::string line, cell;
-  std::vector<std::string> names;
-  std::getline(lines, line);
-  for (std::istringstream row(line); std::getline(row, cell, ',');) names.push_back(cell);
-  std::map<std::string, std::vector<double>> table;
-  while (std::getline(lines, line)) {
-    std::size_t c = 0;
-    for (std::istringstream row(line); std::getline(row, cell, ',');)
-      table[names[c++]].push_back(std::stod(cell));
-  }
-  return table;
-}
 
 class TrackTest : public ::testing::Test {
  protected:
