@@ -58,7 +58,9 @@ std::unique_ptr<LinearSolver> make_cholesky(
 
 /// Conjugate gradients with the inverses of the diagonal blocks as preconditioner.
 /// @param tolerance  on |r| / |b|
-std::unique_ptr<LinearSolver> make_conjugate_gradients(double tolerance, int max_iterations);
+std::unique_ptr<LinearSolver> make_conjugate_gradients(
+    double tolerance, int max_iterations,
+    std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1));
 
 /// Conjugate gradients for A + Σ scale G C⁻¹ Gᵀ with that of PressurePart::plain in place of A as
 /// preconditioner, through the factor of the quasi-definite matrix [plain G; Gᵀ −C/scale]: a dozen

@@ -7,6 +7,7 @@
 
 #include "fem/solver/linear_solver.hpp"
 #include "fem/solver/preconditioned_iteration.hpp"
+#include "fem/sparse/lower_blocks.hpp"
 #include "fem/sparse/signed_cholesky.hpp"
 
 namespace articular::fem {
@@ -94,22 +95,6 @@ class SaddlePointMatrix {
   std::vector<int> signs_, groups_;
 };
 
-/// y = A x, from the lower half of A.
-void multiply_mirrored(const BlockMatrix& A, const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-  for (int i = 0; i < A.num_blocks(); ++i) {
-    const Vec3 x_i = x.segment<3>(3 * Eigen::Index{i});
-    Vec3 sum = Vec3::Zero();
-    int s = A.row_begin()[i];
-    for (; A.column()[s] < i; ++s) {
-      const Eigen::Index j = 3 * Eigen::Index{A.column()[s]};
-      sum += A.block(s) * x.segment<3>(j);
-      y.segment<3>(j) += A.block(s).transpose() * x_i;
-    }
-    // The first to write row i: later rows add to it.
-    y.segment<3>(3 * Eigen::Index{i}) = sum + A.block(s).selfadjointView<Eigen::Lower>() * x_i;
-  }
-}
-
 /// The factor is a preconditioner, so single precision will do: it takes half the memory and two
 /// thirds of the time. Double precision decides where single says that a sign may be wrong, or
 /// takes too many iterations; it then stays, as what comes next is alike. It also serves near ν =
@@ -117,7 +102,11 @@ void multiply_mirrored(const BlockMatrix& A, const Eigen::VectorXd& x, Eigen::Ve
 class SaddlePointSolver final : public LinearSolver {
  public:
   SaddlePointSolver(double tolerance, int max_iterations, std::shared_ptr<ThreadPool> pool)
-      : tolerance_(tolerance), max_iterations_(max_iterations), single_(pool), double_(pool) {}
+      : tolerance_(tolerance),
+        max_iterations_(max_iterations),
+        pool_(std::move(pool)),
+        single_(pool_),
+        double_(pool_) {}
 
   using LinearSolver::prepare;
   FactorStatus prepare(const BlockMatrix& A, const Positions& x) override {
@@ -137,7 +126,7 @@ class SaddlePointSolver final : public LinearSolver {
     saddle_.take_values(plain, part.terms);
     if (factorize(fits_single(part.terms)) != Pivots::Right)
       return FactorStatus::NotPositiveDefinite;
-    A_ = A;
+    A_.take(A);
     pressure_.set(part.terms);
     memory_.resize(3 * Eigen::Index{A.num_blocks()});
     extended_.resize(saddle_.matrix().size());
@@ -191,7 +180,7 @@ class SaddlePointSolver final : public LinearSolver {
   SolveReport iterate(int max_iterations, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     return preconditioned_iteration(
         [this](const Eigen::VectorXd& v, Eigen::VectorXd& y) {
-          multiply_mirrored(A_, v, y);
+          A_.multiply(v, y, *pool_);
           pressure_.add_product(v, y);
         },
         [this](const Eigen::VectorXd& r, Eigen::VectorXd& z) {
@@ -206,9 +195,10 @@ class SaddlePointSolver final : public LinearSolver {
 
   double tolerance_;
   int max_iterations_;
+  std::shared_ptr<ThreadPool> pool_;
   bool ready_ = false;
   Precision precision_ = Precision::Unknown;  // of the factor that serves
-  BlockMatrix A_;
+  LowerBlocks A_;
   PressureOperator pressure_;
   SaddlePointMatrix saddle_;
   SignedCholesky<float> single_;

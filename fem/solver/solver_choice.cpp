@@ -188,7 +188,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const SolverChoice& choice, dou
       solver = make_saddle_point_solver(tolerance, max_iterations, std::move(pool));
       break;
     case SolverKind::ConjugateGradients:
-      solver = make_conjugate_gradients(tolerance, max_iterations);
+      solver = make_conjugate_gradients(tolerance, max_iterations, std::move(pool));
       break;
     case SolverKind::Multigrid:
       solver = make_multigrid(tolerance, max_iterations, std::move(pool));

@@ -31,6 +31,7 @@ class Doubts {
     for (const Attachment& attachment : scenario_.attachments) look_at(attachment);
     for (const Body& body : scenario_.bodies)
       if (body.kind == Body::Kind::Tissue) look_at(body);
+    look_at_loads();
     for (const LigamentModel& ligament : model_.ligaments) look_at(ligament);
     for (const Probe& probe : scenario_.probes)
       if (const auto* joint = std::get_if<JointProbe>(&probe.what)) look_at(probe, *joint);
@@ -85,6 +86,33 @@ class Doubts {
     if (std::all_of(nodes.begin(), nodes.end(), [](const NodeRef& n) { return n.rigid >= 0; }))
       doubt(body.where,
             fmt::format("every node of `{}` is attached to a body: it can't deform", body.name));
+  }
+
+  void look_at_loads() {
+    std::size_t forces = 0, surfaces = 0;  // in the order of the scenario, as in the model
+    for (const Load& load : scenario_.loads) {
+      if (const auto* force = std::get_if<ForceLoad>(&load)) {
+        const WeightedPoint& point = model_.forces[forces++].point;
+        if (const auto* region = std::get_if<TissueRegion>(&force->at))
+          if (std::ranges::all_of(point.nodes, is_attached))
+            doubt_load(force->where, "node", point.nodes.size(), region->tissue);
+      } else if (const auto* surface = std::get_if<SurfaceLoad>(&load)) {
+        const auto& faces = model_.surface_loads[surfaces++].faces;
+        if (std::ranges::all_of(
+                faces, [](const auto& face) { return std::ranges::all_of(face, is_attached); }))
+          doubt_load(surface->where, "face", faces.size(), surface->at.tissue);
+      }
+    }
+  }
+
+  static bool is_attached(const NodeRef& node) { return node.rigid >= 0; }
+
+  void doubt_load(const Location& where, const char* part, std::size_t count,
+                  const std::string& tissue) {
+    doubt(where,
+          fmt::format("every loaded {} of `{}` ({} in the region) is attached to a body: the "
+                      "load acts on that body, and deforms nothing",
+                      part, tissue, count));
   }
 
   void look_at(const LigamentModel& ligament) {

@@ -62,8 +62,12 @@ void require_finite(const std::string& body, const std::vector<Field>& fields) {
 
 }  // namespace
 
-FrameWriter::FrameWriter(std::filesystem::path directory, std::string name, LengthUnit unit)
-    : directory_(std::move(directory)), name_(std::move(name)), unit_(std::move(unit)) {
+FrameWriter::FrameWriter(std::filesystem::path directory, std::string name, LengthUnit unit,
+                         FrameThread thread)
+    : directory_(std::move(directory)),
+      name_(std::move(name)),
+      unit_(std::move(unit)),
+      thread_(thread) {
   const std::filesystem::path frames = directory_ / kFrames;
   make_folders(frames);
   for (const std::filesystem::path& folder : {directory_, frames})
@@ -75,6 +79,7 @@ FrameWriter::FrameWriter(std::filesystem::path directory, std::string name, Leng
 std::filesystem::path FrameWriter::series_file() const { return directory_ / (name_ + ".pvd"); }
 
 void FrameWriter::resume_at(const FileExtent& series) {
+  wait();
   pending_.clear();
   series_.emplace(series_file(), series);
 }
@@ -121,7 +126,7 @@ void FrameWriter::write_part(const std::string& part, const std::string& name,
     throw InputError("body name `" + name + "` can't be the name of a file");
   const std::string file = std::string(kFrames) + "/" + frame_file_name(name, index, ending);
   if (std::any_of(pending_.begin(), pending_.end(),
-                  [&](const SeriesEntry& entry) { return entry.file == file; }))
+                  [&](const Part& other) { return other.entry.file == file; }))
     throw InputError("two results would be called " + file + ": rename a body");
   vtkNew<vtkDoubleArray> time_value;
   time_value->SetName("TimeValue");
@@ -129,9 +134,10 @@ void FrameWriter::write_part(const std::string& part, const std::string& name,
   set.GetFieldData()->AddArray(time_value);
   add_text(set, "coordinates.unit", unit_.name);
   // To compress the frames of a jaw took a quarter of its run, and made them two thirds as large.
-  write_vtk_file(directory_ / file, set, Compressed::No, Durable::Later);
-  not_synced_.push_back(file);
-  pending_.push_back({time, index, part, file});
+  const auto write = [path = directory_ / file, kept = vtkSmartPointer<vtkPointSet>(&set)] {
+    write_vtk_file(path, *kept, Compressed::No, Durable::Later);
+  };
+  pending_.push_back({{time, index, part, file}, write});
 }
 
 void FrameWriter::write_tissue(const TissueFrame& frame, int index, double time) {
@@ -148,7 +154,7 @@ void FrameWriter::write_rigid_body(const RigidBodyFrame& frame, int index, doubl
 
 void FrameWriter::repeat_rigid_body(const std::string& body, int first, int index, double time) {
   pending_.push_back(
-      {time, index, body, std::string(kFrames) + "/" + frame_file_name(body, first, ".vtp")});
+      {{time, index, body, std::string(kFrames) + "/" + frame_file_name(body, first, ".vtp")}, {}});
 }
 
 void FrameWriter::write_contact_surface(const ContactSurfaceFrame& frame, int index, double time) {
@@ -177,16 +183,47 @@ void FrameWriter::write_lines(const LinesFrame& frame, int index, double time) {
 }
 
 void FrameWriter::finish_frame([[maybe_unused]] int index, double time) {
-  for (SeriesEntry& entry : pending_) {
-    assert(entry.index == index);
-    entry.time = time;
+  for (Part& part : pending_) {
+    assert(part.entry.index == index);
+    part.entry.time = time;
+  }
+  wait();
+  std::vector<Part> frame = std::exchange(pending_, {});
+  if (thread_ == FrameThread::Callers) {
+    publish(frame);
+    return;
+  }
+  const auto publish_it = [this, frame = std::move(frame)] { publish(frame); };
+  try {
+    on_its_way_ = std::async(std::launch::async, publish_it);
+  } catch (const std::system_error&) {  // the system gives no more threads
+    publish_it();
+  }
+}
+
+void FrameWriter::publish(const std::vector<Part>& frame) {
+  std::vector<SeriesEntry> entries;
+  for (const Part& part : frame) {
+    entries.push_back(part.entry);
+    if (!part.write) continue;
+    part.write();
+    not_synced_.push_back(part.entry.file);
   }
   if (!series_) series_.emplace(series_file());
-  series_->append(pending_);
-  pending_.clear();
+  series_->append(entries);
+}
+
+void FrameWriter::wait() {
+  if (on_its_way_.valid()) on_its_way_.get();
+}
+
+FileExtent FrameWriter::series() {
+  wait();
+  return series_ ? series_->extent() : FileExtent{};
 }
 
 void FrameWriter::sync() {
+  wait();
   for (const std::string& file : not_synced_) sync_file(directory_ / file);
   not_synced_.clear();
   sync_file(directory_ / kFrames);

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
+#include <future>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,12 +59,19 @@ struct LinesFrame {
   std::vector<Field> cell_fields;  // activation, force, length, kind (0 muscle, 1 ligament)
 };
 
+/// Who writes the files of a frame.
+enum class FrameThread { Callers, OfItsOwn };
+
 /// Writes a time series into a folder: DIR/NAME.pvd and DIR/frames/BODY_000123.vtu etc. Every frame
 /// file appears whole or not at all; after each frame the .pvd lists all frames so far.
+///
+/// With a thread of its own a frame is on its way while the caller goes on, and whatever comes next
+/// waits for it: another finished frame, sync(), series(). What it could not write is thrown there.
 class FrameWriter {
  public:
   /// @throws SystemError when the folder can't be made or written
-  FrameWriter(std::filesystem::path directory, std::string name, LengthUnit unit);
+  FrameWriter(std::filesystem::path directory, std::string name, LengthUnit unit,
+              FrameThread thread = FrameThread::Callers);
 
   /// Resumes: keeps the frames that the .pvd listed when it had that extent, forgets those after.
   /// @throws InputError when they are not there any more
@@ -75,18 +84,28 @@ class FrameWriter {
   /// As BODY_contact_000123.vtp.
   void write_contact_surface(const ContactSurfaceFrame& frame, int index, double time);
   void write_lines(const LinesFrame& frame, int index, double time);
-  /// All parts of this frame are there: publishes it in the .pvd.
+  /// All parts of this frame are there: writes them and publishes the frame in the .pvd.
+  /// @throws SystemError
   void finish_frame(int index, double time);
 
   /// All published frames outlast a power cut from now on. @throws SystemError
   void sync();
-  /// Of the .pvd; of nothing before the first frame.
-  FileExtent series() const { return series_ ? series_->extent() : FileExtent{}; }
+  /// Of the .pvd; of nothing before the first frame. @throws SystemError
+  FileExtent series();
 
  private:
+  struct Part {
+    SeriesEntry entry;
+    std::function<void()> write;  // empty: the file is there already
+  };
+
   /// @param part  its name in the .pvd  @param name  of the file, without number and ending
   void write_part(const std::string& part, const std::string& name, const std::string& ending,
                   vtkPointSet& set, int index, double time);
+  /// Parts in the order of the .pvd.
+  void publish(const std::vector<Part>& frame);
+  /// Until the frame that is on its way is published.
+  void wait();
   std::filesystem::path series_file() const;
   void add_field(vtkPointSet& set, vtkDataSetAttributes& target, const Field& field) const;
   /// @throws SimulationError where a field is not finite
@@ -96,9 +115,11 @@ class FrameWriter {
   std::filesystem::path directory_;
   std::string name_;
   LengthUnit unit_;
-  std::optional<SeriesFile> series_;
-  std::vector<SeriesEntry> pending_;
+  FrameThread thread_;
+  std::vector<Part> pending_;
+  std::optional<SeriesFile> series_;     // publish()'s until wait() is over, as is what follows
   std::vector<std::string> not_synced_;  // files
+  std::future<void> on_its_way_;         // last: to destroy it waits for what uses the others
 };
 
 }  // namespace articular::sim

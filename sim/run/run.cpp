@@ -29,7 +29,8 @@ class Run {
         model_(model),
         options_(options),
         folder_(options.directory),
-        writer_(options.directory, scenario.name, scenario.output.length_unit),
+        writer_(options.directory, scenario.name, scenario.output.length_unit,
+                scenario.threads > 1 ? FrameThread::OfItsOwn : FrameThread::Callers),
         course_(scenario, model),
         history_(model, scenario.output.length_unit) {}
 

@@ -25,12 +25,53 @@ TEST(LowerBlocks, MultiplyAsTheWholeMatrix) {
   LowerBlocks lower;
   lower.take(A);
   EXPECT_EQ(lower.num_blocks(), 4);
-  EXPECT_EQ(lower.column, (std::vector<int>{0, 1, 0}));
-  EXPECT_EQ(lower.row_begin, (std::vector<int>{0, 0, 1, 2, 3}));
+  EXPECT_EQ(lower.column(), (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(lower.row_begin(), (std::vector<int>{0, 0, 1, 2, 3}));
   const Eigen::VectorXd x = random.matrix<Eigen::VectorXd>(12, 1);
   Eigen::VectorXd y(12);
-  lower.multiply(x, y);
+  ThreadPool pool(1);
+  lower.multiply(x, y, pool);
   EXPECT_LT((y - dense(A) * x).norm(), 1e-14 * x.norm());
+}
+
+/// A chain whose every ninth row is coupled to one far before it as well.
+BlockMatrix random_chain(int size, Random& random) {
+  std::vector<int> stencils, offsets{0};
+  const auto couple = [&](int i, int j) {
+    stencils.insert(stencils.end(), {i, j});
+    offsets.push_back(static_cast<int>(stencils.size()));
+  };
+  for (int i = 1; i < size; ++i) {
+    couple(i - 1, i);
+    if (i % 9 == 0) couple(i * 7 / 10, i);
+  }
+  BlockMatrix A(size, stencils, offsets);
+  for (int i = 0; i < size; ++i) {
+    for (int slot = A.row_begin()[i]; A.column()[slot] < i; ++slot) {
+      A.block(slot) = random.matrix3();
+      A.block(A.slot(A.column()[slot], i)) = A.block(slot).transpose();
+    }
+    A.block(A.slot(i, i)) = Mat3::Identity();
+  }
+  return A;
+}
+
+TEST(LowerBlocks, ManyPiecesMultiplyAsTheWholeMatrix) {
+  Random random;
+  const BlockMatrix A = random_chain(5000, random);
+  LowerBlocks lower;
+  lower.take(A);
+  const Eigen::VectorXd x = random.matrix<Eigen::VectorXd>(15000, 1);
+  Eigen::VectorXd expected, y(15000), again(15000);
+  A.multiply(x, expected);
+  ThreadPool one(1), three(3);
+  lower.multiply(x, y, one);
+  EXPECT_LT((y - expected).norm(), 1e-14 * expected.norm());
+  for (int i = 0; i < 20; ++i) {
+    again.setRandom();
+    lower.multiply(x, again, three);
+    EXPECT_EQ(again, y);
+  }
 }
 
 }  // namespace

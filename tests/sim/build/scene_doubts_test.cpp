@@ -54,6 +54,34 @@ TEST(SceneDoubts, AreOfTissueThatCannotDeform) {
   EXPECT_TRUE(says(doubt(s), "every node of `cartilage` is attached"));
 }
 
+TEST(SceneDoubts, AreOfLoadsOnNothingButWhatIsTied) {
+  const auto between = [](double low, double high) {
+    TissueRegion at{"cartilage", {}};
+    at.region.box = {Vec3(-1, -1, low), Vec3(1, 1, high)};
+    return at;
+  };
+  const auto force = [](const TissueRegion& at) {
+    ForceLoad load;
+    load.at = at;
+    return load;
+  };
+  const auto pressure = [](const TissueRegion& at) {
+    SurfaceLoad load;
+    load.at = at;
+    load.stress = 1e3;
+    return load;
+  };
+  const TissueRegion tied = between(-1e-6, 1e-6), both = between(-1e-6, 6e-3),
+                     free = between(0.019, 0.021);
+  Scenario s = cartilage_on_bone(0);
+  s.loads = {force(both), force(free), pressure(both), pressure(free)};
+  EXPECT_EQ(doubt(s), "");
+  s.loads = {pressure(free), force(free), force(tied)};
+  EXPECT_TRUE(says(doubt(s), "every loaded node of `cartilage` (25 in the region) is attached"));
+  s.loads = {force(free), pressure(free), pressure(tied)};
+  EXPECT_TRUE(says(doubt(s), "every loaded face of `cartilage` (32 in the region) is attached"));
+}
+
 TEST(SceneDoubts, AreOfALigamentThatStartsDrawnOut) {
   Scenario s = cartilage_on_bone(0);
   s.ligaments[0].slack_length = 0.0201;

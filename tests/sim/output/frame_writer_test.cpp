@@ -13,8 +13,10 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <functional>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "sim/base/error.hpp"
 #include "sim/mesh/frame_series.hpp"
@@ -307,6 +309,39 @@ TEST(FrameWriter, AFrameThatCantBeWrittenIsNotListed) {
   std::filesystem::create_symlink("/dev/full", folder / "frames/disc_000001.vtu");
   EXPECT_THROW(scene.write(writer, 1, 0.1), SystemError);
   EXPECT_EQ(read_series(folder / "opening.pvd").size(), 3U);
+}
+
+TEST(FrameWriter, AThreadOfItsOwnWritesTheSameFiles) {
+  const TemporaryFolder folder;
+  const Scene scene;
+  for (const auto& [name, thread] :
+       {std::pair{"callers", FrameThread::Callers}, std::pair{"its_own", FrameThread::OfItsOwn}}) {
+    FrameWriter writer(folder / name, "opening", {kMillimetre, "mm"}, thread);
+    for (int i = 0; i < 5; ++i) scene.write(writer, i, 0.1 * i);
+    EXPECT_EQ(writer.series().bytes, std::filesystem::file_size(folder / name / "opening.pvd"));
+  }
+  EXPECT_EQ(content(folder / "its_own/opening.pvd"), content(folder / "callers/opening.pvd"));
+  const std::vector<SeriesEntry> entries = read_series(folder / "its_own/opening.pvd");
+  ASSERT_EQ(entries.size(), 15U);
+  for (const SeriesEntry& entry : entries)
+    EXPECT_EQ(content(folder / "its_own" / entry.file), content(folder / "callers" / entry.file));
+}
+
+TEST(FrameWriter, WhatAThreadOfItsOwnCantWriteIsThrownByWhateverComesNext) {
+  const Scene scene;
+  using Next = std::function<void(FrameWriter&)>;
+  for (const Next& next : {Next([&](FrameWriter& writer) { scene.write(writer, 2, 0.2); }),
+                           Next([](FrameWriter& writer) { writer.sync(); }),
+                           Next([](FrameWriter& writer) { writer.series(); })}) {
+    const TemporaryFolder folder;
+    FrameWriter writer(folder.path(), "opening", {kMillimetre, "mm"}, FrameThread::OfItsOwn);
+    scene.write(writer, 0, 0);
+    writer.sync();
+    std::filesystem::create_symlink("/dev/full", folder / "frames/disc_000001.vtu");
+    scene.write(writer, 1, 0.1);
+    EXPECT_THROW(next(writer), SystemError);
+    EXPECT_EQ(read_series(folder / "opening.pvd").size(), 3U);
+  }
 }
 
 TEST(WriteTextFile, ReplacesTheWholeFileAndLeavesNothingBeside) {
