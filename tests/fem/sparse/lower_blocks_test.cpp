@@ -34,7 +34,8 @@ TEST(LowerBlocks, MultiplyAsTheWholeMatrix) {
   EXPECT_LT((y - dense(A) * x).norm(), 1e-14 * x.norm());
 }
 
-/// A chain whose every ninth row is coupled to one far before it as well.
+/// A chain. Some of its rows are coupled to one far before them as well, and some to one of the
+/// first.
 BlockMatrix random_chain(int size, Random& random) {
   std::vector<int> stencils, offsets{0};
   const auto couple = [&](int i, int j) {
@@ -44,6 +45,7 @@ BlockMatrix random_chain(int size, Random& random) {
   for (int i = 1; i < size; ++i) {
     couple(i - 1, i);
     if (i % 9 == 0) couple(i * 7 / 10, i);
+    if (i % 50 == 0) couple(i % 17, i);
   }
   BlockMatrix A(size, stencils, offsets);
   for (int i = 0; i < size; ++i) {
