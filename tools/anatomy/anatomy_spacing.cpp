@@ -36,7 +36,8 @@ double Spacing::place(double t) const {
   if (even_.empty()) return t;
   const auto after = std::upper_bound(even_.begin() + 1, even_.end() - 1, t);
   const double before = *(after - 1);
-  const double i = static_cast<double>(after - 1 - even_.begin()) + (t - before) / (*after - before);
+  const double i =
+      static_cast<double>(after - 1 - even_.begin()) + (t - before) / (*after - before);
   return 2 * i / static_cast<double>(even_.size() - 1) - 1;
 }
 
