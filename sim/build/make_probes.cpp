@@ -55,6 +55,7 @@ struct Resolver {
 
   Observed operator()(const ContactsProbe& contacts) const {
     ObservedContacts observed;
+    observed.spot = contacts.spot;
     for (const int p : probes_called(contacts.of)) {
       const Probe& part = scenario.probes[static_cast<std::size_t>(p)];
       const Resolver resolver{scenario, model, geometry, surfaces, warnings, part};
@@ -68,6 +69,7 @@ struct Resolver {
               second = body_index(scenario, contact.second);
     ObservedContact observed;
     observed.body = first;
+    observed.spot = contact.spot;
     const std::optional<ContactId> pair = model.contacts.between(first, second);
     if (!pair && first == second)
       throw InputError(probe.where,

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "sim/gap/triangle_polygon.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
@@ -57,19 +56,17 @@ Compliance compliance_of(const Model& model, const ContactSides& sides, double l
 /// A cut adds half as many corners at most, by round-off; without it one.
 constexpr int kMostCorners = static_cast<int>(2 * TrianglePolygon::kMaxCorners / 3);
 
+void cut(const Vec3& level, TrianglePolygon& polygon) {
+  TrianglePolygon room;
+  if (polygon.count < 3 || polygon.count > kMostCorners) return;
+  if (const TrianglePolygon& part = clipped(level, 0, polygon, room); &part == &room)
+    polygon = room;
+}
+
 /// Of the triangle's area.
-double part_within(const ContactPatch& patch, const Vec3* phi) {
-  const TrianglePolygon whole = whole_triangle();
-  std::array<TrianglePolygon, 2> rooms;
-  const TrianglePolygon* part = &whole;
-  const auto cut = [&](const Vec3& level) {
-    if (part->count >= 3 && part->count <= kMostCorners)
-      part = &clipped(level, 0, *part, rooms[part == rooms.data() ? 1 : 0]);
-  };
-  for (int k = 0; k < patch.num_edges; ++k) cut(patch.edge[static_cast<std::size_t>(k)].level);
-  if (phi != nullptr) cut(*phi);
+double area_of(const TrianglePolygon& polygon) {
   Mat3 Q;
-  return part->count >= 3 ? integrate(*part, Q) : 0;
+  return polygon.count >= 3 ? integrate(polygon, Q) : 0;
 }
 
 }  // namespace
@@ -87,11 +84,21 @@ Eigen::VectorXd signed_pressures(const Model& model, const ContactPairState& pai
   return phi;
 }
 
+TrianglePolygon covered_polygon(const ContactPatch& patch) {
+  TrianglePolygon polygon = whole_triangle();
+  for (int k = 0; k < patch.num_edges; ++k)
+    cut(patch.edge[static_cast<std::size_t>(k)].level, polygon);
+  return polygon;
+}
+
 double area_that_carries(const ContactPatch& patch, const Vec3& phi) {
   if (!(phi.maxCoeff() > 0)) return 0;
   if (phi.minCoeff() >= 0) return patch.area;
-  const double all = part_within(patch, nullptr);
-  return all > 0 ? patch.area * part_within(patch, &phi) / all : 0;
+  TrianglePolygon polygon = covered_polygon(patch);
+  const double all = area_of(polygon);
+  if (!(all > 0)) return 0;
+  cut(phi, polygon);
+  return patch.area * area_of(polygon) / all;
 }
 
 }  // namespace articular::sim

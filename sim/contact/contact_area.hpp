@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/contact/contact_pair_state.hpp"
+#include "sim/gap/triangle_polygon.hpp"
 
 /// How much of a surface carries, finer than its elements.
 ///
@@ -23,6 +24,9 @@ namespace articular::sim {
 
 /// φ [Pa] by smoothing group of the triangles' side; −∞ where no triangle meets a face.
 Eigen::VectorXd signed_pressures(const Model& model, const ContactPairState& pair_state);
+
+/// The part of its triangle that a patch covers.
+TrianglePolygon covered_polygon(const ContactPatch& patch);
 
 /// What of a patch carries, at rest [m²].
 /// @param phi  at the nodes of its triangle

@@ -12,11 +12,13 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include "fem/material/von_mises.hpp"
 #include "sim/base/error.hpp"
+#include "sim/contact/pressure_spot.hpp"
 #include "sim/model/relative_motion.hpp"
 
 namespace articular::sim {
@@ -206,7 +208,7 @@ void list(const HelicalReading& reading, Columns& columns) {
   columns.place("center_now", of(reading.now, &HelicalAxis::center));
 }
 
-ContactSummary measure(const ObservedContact& observed, const Now& now) {
+ContactSummary summary_of(const ObservedContact& observed, const Now& now) {
   ContactSummary sum = summary_through(now.model, now.moment().contact, now.configuration(),
                                        observed.contact, observed.body, observed.faces);
   if (now.model.contacts[observed.contact].a != observed.body) {
@@ -215,6 +217,26 @@ ContactSummary measure(const ObservedContact& observed, const Now& now) {
     std::swap(sum.center_on_a, sum.center_on_b);
   }
   return sum;
+}
+
+/// Of contacts together [Pa]. @param spot  its diameter [m]; 0: none is asked for
+std::optional<double> spot_pressure(std::span<const ObservedContact> contacts, double spot,
+                                    const Now& now) {
+  if (!(spot > 0)) return std::nullopt;
+  std::vector<PressedTriangle> triangles;
+  for (const ObservedContact& observed : contacts)
+    add_pressed_triangles(now.model, now.moment().contact, now.configuration(), observed.contact,
+                          observed.body, observed.faces, triangles);
+  return largest_spot_pressure(triangles, spot / 2);
+}
+
+struct ContactReading {
+  ContactSummary sum;
+  std::optional<double> max_spot_pressure;  // [Pa], where it is asked for
+};
+
+ContactReading measure(const ObservedContact& observed, const Now& now) {
+  return {summary_of(observed, now), spot_pressure({&observed, 1}, observed.spot, now)};
 }
 
 std::optional<Vec3> where_it_carries(const ContactSummary& sum, const Vec3& x) {
@@ -235,23 +257,30 @@ void list_load(const ContactSummary& sum, Columns& columns) {
   pressure("max_face_pressure", sum.max_face_pressure);
 }
 
-void list(const ContactSummary& sum, Columns& columns) {
+void list_spot(const std::optional<double>& max_spot_pressure, Columns& columns) {
+  if (max_spot_pressure) columns.number("max_spot_pressure", "Pa", max_spot_pressure);
+}
+
+void list(const ContactReading& reading, Columns& columns) {
+  const ContactSummary& sum = reading.sum;
   list_load(sum, columns);
   columns.length("max_penetration", sum.max_depth);
   columns.place("max_penetration_at", where_it_carries(sum, sum.deepest));
   columns.length("max_point_penetration", sum.max_point_depth);
   columns.place("center_at_start", where_it_carries(sum, sum.center_on_a));
+  list_spot(reading.max_spot_pressure, columns);
 }
 
 struct ContactsReading {
   ContactSummary sum;
+  std::optional<double> max_spot_pressure;  // [Pa], where it is asked for
 };
 
 ContactsReading measure(const ObservedContacts& observed, const Now& now) {
   ContactSummary sum;
   std::vector<ContactSummary> parts;
   for (const ObservedContact& contact : observed.of) {
-    const ContactSummary& part = parts.emplace_back(measure(contact, now));
+    const ContactSummary& part = parts.emplace_back(summary_of(contact, now));
     sum.force += part.force;
     sum.normal_force += part.normal_force;
     sum.center += part.normal_force * part.center;
@@ -263,11 +292,14 @@ ContactsReading measure(const ObservedContacts& observed, const Now& now) {
   if (sum.normal_force > 0) sum.center /= sum.normal_force;
   for (const ContactSummary& part : parts)
     sum.moment += part.moment + (part.center - sum.center).cross(part.force);
-  return {sum};
+  return {sum, spot_pressure(observed.of, observed.spot, now)};
 }
 
 // Shares read a force from the first three columns.
-void list(const ContactsReading& reading, Columns& columns) { list_load(reading.sum, columns); }
+void list(const ContactsReading& reading, Columns& columns) {
+  list_load(reading.sum, columns);
+  list_spot(reading.max_spot_pressure, columns);
+}
 
 struct MuscleReading {
   double force = 0;   // [N]
@@ -564,11 +596,20 @@ void list(const JointCoordinates& q, Columns& columns) {
 template <class Kind>
 using Reading = decltype(measure(std::declval<const Kind&>(), std::declval<const Now&>()));
 
+/// A reading that nobody took.
+template <class Kind>
+Reading<Kind> no_reading(const Kind& observed) {
+  Reading<Kind> reading;
+  if constexpr (requires { observed.spot; })
+    if (observed.spot > 0) reading.max_spot_pressure = 0;
+  return reading;
+}
+
 }  // namespace
 
 std::vector<std::string> column_names(const ProbeModel& probe, const LengthUnit& unit) {
   Header header(probe.name, unit);
-  std::visit([&]<class Kind>(const Kind&) { list(Reading<Kind>{}, header); }, probe.what);
+  std::visit([&](const auto& kind) { list(no_reading(kind), header); }, probe.what);
   return header.names();
 }
 

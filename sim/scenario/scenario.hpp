@@ -366,6 +366,7 @@ struct AngleProbe {
 struct ContactProbe {
   std::string first, second;
   std::optional<Region> region = {};  // only through this part of the first body's surface
+  double spot = 0;                    // diameter of a spot for its largest mean pressure [m]
 };
 
 /// Force and length of a muscle or ligament.
@@ -435,6 +436,7 @@ struct ShareProbe {
 /// Several contact probes as one: sums of forces and areas, the largest of pressures.
 struct ContactsProbe {
   std::vector<std::string> of;  // names of contact probes
+  double spot = 0;              // [m], over all of them together
 };
 
 /// Stress in a tissue, or in a part of it.

@@ -128,6 +128,7 @@ Target read_contact(const TableReader& table, const Context& context, const Name
   contact.first = read_touching_body(bodies[0], context).name;
   contact.second = read_touching_body(bodies[1], context).name;
   table.read("region", contact.region, [&](const Node& n) { return read_region(n, context); });
+  table.read("spot", contact.spot);
   if (contact.region && contact.first == contact.second)
     fail(table.at("region"), "needs two bodies: of one with itself it names no side");
   return contact;
@@ -210,7 +211,9 @@ Target read_fibres_probe(const TableReader& table, const Context& context, const
 }
 
 Target read_contacts(const TableReader& table, const Context& context, const Named&) {
-  return ContactsProbe{read_probe_names(table.at("of"), context)};
+  ContactsProbe contacts{read_probe_names(table.at("of"), context)};
+  table.read("spot", contacts.spot);
+  return contacts;
 }
 
 Target read_stress(const TableReader& table, const Context& context, const Named&) {
@@ -288,6 +291,10 @@ std::vector<Key> own_keys(std::string_view kind) {
                   {form::Text{"name of a fixed or rigid body"}},
                   otherwise("the world"),
                   "seen from this body, in axes that go with it and are the world's at the start"};
+  const Key spot{"spot",
+                 {form::Quantity{kLength, kPositive}},
+                 otherwise("no such column"),
+                 "diameter of a spot: adds `max_spot_pressure`, the largest mean over one"};
   if (kind == "point" || kind == "way") return {body, point, frame};
   if (kind == "helical_axis")
     return {body,
@@ -307,13 +314,15 @@ std::vector<Key> own_keys(std::string_view kind) {
             {"region",
              {form::Table{region_keys}},
              otherwise("all"),
-             "counts only what passes through this part of the first body"}};
+             "counts only what passes through this part of the first body"},
+            spot};
   if (kind == "contacts")
     return {{"of",
              {list_of({form::Text{"name of a contact probe"}})},
              kRequired,
              "contact probes whose forces and areas are added, and of whose pressures the largest "
-             "counts"}};
+             "counts"},
+            spot};
   if (kind == "muscle_moment")
     return {{"muscles",
              {list_of({form::Text{"name of a muscle"}})},

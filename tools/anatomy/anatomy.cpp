@@ -96,6 +96,10 @@ void add_knee(CLI::App& anatomy, int& exit_code) {
   knee->add_option("--layers", options->resolution.layers,
                    "Elements through their thickness (2 to 6)")
       ->capture_default_str();
+  knee->add_option("--focus", options->resolution.focus,
+                   "How many times finer cartilage is where that of a standing knee touches "
+                   "(1 to 3)")
+      ->capture_default_str();
   knee->add_option("--scale", options->shape.scale,
                    "Factor of all lengths but the thickness of cartilage (0.75 to 1.3)")
       ->capture_default_str();

@@ -235,11 +235,13 @@ name = "contact"
 kind = "contact"
 bodies = ["tissue", "free"]
 region = {}
+spot = "4 mm"
 mirror = "x"
 [[probe]]
 name = "contacts"
 kind = "contacts"
 of = ["contact_left", "contact_right"]
+spot = "4 mm"
 mirror = "x"
 [[probe]]
 name = "line"

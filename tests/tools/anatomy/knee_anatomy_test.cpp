@@ -1,8 +1,11 @@
 // `articular anatomy knee`: published dimensions, sound meshes, nothing overlaps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 #include "sim/mesh/mesh_io.hpp"
 #include "tests/tools/anatomy/anatomy_checks.hpp"
@@ -10,6 +13,7 @@
 #include "tools/anatomy/anatomy_knee.hpp"
 #include "tools/anatomy/anatomy_meniscus.hpp"
 #include "tools/anatomy/anatomy_solids.hpp"
+#include "tools/anatomy/anatomy_spacing.hpp"
 
 namespace articular::anatomy::knee_anatomy_test {
 
@@ -42,7 +46,7 @@ double area_facing(const Mesh& mesh, const Direction& direction) {
 class KneeSize : public testing::TestWithParam<KneeResolution> {};
 INSTANTIATE_TEST_SUITE_P(MillimetresAndLayers, KneeSize,
                          testing::Values(KneeResolution{1.5, 3}, KneeResolution{2.5, 2},
-                                         KneeResolution{4, 2}));
+                                         KneeResolution{4, 2}, KneeResolution{2.5, 2, 1.6}));
 
 TEST_P(KneeSize, TetrahedraArePositiveAndSurfacesClosed) {
   for (const Compartment* c : kBoth)
@@ -121,6 +125,63 @@ TEST_P(KneeSize, NothingOverlapsAndTheGapsAreSmall) {
       EXPECT_LT(least, 0.25);
     }
   }
+}
+
+// Cells of a line of 60 mm: of one size within 8 mm of the focus, 2.5 times larger from 16 mm on.
+TEST(KneeSpacing, IsFinerAtTheFocusByItsFactor) {
+  constexpr double kLength = 60, kMiddle = -6, kReach = 8, kFactor = 2.5;
+  const Spacing spacing(kLength, 1, {kMiddle, kReach, kFactor});
+  const int n = spacing.cells();
+  EXPECT_EQ(n % 2, 0);
+  EXPECT_EQ(spacing.place(-1), -1);
+  EXPECT_NEAR(spacing.place(1), 1, 1e-12);
+  std::vector<double> near, far;  // cells [mm]
+  for (int i = 0; i < n; ++i) {
+    const double begin = kLength / 2 * spacing.place(2.0 * i / n - 1),
+                 end = kLength / 2 * spacing.place(2.0 * (i + 1) / n - 1);
+    EXPECT_GT(end, begin);
+    const auto [least, most] = std::minmax({std::abs(begin - kMiddle), std::abs(end - kMiddle)});
+    if (most < kReach) near.push_back(end - begin);
+    if (least > 2 * kReach) far.push_back(end - begin);
+  }
+  ASSERT_GE(near.size(), 38U);
+  ASSERT_GE(far.size(), 25U);
+  for (const double cell : near) EXPECT_NEAR(cell, 1 / kFactor, 0.03 / kFactor);
+  for (const double cell : far) EXPECT_NEAR(cell, kFactor * near[0], 0.01 * cell);
+}
+
+TEST(KneeSpacing, WithoutAFocusIsEven) {
+  const Spacing spacing(29, 2.5, {-2.5, 7.5, 1});
+  EXPECT_EQ(spacing.cells(), 12);
+  for (const double t : {-1.0, -0.3, 0.0, 0.9}) EXPECT_EQ(spacing.place(t), t);
+}
+
+// Faces of both cartilages around the lowest point of the condyle are smaller by the square of the
+// focus. In front and behind they are so in one direction only, or not at all.
+TEST(KneeAnatomy, AFocusMakesFacesSmallerWhereAStandingKneeTouches) {
+  constexpr double kFocus = 2;
+  const auto mean_face = [](const Mesh& mesh, const Compartment& c, double least, double most) {
+    double sum = 0;
+    int count = 0;
+    const Triangles skin = boundary(mesh.tets);
+    for (const auto& face : skin.colwise()) {
+      const Eigen::Matrix3d x = mesh.X_mm(Eigen::all, face);
+      const Vec3 area = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0)) / 2;
+      const Vec3 middle = x.rowwise().mean();
+      const double away = std::hypot(middle.x() - c.side * kCompartmentX, middle.y() + 2.5);
+      if (std::abs(area.z()) < 0.5 * area.norm() || away < least || away > most) continue;
+      sum += area.norm();
+      ++count;
+    }
+    return sum / count;
+  };
+  for (const Compartment* c : kBoth)
+    for (const auto make : {femoral_cartilage, tibial_cartilage}) {
+      const Mesh even = make(*c, {2.5, 2, 1}), focused = make(*c, {2.5, 2, kFocus});
+      EXPECT_NEAR(mean_face(focused, *c, 0, 6) * kFocus * kFocus, mean_face(even, *c, 0, 6),
+                  0.25 * mean_face(even, *c, 0, 6));
+      EXPECT_GT(mean_face(focused, *c, 17, 40), 1.5 * mean_face(focused, *c, 0, 6));
+    }
 }
 
 TEST(KneeAnatomy, ShippedFilesAreWhatTheProgramMakes) {
