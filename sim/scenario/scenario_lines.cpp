@@ -186,14 +186,28 @@ std::optional<std::string> unknown_name(const std::string& name,
                      suggestion(name, names));
 }
 
-/// The rows without those in `leave_out`; every name there must be one of the rows'.
+/// The names of muscles or rows that a key lists; each must be one of the rows'.
+std::vector<std::string> listed_names(const Node& node, const std::vector<MuscleRow>& rows) {
+  std::vector<std::string> names;
+  for (const Node& element : read_list(node, "names of muscles such as [\"geniohyoid\"]")) {
+    names.push_back(read_text(element));
+    if (const auto mistake = unknown_name(names.back(), rows)) fail(element, *mistake);
+  }
+  return names;
+}
+
+/// The rows in `only`, without those in `leave_out`.
 std::vector<MuscleRow> rows_to_take(const TableReader& table, std::vector<MuscleRow> rows) {
-  const Node* node = table.find("leave_out");
-  if (node == nullptr) return rows;
-  for (const Node& element : read_list(*node, "names of muscles such as [\"geniohyoid\"]")) {
-    const std::string left_out = read_text(element);
-    if (const auto mistake = unknown_name(left_out, rows)) fail(element, *mistake);
-    std::erase_if(rows, [&](const MuscleRow& row) { return is_called(row, left_out); });
+  for (const bool listed_stay : {true, false}) {
+    const Node* node = table.find(listed_stay ? "only" : "leave_out");
+    if (node == nullptr) continue;
+    const std::vector<std::string> names = listed_names(*node, rows);
+    std::erase_if(rows, [&](const MuscleRow& row) {
+      const bool listed = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        return is_called(row, name);
+      });
+      return listed != listed_stay;
+    });
   }
   return rows;
 }
@@ -479,6 +493,10 @@ const KeyTable& muscle_table_keys() {
         "[[muscle_table]]",
         {{"file", {form::Text{"path"}}, kRequired, "CSV table with a row for each muscle"},
          {"place", {form::Table{place_keys}}, kNone, "moves the points"},
+         {"only",
+          {list_of({form::Text{"muscle or row of the table"}})},
+          otherwise("all"),
+          "muscles or rows of the table that are taken"},
          {"leave_out",
           {list_of({form::Text{"muscle or row of the table"}})},
           kNone,

@@ -51,7 +51,8 @@ void add_mandible(CLI::App& anatomy, int& exit_code) {
       ->capture_default_str();
   CLI::Option* muscles = mandible->add_flag(
       "--muscles", options->muscles,
-      "Adds masseter and temporalis of both sides as tissue with fibres, and the bone they touch");
+      "Adds masseter, temporalis and medial pterygoid of both sides as tissue with fibres, and the "
+      "bone they touch");
   mandible
       ->add_option("--muscle-size", options->muscle_size_mm,
                    "Element size of the muscles in mm (3 to 6)")

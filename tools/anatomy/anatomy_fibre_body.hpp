@@ -11,7 +11,10 @@
 ///
 ///      front ---- middle ---- back      row 0, at the origin         x: from front to back
 ///         \          |         /                                     w: along the fibres
-///          front - middle - back        last row, at the insertion   normal: (-w) x x, outwards
+///          front - middle - back        last row, at the insertion   normal: w x x, outwards
+///
+/// Outwards is away from the bone that the ends sit on. Where that is towards the middle of the
+/// head, front and back change places.
 ///
 /// An end sits on its bone by its face, or by the inner side of the last part of the sheet.
 /// Elsewhere the sheet keeps clear of the bones. Lengths in mm.

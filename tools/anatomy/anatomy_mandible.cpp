@@ -189,6 +189,7 @@ void add_muscle_bodies(double element_size, Anatomy& anatomy) {
     add_both_sides(shape.name, ".vtu", muscle_mesh(shape, element_size), anatomy);
   add_both_sides("ramus", ".vtp", ramus_sheet(kMuscleBoneGrid), anatomy);
   add_both_sides("temporal", ".vtp", temporal_sheet(kMuscleBoneGrid), anatomy);
+  add_both_sides("pterygoid", ".vtp", pterygoid_sheet(kMuscleBoneGrid), anatomy);
 }
 
 }  // namespace articular::anatomy

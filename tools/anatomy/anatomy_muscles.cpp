@@ -24,7 +24,18 @@ std::vector<FibreBody> closing_muscles() {
             {{43, -7, 76}, {45, -2, 82.5}, {47.5, 4, 88}, 7},
             {{44.4, 2, 67}, {46, 2.8, 74}, {47, 6, 80.6}, 3.6}},
            {"skull", 0.25},
-           {"mandible"}}};
+           {"mandible"}},
+          // From the inner side of the pterygoid plate, behind its lower end, to the inner side of
+          // the angle of the jaw.
+          {"medial_pterygoid",
+           {{{18.5, 12, 85}, {18, 8.5, 85}, {17.5, 4.5, 85}, 5},
+            {{17.8, 11.5, 72}, {17, 8, 72}, {16, 4, 72}, 6.2},
+            {{24, 19, 59}, {20.7, 14, 60}, {16.5, 9, 61}, 6.5},
+            {{33, 25, 46.5}, {29.6, 19.5, 47}, {24.5, 15, 47.5}, 5.8},
+            {{39, 29, 35}, {36.5, 22.5, 35}, {31, 17.5, 35}, 4.8},
+            {{41, 30, 23.5}, {39, 24, 23.5}, {34.5, 18.5, 23.5}, 3.6}},
+           {"skull", 0.28},
+           {"mandible", 0.3}}};
 }
 
 Mesh muscle_mesh(const FibreBody& muscle, double h) {
@@ -47,6 +58,12 @@ Mesh temporal_sheet(double h) {
     const bool joint =
         std::abs(d.x()) < 14 && d.y() < 11 && d.y() > -26 && d.z() < 14 && normal.z() < -0.3;
     return p.x() > 36 && p.y() > -22 && p.y() < 58 && p.z() > 68 && !joint;
+  });
+}
+
+Mesh pterygoid_sheet(double h) {
+  return part_of(skull_without_styloid(h), [](const Vec3& p, const Vec3& /*normal*/) {
+    return p.x() > 20 && p.x() < 33 && p.y() > 0 && p.z() > 55 && p.z() < 91;
   });
 }
 

@@ -7,9 +7,9 @@
 /// Closing muscles of the jaw as bodies of tissue, between "skull" and "mandible". mm; left side.
 namespace articular::anatomy {
 
-/// Masseter (both parts as one) and temporalis. The volumes are about those of the fibres of the
-/// lines of mandible_muscles (PECK): physiological cross-section times the part of the length that
-/// is no tendon. The temporalis has less room, and 0.6 of that.
+/// Masseter (both parts as one), temporalis and medial pterygoid. The volumes are about those of
+/// the fibres of the lines of mandible_muscles (PECK): physiological cross-section times the part
+/// of the length that is no tendon. The temporalis has less room, and 0.6 of that.
 std::vector<FibreBody> closing_muscles();
 
 /// Nodes that lie on the bone of an end: nearer than kAttachedWithin, all others farther than that.
@@ -19,10 +19,11 @@ constexpr double kAttachedWithin = 1.0;
 /// @throws std::invalid_argument for h outside [3, 6] mm
 Mesh muscle_mesh(const FibreBody& muscle, double h);
 
-/// The parts of both bones that these muscles touch, for contact: ramus with coronoid, and temporal
-/// fossa with zygomatic arch. Open sheets, outward normals; left side.
+/// The parts of both bones that these muscles touch, for contact: ramus with coronoid, temporal
+/// fossa with zygomatic arch, and pterygoid plate. Open sheets, outward normals; left side.
 /// @param h  spacing of the contoured grid
 Mesh ramus_sheet(double h);
 Mesh temporal_sheet(double h);
+Mesh pterygoid_sheet(double h);
 
 }  // namespace articular::anatomy

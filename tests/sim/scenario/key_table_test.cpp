@@ -107,6 +107,7 @@ excitation = "ramp"
 [[muscle_table]]
 file = "muscles.csv"
 place = { scale = 1 }
+only = ["masseter", "geniohyoid"]
 leave_out = ["geniohyoid"]
 bodies = { hyoid = "skull" }
 passive_fraction = 0.02

@@ -66,6 +66,18 @@ TEST_F(MuscleTable, LeavesOutMusclesThatAreNamed) {
       "has no muscle or row `anterior temporali`; did you mean `anterior temporalis`?");
 }
 
+TEST_F(MuscleTable, TakesOnlyMusclesThatAreNamed) {
+  write("muscles.csv", std::string(kHeader) + kRows);
+  const Scenario scenario =
+      read(scenario_, {"muscle_table.0.only=['anterior temporalis']",
+                       "muscle_table.0.leave_out=['lat']", "muscle_table.0.bodies={}"});
+  ASSERT_EQ(scenario.muscles.size(), 1U);
+  EXPECT_EQ(scenario.muscles[0].name, "rat");
+  EXPECT_EQ(refusal(scenario_, {"muscle_table.0.only=['lgg']"}),
+            "--set muscle_table.0.only=['lgg']: `only[0]`: the muscle table has no muscle or row "
+            "`lgg`; did you mean `lgh`?");
+}
+
 // One side of a muscle is a row, by its id.
 TEST_F(MuscleTable, OneSideCanDiffer) {
   write("muscles.csv", std::string(kHeader) + kRows);

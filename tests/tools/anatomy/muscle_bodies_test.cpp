@@ -1,4 +1,4 @@
-// Masseter and temporalis as bodies: `articular anatomy mandible --muscles`.
+// Masseter, temporalis and medial pterygoid as bodies: `articular anatomy mandible --muscles`.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ Vec3 mean_fibre(const Mesh& mesh) { return mesh.fibres.rowwise().mean().normaliz
 TEST(MuscleBodies, ShippedFilesAreWhatTheProgramMakes) {
   Anatomy anatomy;
   add_muscle_bodies(kSize, anatomy);
-  EXPECT_EQ(anatomy.meshes.size(), 8U);
+  EXPECT_EQ(anatomy.meshes.size(), 12U);
   for (const auto& [name, mesh] : anatomy.meshes) {
     SCOPED_TRACE(name);
     const auto path =
@@ -108,8 +108,8 @@ TEST_P(MuscleSize, MusclesDoNotOverlap) {
 // Volume of fibres: peak force / 40 N/cm² times the part of the line that is no tendon (PECK). The
 // temporalis has to fit between coronoid, zygomatic arch and skull, and has 0.6 of that.
 TEST(MuscleBodies, VolumeIsThatOfTheFibres) {
-  const std::map<std::string, std::pair<double, double>> wanted_cm3 = {{"masseter", {16.9, 0.10}},
-                                                                       {"temporalis", {18, 0.05}}};
+  const std::map<std::string, std::pair<double, double>> wanted_cm3 = {
+      {"masseter", {16.9, 0.10}}, {"temporalis", {18, 0.05}}, {"medial_pterygoid", {7.0, 0.05}}};
   for (const FibreBody& shape : closing_muscles()) {
     const auto [volume, tolerance] = wanted_cm3.at(shape.name);
     EXPECT_NEAR(volume_of(muscle_mesh(shape, kSize)) / 1e3, volume, tolerance * volume)
@@ -122,7 +122,9 @@ TEST(MuscleBodies, VolumeIsThatOfTheFibres) {
 // lines.
 TEST(MuscleBodies, FibresRunAlongTheLines) {
   const std::map<std::string, std::vector<std::string>> lines = {
-      {"masseter", {"lsm", "ldm"}}, {"temporalis", {"lat", "lmt", "lpt"}}};
+      {"masseter", {"lsm", "ldm"}},
+      {"temporalis", {"lat", "lmt", "lpt"}},
+      {"medial_pterygoid", {"lmp"}}};
   const std::vector<MuscleRow> rows = mandible_muscles();
   for (const FibreBody& shape : closing_muscles()) {
     Vec3 line = Vec3::Zero();
@@ -137,12 +139,15 @@ TEST(MuscleBodies, FibresRunAlongTheLines) {
 TEST(MuscleBodies, RightIsTheMirrorImageOfLeft) {
   Anatomy anatomy;
   add_muscle_bodies(5, anatomy);
-  const Mesh &left = anatomy.meshes.at("temporalis_left.vtu"),
-             &right = anatomy.meshes.at("temporalis_right.vtu");
   const Eigen::Vector3d mirror(-1, 1, 1);
-  EXPECT_EQ(left.X_mm, mirror.asDiagonal() * right.X_mm);
-  EXPECT_EQ(left.fibres, mirror.asDiagonal() * right.fibres);
-  EXPECT_GT(least_relative_volume(right), 0);
+  for (const FibreBody& shape : closing_muscles()) {
+    SCOPED_TRACE(shape.name);
+    const Mesh &left = anatomy.meshes.at(shape.name + "_left.vtu"),
+               &right = anatomy.meshes.at(shape.name + "_right.vtu");
+    EXPECT_EQ(left.X_mm, mirror.asDiagonal() * right.X_mm);
+    EXPECT_EQ(left.fibres, mirror.asDiagonal() * right.fibres);
+    EXPECT_GT(least_relative_volume(right), 0);
+  }
 }
 
 TEST(MuscleBodies, RefusesSizesOutsideItsRange) {
