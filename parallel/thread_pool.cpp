@@ -19,20 +19,6 @@ std::uint64_t next_job(std::uint64_t ticket, int num_tasks) {
   return number << 2 * kTaskBits | static_cast<std::uint64_t>(num_tasks) << kTaskBits;
 }
 
-/// Some 30 us: to wake a thread that sleeps takes as long, and what a solver shares out is often over
-/// sooner.
-constexpr int kPatience = 1000;
-
-/// Until the value is no longer that one: awake at first, then asleep.
-template <class T>
-void wait_while(const std::atomic<T>& value, T old) {
-  for (int k = 0; k < kPatience; ++k) {
-    if (value != old) return;
-    __builtin_ia32_pause();
-  }
-  value.wait(old);
-}
-
 }  // namespace
 
 ThreadPool::ThreadPool(int num_threads) {
@@ -62,7 +48,7 @@ void ThreadPool::share(int num_tasks) {
   ticket_ = next_job(ticket_, num_tasks);
   ticket_.notify_all();
   take_tasks(0);
-  for (int n = num_finished_; n < num_tasks; n = num_finished_) wait_while(num_finished_, n);
+  for (int n = num_finished_; n < num_tasks; n = num_finished_) num_finished_.wait(n);
   if (failed_.exchange(false)) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
@@ -83,7 +69,7 @@ void ThreadPool::wait_for_work(int worker) {
   while (!stop_) {
     take_tasks(worker);
     const std::uint64_t ticket = ticket_;
-    if (next_task(ticket) == task_count(ticket) && !stop_) wait_while(ticket_, ticket);
+    if (next_task(ticket) == task_count(ticket) && !stop_) ticket_.wait(ticket);
   }
 }
 

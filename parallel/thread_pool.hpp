@@ -9,9 +9,9 @@
 
 namespace articular {
 
-/// Threads that wait, after a moment asleep, for numbered tasks. Whoever is free takes the next
-/// one, so that a thread the system does not run holds nobody up; what a task computes must not
-/// depend on who runs it.
+/// Threads that wait, asleep, for numbered tasks. Whoever is free takes the next one, so that a
+/// thread the system does not run holds nobody up; what a task computes must not depend on who runs
+/// it.
 class ThreadPool {
  public:
   /// @param num_threads  with the caller's; fewer where the system gives no more
