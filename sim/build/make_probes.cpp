@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
 #include <string>
 
 #include "sim/build/region.hpp"
@@ -56,11 +59,14 @@ struct Resolver {
   Observed operator()(const ContactsProbe& contacts) const {
     ObservedContacts observed;
     observed.spot = contacts.spot;
+    double finest = std::numeric_limits<double>::infinity();
     for (const int p : probes_called(contacts.of)) {
       const Probe& part = scenario.probes[static_cast<std::size_t>(p)];
       const Resolver resolver{scenario, model, geometry, surfaces, warnings, part};
       observed.of.push_back(std::get<ObservedContact>(resolver(std::get<ContactProbe>(part.what))));
+      finest = std::min(finest, finest_face(model.contacts[observed.of.back().contact]));
     }
+    check_spot(contacts.spot, finest);
     return observed;
   }
 
@@ -87,7 +93,29 @@ struct Resolver {
                                                     : "contact = false"));
     observed.contact = *pair;
     if (contact.region) observed.faces = faces_in(*contact.region, contact.first);
+    check_spot(contact.spot, finest_face(model.contacts[*pair]));
     return observed;
+  }
+
+  /// Side of a mean face, of that body of the two where it is smaller [m].
+  double finest_face(const ContactModel& contact) const {
+    const auto side = [&](int b) {
+      const std::vector<double>& area =
+          model.bodies[static_cast<std::size_t>(b)].collider->face_area;
+      return std::sqrt(2 * std::reduce(area.begin(), area.end()) /
+                       static_cast<double>(area.size()));
+    };
+    return std::min(side(contact.a), side(contact.b));
+  }
+
+  /// Faces resolve nothing finer than themselves, and smaller spots are very many to try.
+  void check_spot(double spot, double face) const {
+    if (spot > 0 && spot < 0.25 * face)
+      throw InputError(
+          probe.where,
+          fmt::format("spot of probe `{}` is {:.3g} mm wide, less than a quarter of a face of "
+                      "the surfaces that touch; expected at least {:.3g} mm",
+                      probe.name, 1e3 * spot, 1e3 * 0.25 * face));
   }
 
   int line_called(const std::string& name) const {

@@ -53,4 +53,22 @@ TEST(MakeProbes, ContactThatIsTurnedOffIsRefusedToo) {
   }
 }
 
+// Faces of "left" have sides of 10 mm, those of the floor more.
+TEST(MakeProbes, ASpotFarSmallerThanFacesIsRefused) {
+  for (const auto& [first, second] : {std::pair("left", "floor"), std::pair("floor", "left")}) {
+    Scenario s = balls(first, second);
+    ContactsProbe both{{"touch"}};
+    s.probes.push_back({"both", both});
+    double& spot = std::get<ContactProbe>(s.probes[0].what).spot;
+    double& spot_of_both = std::get<ContactsProbe>(s.probes[1].what).spot;
+    spot = spot_of_both = 2.6e-3;
+    EXPECT_NO_THROW(build_model(s));
+    spot_of_both = 2.4e-3;
+    EXPECT_THROW(build_model(s), InputError);
+    spot = 2.4e-3;
+    spot_of_both = 0;
+    EXPECT_THROW(build_model(s), InputError);
+  }
+}
+
 }  // namespace articular::sim::make_probes_test
