@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <string>
 
 #include "sim/build/region.hpp"
@@ -59,14 +60,12 @@ struct Resolver {
   Observed operator()(const ContactsProbe& contacts) const {
     ObservedContacts observed;
     observed.spot = contacts.spot;
-    double finest = std::numeric_limits<double>::infinity();
     for (const int p : probes_called(contacts.of)) {
       const Probe& part = scenario.probes[static_cast<std::size_t>(p)];
       const Resolver resolver{scenario, model, geometry, surfaces, warnings, part};
       observed.of.push_back(std::get<ObservedContact>(resolver(std::get<ContactProbe>(part.what))));
-      finest = std::min(finest, finest_face(model.contacts[observed.of.back().contact]));
     }
-    check_spot(contacts.spot, finest);
+    check_spot(observed.spot, observed.of);
     return observed;
   }
 
@@ -93,7 +92,7 @@ struct Resolver {
                                                     : "contact = false"));
     observed.contact = *pair;
     if (contact.region) observed.faces = faces_in(*contact.region, contact.first);
-    check_spot(contact.spot, finest_face(model.contacts[*pair]));
+    check_spot(observed.spot, {&observed, 1});
     return observed;
   }
 
@@ -109,8 +108,12 @@ struct Resolver {
   }
 
   /// Faces resolve nothing finer than themselves, and smaller spots are very many to try.
-  void check_spot(double spot, double face) const {
-    if (spot > 0 && spot < 0.25 * face)
+  void check_spot(double spot, std::span<const ObservedContact> contacts) const {
+    if (!(spot > 0)) return;
+    double face = std::numeric_limits<double>::infinity();
+    for (const ObservedContact& observed : contacts)
+      face = std::min(face, finest_face(model.contacts[observed.contact]));
+    if (spot < 0.25 * face)
       throw InputError(
           probe.where,
           fmt::format("spot of probe `{}` is {:.3g} mm wide, less than a quarter of a face of "

@@ -83,7 +83,7 @@ class Doubts {
 
   void look_at(const Body& body) {
     const std::vector<NodeRef>& nodes = tissue(index(body.name)).nodes;
-    if (std::all_of(nodes.begin(), nodes.end(), [](const NodeRef& n) { return n.rigid >= 0; }))
+    if (std::ranges::all_of(nodes, is_attached))
       doubt(body.where,
             fmt::format("every node of `{}` is attached to a body: it can't deform", body.name));
   }

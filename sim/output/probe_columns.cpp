@@ -271,10 +271,8 @@ void list(const ContactReading& reading, Columns& columns) {
   list_spot(reading.max_spot_pressure, columns);
 }
 
-struct ContactsReading {
-  ContactSummary sum;
-  std::optional<double> max_spot_pressure;  // [Pa], where it is asked for
-};
+/// Of several contacts as one: fewer columns.
+struct ContactsReading : ContactReading {};
 
 ContactsReading measure(const ObservedContacts& observed, const Now& now) {
   ContactSummary sum;
@@ -292,7 +290,7 @@ ContactsReading measure(const ObservedContacts& observed, const Now& now) {
   if (sum.normal_force > 0) sum.center /= sum.normal_force;
   for (const ContactSummary& part : parts)
     sum.moment += part.moment + (part.center - sum.center).cross(part.force);
-  return {sum, spot_pressure(observed.of, observed.spot, now)};
+  return {{sum, spot_pressure(observed.of, observed.spot, now)}};
 }
 
 // Shares read a force from the first three columns.
