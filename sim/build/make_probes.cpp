@@ -59,13 +59,13 @@ struct Resolver {
 
   Observed operator()(const ContactsProbe& contacts) const {
     ObservedContacts observed;
-    observed.spot = contacts.spot;
+    observed.sensor = contacts.sensor;
     for (const int p : probes_called(contacts.of)) {
       const Probe& part = scenario.probes[static_cast<std::size_t>(p)];
       const Resolver resolver{scenario, model, geometry, surfaces, warnings, part};
       observed.of.push_back(std::get<ObservedContact>(resolver(std::get<ContactProbe>(part.what))));
     }
-    check_spot(observed.spot, observed.of);
+    check_spot(observed.sensor.spot, observed.of);
     return observed;
   }
 
@@ -74,7 +74,7 @@ struct Resolver {
               second = body_index(scenario, contact.second);
     ObservedContact observed;
     observed.body = first;
-    observed.spot = contact.spot;
+    observed.sensor = contact.sensor;
     const std::optional<ContactId> pair = model.contacts.between(first, second);
     if (!pair && first == second)
       throw InputError(probe.where,
@@ -92,7 +92,7 @@ struct Resolver {
                                                     : "contact = false"));
     observed.contact = *pair;
     if (contact.region) observed.faces = faces_in(*contact.region, contact.first);
-    check_spot(observed.spot, {&observed, 1});
+    check_spot(observed.sensor.spot, {&observed, 1});
     return observed;
   }
 

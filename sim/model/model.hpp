@@ -240,12 +240,12 @@ struct ObservedContact {
   ContactId contact = -1;
   int body = 0;             // index into Model::bodies: the one that it acts on
   std::vector<char> faces;  // of that body's collider: those that count; empty: all
-  double spot = 0;          // diameter of a spot for its largest mean pressure [m]; 0: none
+  PressureSensor sensor;
 };
 
 struct ObservedContacts {
   std::vector<ObservedContact> of;
-  double spot = 0;  // [m], over all of them together; 0: none
+  PressureSensor sensor;  // under all of them together
 };
 
 /// Goes with a fixed or rigid body.

@@ -18,6 +18,7 @@
 
 #include "fem/material/von_mises.hpp"
 #include "sim/base/error.hpp"
+#include "sim/contact/pressed_area.hpp"
 #include "sim/contact/pressure_spot.hpp"
 #include "sim/model/relative_motion.hpp"
 
@@ -219,24 +220,42 @@ ContactSummary summary_of(const ObservedContact& observed, const Now& now) {
   return sum;
 }
 
-/// Of contacts together [Pa]. @param spot  its diameter [m]; 0: none is asked for
-std::optional<double> spot_pressure(std::span<const ObservedContact> contacts, double spot,
-                                    const Now& now) {
-  if (!(spot > 0)) return std::nullopt;
+/// What is asked for of a sensor's numbers.
+struct SensorReading {
+  std::optional<double> max_spot_pressure;     // [Pa]
+  std::optional<double> area_above_threshold;  // [m²]
+};
+
+/// Of one that nobody has read yet.
+SensorReading no_sensor_reading(const PressureSensor& sensor) {
+  SensorReading reading;
+  if (sensor.spot > 0) reading.max_spot_pressure = 0;
+  if (sensor.threshold > 0) reading.area_above_threshold = 0;
+  return reading;
+}
+
+/// Of contacts together.
+SensorReading read_sensor(std::span<const ObservedContact> contacts, const PressureSensor& sensor,
+                          const Now& now) {
+  SensorReading reading = no_sensor_reading(sensor);
+  if (!(sensor.spot > 0 || sensor.threshold > 0)) return reading;
   std::vector<PressedTriangle> triangles;
   for (const ObservedContact& observed : contacts)
     add_pressed_triangles(now.model, now.moment().contact, now.configuration(), observed.contact,
                           observed.body, observed.faces, triangles);
-  return largest_spot_pressure(triangles, spot / 2);
+  if (sensor.spot > 0)
+    reading.max_spot_pressure = largest_spot_pressure(triangles, sensor.spot / 2);
+  if (sensor.threshold > 0) reading.area_above_threshold = area_above(triangles, sensor.threshold);
+  return reading;
 }
 
 struct ContactReading {
   ContactSummary sum;
-  std::optional<double> max_spot_pressure;  // [Pa], where it is asked for
+  SensorReading sensor;
 };
 
 ContactReading measure(const ObservedContact& observed, const Now& now) {
-  return {summary_of(observed, now), spot_pressure({&observed, 1}, observed.spot, now)};
+  return {summary_of(observed, now), read_sensor({&observed, 1}, observed.sensor, now)};
 }
 
 std::optional<Vec3> where_it_carries(const ContactSummary& sum, const Vec3& x) {
@@ -257,8 +276,11 @@ void list_load(const ContactSummary& sum, Columns& columns) {
   pressure("max_face_pressure", sum.max_face_pressure);
 }
 
-void list_spot(const std::optional<double>& max_spot_pressure, Columns& columns) {
-  if (max_spot_pressure) columns.number("max_spot_pressure", "Pa", max_spot_pressure);
+void list_sensor(const SensorReading& reading, Columns& columns) {
+  if (reading.max_spot_pressure)
+    columns.number("max_spot_pressure", "Pa", reading.max_spot_pressure);
+  if (reading.area_above_threshold)
+    columns.area("area_above_threshold", *reading.area_above_threshold);
 }
 
 void list(const ContactReading& reading, Columns& columns) {
@@ -268,7 +290,7 @@ void list(const ContactReading& reading, Columns& columns) {
   columns.place("max_penetration_at", where_it_carries(sum, sum.deepest));
   columns.length("max_point_penetration", sum.max_point_depth);
   columns.place("center_at_start", where_it_carries(sum, sum.center_on_a));
-  list_spot(reading.max_spot_pressure, columns);
+  list_sensor(reading.sensor, columns);
 }
 
 /// Of several contacts as one: fewer columns.
@@ -290,13 +312,13 @@ ContactsReading measure(const ObservedContacts& observed, const Now& now) {
   if (sum.normal_force > 0) sum.center /= sum.normal_force;
   for (const ContactSummary& part : parts)
     sum.moment += part.moment + (part.center - sum.center).cross(part.force);
-  return {{sum, spot_pressure(observed.of, observed.spot, now)}};
+  return {{sum, read_sensor(observed.of, observed.sensor, now)}};
 }
 
 // Shares read a force from the first three columns.
 void list(const ContactsReading& reading, Columns& columns) {
   list_load(reading.sum, columns);
-  list_spot(reading.max_spot_pressure, columns);
+  list_sensor(reading.sensor, columns);
 }
 
 struct MuscleReading {
@@ -598,8 +620,7 @@ using Reading = decltype(measure(std::declval<const Kind&>(), std::declval<const
 template <class Kind>
 Reading<Kind> no_reading(const Kind& observed) {
   Reading<Kind> reading;
-  if constexpr (requires { observed.spot; })
-    if (observed.spot > 0) reading.max_spot_pressure = 0;
+  if constexpr (requires { observed.sensor; }) reading.sensor = no_sensor_reading(observed.sensor);
   return reading;
 }
 

@@ -362,11 +362,17 @@ struct AngleProbe {
   Vec3 axis = Vec3::UnitX();  // unit vector
 };
 
+/// What a sensor or a pressure film between surfaces resolves; 0: not asked for.
+struct PressureSensor {
+  double spot = 0;       // diameter of a spot for its largest mean pressure [m]
+  double threshold = 0;  // least pressure of the area that it shows [Pa]
+};
+
 /// What two bodies, or one with itself, put on each other: as it acts on the first.
 struct ContactProbe {
   std::string first, second;
   std::optional<Region> region = {};  // only through this part of the first body's surface
-  double spot = 0;                    // diameter of a spot for its largest mean pressure [m]
+  PressureSensor sensor = {};
 };
 
 /// Force and length of a muscle or ligament.
@@ -436,7 +442,7 @@ struct ShareProbe {
 /// Several contact probes as one: sums of forces and areas, the largest of pressures.
 struct ContactsProbe {
   std::vector<std::string> of;  // names of contact probes
-  double spot = 0;              // [m], over all of them together
+  PressureSensor sensor = {};   // under all of them together
 };
 
 /// Stress in a tissue, or in a part of it.

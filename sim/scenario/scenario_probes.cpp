@@ -122,13 +122,18 @@ Target read_angle(const TableReader& table, const Context& context, const Named&
   return angle;
 }
 
+void read_sensor(const TableReader& table, PressureSensor& sensor) {
+  table.read("spot", sensor.spot);
+  table.read("threshold", sensor.threshold);
+}
+
 Target read_contact(const TableReader& table, const Context& context, const Named&) {
   const Node::List& bodies = read_list(table.at("bodies"), "the names of two bodies", 2);
   ContactProbe contact;
   contact.first = read_touching_body(bodies[0], context).name;
   contact.second = read_touching_body(bodies[1], context).name;
   table.read("region", contact.region, [&](const Node& n) { return read_region(n, context); });
-  table.read("spot", contact.spot);
+  read_sensor(table, contact.sensor);
   if (contact.region && contact.first == contact.second)
     fail(table.at("region"), "needs two bodies: of one with itself it names no side");
   return contact;
@@ -212,7 +217,7 @@ Target read_fibres_probe(const TableReader& table, const Context& context, const
 
 Target read_contacts(const TableReader& table, const Context& context, const Named&) {
   ContactsProbe contacts{read_probe_names(table.at("of"), context)};
-  table.read("spot", contacts.spot);
+  read_sensor(table, contacts.sensor);
   return contacts;
 }
 
@@ -295,6 +300,10 @@ std::vector<Key> own_keys(std::string_view kind) {
                  {form::Quantity{kLength, kPositive}},
                  otherwise("no such column"),
                  "diameter of a spot: adds `max_spot_pressure`, the largest mean over one"};
+  const Key threshold{"threshold",
+                      {form::Quantity{kStress, kPositive}},
+                      otherwise("no such column"),
+                      "a pressure: adds `area_above_threshold`, where at least this much acts"};
   if (kind == "point" || kind == "way") return {body, point, frame};
   if (kind == "helical_axis")
     return {body,
@@ -315,14 +324,16 @@ std::vector<Key> own_keys(std::string_view kind) {
              {form::Table{region_keys}},
              otherwise("all"),
              "counts only what passes through this part of the first body"},
-            spot};
+            spot,
+            threshold};
   if (kind == "contacts")
     return {{"of",
              {list_of({form::Text{"name of a contact probe"}})},
              kRequired,
              "contact probes whose forces and areas are added, and of whose pressures the largest "
              "counts"},
-            spot};
+            spot,
+            threshold};
   if (kind == "muscle_moment")
     return {{"muscles",
              {list_of({form::Text{"name of a muscle"}})},

@@ -81,6 +81,7 @@ Json scene_rows(const sim::Scenario& scenario) {
   add("supports", scenario.supports.size());
   add("muscles", scenario.muscles.size());
   add("ligaments", scenario.ligaments.size());
+  add("boluses", scenario.boluses.size());
   add("loads", scenario.loads.size());
   add("probes", scenario.probes.size());
   return rows;

@@ -181,6 +181,7 @@ Json explain(const sim::Scenario& scenario, const sim::Model& model) {
           {"contact_pairs", pairs},
           {"muscles", model.muscles.size()},
           {"ligaments", model.ligaments.size()},
+          {"boluses", model.boluses.size()},
           {"loads", model.forces.size() + model.moments.size() + model.surface_loads.size()},
           {"gravity", !model.gravity.empty()},
           {"unknown_velocities", 3 * model.layout.num_unknown_blocks()},
@@ -231,9 +232,11 @@ void print(const Json& json) {
     fmt::print("  {:<18} {:<32} {:>7} unknowns  {:>7} collision tetrahedra\n",
                body["name"].get<std::string>(), body["modelled_as"].get<std::string>(),
                body["unknowns"].get<long>(), body["collision_tetrahedra"].get<long>());
-  fmt::print("  {} muscles, {} ligaments, {} forces, {}\n", json["muscles"].get<int>(),
-             json["ligaments"].get<int>(), json["loads"].get<int>(),
-             json["gravity"].get<bool>() ? "gravity" : "no gravity");
+  const int boluses = json["boluses"].get<int>();
+  fmt::print("  {} muscles, {} ligaments, {}{} forces, {}\n", json["muscles"].get<int>(),
+             json["ligaments"].get<int>(),
+             boluses > 0 ? fmt::format("{} {}, ", boluses, boluses > 1 ? "boluses" : "bolus") : "",
+             json["loads"].get<int>(), json["gravity"].get<bool>() ? "gravity" : "no gravity");
   const auto listed = std::ssize(json["contact_pairs"]),
              pairs = json["num_contact_pairs"].get<std::ptrdiff_t>();
   if (pairs > 0)

@@ -139,6 +139,21 @@ std::string ligaments(const sim::Model& model, const sim::Moment& start,
   return text;
 }
 
+std::string boluses(const sim::Model& model, const sim::Moment& start,
+                    const std::vector<Solid>& solids) {
+  std::string text = line_head("bolus", "height, when it is put in, largest force");
+  for (const sim::BolusModel& bolus : model.boluses) {
+    const std::vector<double>& force = bolus.given.force.value;
+    text += line_row(
+        model.lines[static_cast<std::size_t>(bolus.line)], start, solids,
+        fmt::format("{}, {:.3g} s, {:.4g} N",
+                    bolus.given.height ? fmt::format("{:.2f} mm", 1e3 * *bolus.given.height)
+                                       : "what is between its points",
+                    bolus.given.from, *std::max_element(force.begin(), force.end())));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string line_table(const sim::Model& model, const sim::Moment& start) {
@@ -146,6 +161,7 @@ std::string line_table(const sim::Model& model, const sim::Moment& start) {
   std::string text;
   if (!model.muscles.empty()) text += "\n" + muscles(model, start, solids);
   if (!model.ligaments.empty()) text += "\n" + ligaments(model, start, solids);
+  if (!model.boluses.empty()) text += "\n" + boluses(model, start, solids);
   return text;
 }
 

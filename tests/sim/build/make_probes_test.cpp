@@ -59,8 +59,8 @@ TEST(MakeProbes, ASpotFarSmallerThanFacesIsRefused) {
     Scenario s = balls(first, second);
     ContactsProbe both{{"touch"}};
     s.probes.push_back({"both", both});
-    double& spot = std::get<ContactProbe>(s.probes[0].what).spot;
-    double& spot_of_both = std::get<ContactsProbe>(s.probes[1].what).spot;
+    double& spot = std::get<ContactProbe>(s.probes[0].what).sensor.spot;
+    double& spot_of_both = std::get<ContactsProbe>(s.probes[1].what).sensor.spot;
     spot = spot_of_both = 2.6e-3;
     EXPECT_NO_THROW(build_model(s));
     spot_of_both = 2.4e-3;

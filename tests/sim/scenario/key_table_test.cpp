@@ -237,12 +237,14 @@ kind = "contact"
 bodies = ["tissue", "free"]
 region = {}
 spot = "4 mm"
+threshold = "0.1 MPa"
 mirror = "x"
 [[probe]]
 name = "contacts"
 kind = "contacts"
 of = ["contact_left", "contact_right"]
 spot = "4 mm"
+threshold = "0.1 MPa"
 mirror = "x"
 [[probe]]
 name = "line"

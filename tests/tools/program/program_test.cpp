@@ -488,4 +488,17 @@ TEST(Program, ExplainMeasuresTermsAndMemory) {
   EXPECT_NE(text.out.find("Accuracy: within "), std::string::npos) << text.out;
 }
 
+TEST(Program, FoodIsListed) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      " '" ARTICULAR_SOURCE_DIR "/scenarios/mandible/chewing.toml' --set choice.bolus=carrot";
+  const ProgramResult explained = run_program(folder, "explain --no-costs --json" + scene);
+  ASSERT_EQ(explained.exit_code, 0) << explained.err;
+  EXPECT_EQ(nlohmann::json::parse(explained.out).at("boluses"), 1);
+  const ProgramResult checked = run_program(folder, "check" + scene);
+  ASSERT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_NE(checked.out.find("height, when it is put in, largest force"), std::string::npos)
+      << checked.out;
+}
+
 }  // namespace articular::program_test
