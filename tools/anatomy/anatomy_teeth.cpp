@@ -16,6 +16,18 @@
 namespace articular::anatomy {
 namespace {
 
+/// What a section across the arch is made of [mm, degrees].
+struct ToothSection {
+  double guiding_deg;  // of the incline from E outwards
+  double cusp_deg;     // of the walls of the fossa
+  double half_width;   // from a lower tip to the fossa
+  double tip;          // half the width of flat tips
+  double overbite;
+  double drop;      // of the lower tips below the occlusal level: 0 on a cusp, most between cusps
+  double notch;     // 0 in the middle of a tooth, 1 between two teeth
+  double backness;  // 0 front teeth, 1 back teeth
+};
+
 struct Tooth {
   double width;  // along the arch
   int pieces;    // of the mesh, along the arch: each tip is a row of nodes
@@ -57,6 +69,27 @@ InTooth in_tooth(double s) {
     begin += tooth.width;
   }
   return {kTeeth.back(), 1};
+}
+
+/// @param s  along the lower arch from the midline
+ToothSection tooth_section(double s, double guidance_deg) {
+  const auto [tooth, part] = in_tooth(s);
+  const double back = smooth_step(kBackFrom, kBackAt, s);
+  const double front_deg =
+      guidance_deg -
+      kCanineLessDeg * std::clamp((s - kSteepTo) / (kFlatterFrom - kSteepTo), 0.0, 1.0);
+  ToothSection section{};
+  section.guiding_deg = mix(front_deg, kCuspDeg, back);
+  section.cusp_deg = mix(0, kCuspDeg, back);
+  section.half_width = mix(0.7, 3, back);
+  section.tip = mix(0.2, 0.4, back);
+  section.overbite = mix(kOverbite, kBackOverbite, back);
+  section.drop = tooth.tips == 0 ? 0
+                                 : back * kCuspDrop *
+                                       (1 + std::cos(2 * std::numbers::pi * tooth.tips * part)) / 2;
+  section.notch = std::pow(2 * part - 1, 4);
+  section.backness = back;
+  return section;
 }
 
 /// Across the arch: outwards from its middle, up from the occlusal level.
@@ -243,26 +276,6 @@ Mesh row(const std::function<Outline(const ToothSection&)>& outline, double guid
 }
 
 }  // namespace
-
-ToothSection tooth_section(double s, double guidance_deg) {
-  const auto [tooth, part] = in_tooth(s);
-  const double back = smooth_step(kBackFrom, kBackAt, s);
-  const double front_deg =
-      guidance_deg -
-      kCanineLessDeg * std::clamp((s - kSteepTo) / (kFlatterFrom - kSteepTo), 0.0, 1.0);
-  ToothSection section{};
-  section.guiding_deg = mix(front_deg, kCuspDeg, back);
-  section.cusp_deg = mix(0, kCuspDeg, back);
-  section.half_width = mix(0.7, 3, back);
-  section.tip = mix(0.2, 0.4, back);
-  section.overbite = mix(kOverbite, kBackOverbite, back);
-  section.drop = tooth.tips == 0 ? 0
-                                 : back * kCuspDrop *
-                                       (1 + std::cos(2 * std::numbers::pi * tooth.tips * part)) / 2;
-  section.notch = std::pow(2 * part - 1, 4);
-  section.backness = back;
-  return section;
-}
 
 Mesh lower_guiding_teeth(double guidance_deg) { return row(lower_outline, guidance_deg, false); }
 Mesh upper_guiding_teeth(double guidance_deg) { return row(upper_outline, guidance_deg, true); }
