@@ -1,8 +1,10 @@
 // Excursions of the jaw of scenarios/mandible/: forward, and to either side.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "tests/scenarios/coarse_jaw.hpp"
 
@@ -61,6 +63,63 @@ TEST(JawExcursions, TheWorkingCondyleStaysAndSidesAreMirrorImages) {
     const Vec3 other = way(right, mirrored).cwiseProduct(Vec3(-1, 1, 1));
     EXPECT_LT((way(left, point) - other).norm(), 1e-6) << point;  // [mm]
   }
+}
+
+/// The same with teeth that guide, which take stronger protruders.
+ScenarioResults guided_excursion(const std::string& movement) {
+  return excursion(movement, {"choice.teeth=guiding", "curve.protruders_left.value=[0,0,0.6]",
+                              "curve.protruders_right.value=[0,0,0.6]"});
+}
+
+/// The largest force on a tooth [N] while the incisors have gone between these ways [mm] from the
+/// start, level.
+double largest_force(const ScenarioResults& results, const std::string& tooth, double from,
+                     double to) {
+  const auto along = [&](const std::string& name) -> const std::vector<double>& {
+    return results.column(name);
+  };
+  const auto &x = along("incisor.position.x [mm]"), &y = along("incisor.position.y [mm]");
+  double largest = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double gone = std::hypot(x[i] - x[0], y[i] - y[0]);
+    if (gone < from || gone > to) continue;
+    double squares = 0;
+    for (const char* axis : {"x", "y", "z"}) {
+      const double f = along(tooth + ".force." + axis + " [N]")[i];
+      squares += f * f;
+    }
+    largest = std::max(largest, std::sqrt(squares));
+  }
+  return largest;
+}
+
+// An overbite of 2.45 mm, of which the gap between the rows takes 0.3: the lower incisors pass
+// below the upper ones, and the molars carry nothing on the way.
+TEST(JawExcursions, IncisorsThatGuideLeadTheJawDownAndPartTheMolars) {
+  const ScenarioResults results = guided_excursion("protrusion");
+  EXPECT_EQ(results.summary().at("outcome"), "finished");
+  const auto &y = results.column("incisor.position.y [mm]"),
+             &z = results.column("incisor.position.z [mm]");
+  double at_edges = 0;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (y[0] - y[i] < 3) at_edges = std::min(at_edges, z[i] - z[0]);
+  EXPECT_NEAR(at_edges, -2.15, 0.25);
+  EXPECT_GT(largest_force(results, "incisors", 0.5, 3), 10);
+  for (const char* molars : {"molars_left", "molars_right"})
+    EXPECT_EQ(largest_force(results, molars, 0.5, 20), 0);
+}
+
+TEST(JawExcursions, TheCanineOfThatSideGuidesAndSidesAreMirrorImages) {
+  const ScenarioResults left = guided_excursion("left"), right = guided_excursion("right");
+  EXPECT_EQ(left.summary().at("outcome"), "finished");
+  EXPECT_GT(largest_force(left, "canine_left", 1, 4), 10);
+  EXPECT_LT(largest_force(left, "canine_right", 1, 4), 1);
+  EXPECT_GT(largest_force(left, "canine_left", 1, 4), largest_force(left, "incisors", 1, 3));
+  for (const char* back : {"molars_left", "molars_right", "premolars_left", "premolars_right"})
+    EXPECT_LT(largest_force(left, back, 3, 20), 0.05) << back;
+  // Edge to edge the two runs take other numbers of iterations, each to 0.9 um of a step.
+  EXPECT_LT((way(left, "incisor") - way(right, "incisor").cwiseProduct(Vec3(-1, 1, 1))).norm(),
+            0.01);
 }
 
 // One muscle of one side does not pull: the jaw swerves to that side.

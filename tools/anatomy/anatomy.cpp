@@ -43,7 +43,7 @@ void add_mandible(CLI::App& anatomy, int& exit_code) {
     double size_mm = 1.2;
     bool muscles = false;
     double muscle_size_mm = 4;
-    double scale = 1, slope_deg = kSlopeDeg;
+    double scale = 1, slope_deg = kSlopeDeg, guidance_deg = kGuidanceDeg;
     std::filesystem::path folder;
   };
   const auto options = std::make_shared<Options>();
@@ -65,12 +65,17 @@ void add_mandible(CLI::App& anatomy, int& exit_code) {
                    "Slope of the articular eminence in degrees (30 to 55)")
       ->excludes(muscles)
       ->capture_default_str();
+  mandible
+      ->add_option("--guidance", options->guidance_deg,
+                   "Slope of the inner faces of the upper incisors in degrees (40 to 65)")
+      ->capture_default_str();
   mandible->add_option("--out", options->folder, "Folder for the files, made if it is not there")
       ->required()
       ->type_name("DIR");
   mandible->callback([options, &exit_code] {
     const auto build = [&] {
-      Anatomy result = mandible_anatomy(options->size_mm, options->slope_deg);
+      Anatomy result =
+          mandible_anatomy(options->size_mm, options->slope_deg, options->guidance_deg);
       if (options->muscles) add_muscle_bodies(options->muscle_size_mm, result);
       scale(result, options->scale);
       return result;

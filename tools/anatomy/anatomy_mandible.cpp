@@ -159,7 +159,7 @@ std::vector<MuscleRow> mandible_muscles() {
   return rows;
 }
 
-Anatomy mandible_anatomy(double disc_edge, double slope_deg) {
+Anatomy mandible_anatomy(double disc_edge, double slope_deg, double guidance_deg) {
   const FossaProfile fossa = fossa_profile(slope_deg);
   Anatomy anatomy;
   add_both_sides("disc", ".vtu", disc(disc_edge, fossa), anatomy);
@@ -170,6 +170,8 @@ Anatomy mandible_anatomy(double disc_edge, double slope_deg) {
   anatomy.meshes["skull.vtp"] = skull_surface(kSkullGrid, fossa);
   anatomy.meshes["lower_teeth.vtp"] = lower_teeth_sheet(kTeethEdge);
   anatomy.meshes["upper_teeth.vtp"] = upper_teeth_sheet(kTeethEdge);
+  anatomy.meshes["lower_guiding_teeth.vtp"] = lower_guiding_teeth(guidance_deg);
+  anatomy.meshes["upper_guiding_teeth.vtp"] = upper_guiding_teeth(guidance_deg);
   anatomy.muscles = mandible_muscles();
   anatomy.landmarks = {
       {"incisor edge", "mandible", kIncisor},

@@ -2,14 +2,18 @@
 
 #include "tools/anatomy/anatomy_joint.hpp"
 #include "tools/anatomy/anatomy_tables.hpp"
+#include "tools/anatomy/anatomy_teeth.hpp"
 
 /// The jaw as the scenarios read it: meshes by file name, muscle attachments and landmarks. mm.
 namespace articular::anatomy {
 
 /// @param disc_edge  element size of the discs
 /// @param slope_deg  of the eminence's posterior face
-/// @throws std::invalid_argument for disc_edge outside [0.3, 2.5] mm; see fossa_profile()
-Anatomy mandible_anatomy(double disc_edge, double slope_deg = kSlopeDeg);
+/// @param guidance_deg  of the inner faces of the upper incisors
+/// @throws std::invalid_argument for disc_edge outside [0.3, 2.5] mm; see fossa_profile(),
+///         upper_guiding_teeth()
+Anatomy mandible_anatomy(double disc_edge, double slope_deg = kSlopeDeg,
+                         double guidance_deg = kGuidanceDeg);
 
 /// Adds the closing muscles of both sides as tissue, and the parts of the bones that they touch.
 /// @param element_size  of the muscles
