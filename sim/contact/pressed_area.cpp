@@ -1,28 +1,31 @@
 #include "sim/contact/pressed_area.hpp"
 
-#include <Eigen/Geometry>
-#include <algorithm>
+#include "sim/contact/contact_area.hpp"
+#include "sim/contact/contact_pressure.hpp"
 
 namespace articular::sim {
-namespace {
 
-/// Of a triangle, where an affine function is not negative. @param value  at its corners
-double part_above(Vec3 value) {
-  std::sort(value.begin(), value.end());
-  if (value[0] >= 0) return 1;
-  if (value[2] < 0) return 0;
-  // The corner on its own side is cut off, by the parts of its two edges.
-  if (value[1] < 0) return value[2] / (value[2] - value[0]) * (value[2] / (value[2] - value[1]));
-  return 1 - value[0] / (value[0] - value[1]) * (value[0] / (value[0] - value[2]));
-}
-
-}  // namespace
-
-double area_above(const std::vector<PressedTriangle>& triangles, double threshold) {
+double area_above(const Model& model, const ContactResponse& response, ContactId contact, int body,
+                  const std::vector<char>& selected, double threshold) {
   double sum = 0;
-  for (const auto& [x, p] : triangles)
-    sum += 0.5 * (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0)).norm() *
-           part_above(p.array() - threshold);
+  for (const ContactPairState* pair_state : response.pair_states()) {
+    if (pair_state->contact != contact) continue;
+    const ContactSides side = sides_of(model, *pair_state);
+    const auto& groups = side.triangles.groups;
+    const bool is_triangle = side.triangle_body == body;
+    const double share = pair_state->pair.share;  // of the pressure too
+    const double stiffness = pair_state->point_stiffness;
+    Eigen::VectorXd phi;
+    if (!(stiffness > 0)) phi = signed_pressures(model, *pair_state);
+    for (const ContactPairState::Patch& entry : pair_state->patches()) {
+      const int face = is_triangle ? entry.triangle : entry.face;
+      if (!selected.empty() && selected[static_cast<std::size_t>(face)] == 0) continue;
+      if (!carries(*pair_state, entry.triangle, groups)) continue;
+      const Vec3 pressure = stiffness > 0 ? Vec3(stiffness * entry.patch.depth)
+                                          : Vec3(phi(groups.col(entry.triangle)));
+      sum += share * area_that_carries(entry.patch, pressure.array() / share - threshold);
+    }
+  }
   return sum;
 }
 

@@ -238,14 +238,18 @@ SensorReading no_sensor_reading(const PressureSensor& sensor) {
 SensorReading read_sensor(std::span<const ObservedContact> contacts, const PressureSensor& sensor,
                           const Now& now) {
   SensorReading reading = no_sensor_reading(sensor);
-  if (!(sensor.spot > 0 || sensor.threshold > 0)) return reading;
-  std::vector<PressedTriangle> triangles;
-  for (const ObservedContact& observed : contacts)
-    add_pressed_triangles(now.model, now.moment().contact, now.configuration(), observed.contact,
-                          observed.body, observed.faces, triangles);
-  if (sensor.spot > 0)
+  const Moment& moment = now.moment();
+  if (sensor.spot > 0) {
+    std::vector<PressedTriangle> triangles;
+    for (const ObservedContact& observed : contacts)
+      add_pressed_triangles(now.model, moment.contact, now.configuration(), observed.contact,
+                            observed.body, observed.faces, triangles);
     reading.max_spot_pressure = largest_spot_pressure(triangles, sensor.spot / 2);
-  if (sensor.threshold > 0) reading.area_above_threshold = area_above(triangles, sensor.threshold);
+  }
+  if (sensor.threshold > 0)
+    for (const ObservedContact& observed : contacts)
+      *reading.area_above_threshold += area_above(now.model, moment.contact, observed.contact,
+                                                  observed.body, observed.faces, sensor.threshold);
   return reading;
 }
 
