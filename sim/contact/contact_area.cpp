@@ -84,6 +84,12 @@ Eigen::VectorXd signed_pressures(const Model& model, const ContactPairState& pai
   return phi;
 }
 
+bool is_selected(const ContactSides& sides, const ContactPairState::Patch& entry, int body,
+                 const std::vector<char>& selected) {
+  const int face = sides.triangle_body == body ? entry.triangle : entry.face;
+  return selected.empty() || selected[static_cast<std::size_t>(face)] != 0;
+}
+
 TrianglePolygon covered_polygon(const ContactPatch& patch) {
   TrianglePolygon polygon = whole_triangle();
   for (int k = 0; k < patch.num_edges; ++k)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "sim/contact/contact_pair_state.hpp"
 #include "sim/gap/triangle_polygon.hpp"
 
@@ -24,6 +26,11 @@ namespace articular::sim {
 
 /// φ [Pa] by smoothing group of the triangles' side; −∞ where no triangle meets a face.
 Eigen::VectorXd signed_pressures(const Model& model, const ContactPairState& pair_state);
+
+/// Whether a patch counts for a part of a body's surface.
+/// @param selected  by face of that body's collider, one of the two sides; empty: all
+bool is_selected(const ContactSides& sides, const ContactPairState::Patch& entry, int body,
+                 const std::vector<char>& selected);
 
 /// The part of its triangle that a patch covers.
 TrianglePolygon covered_polygon(const ContactPatch& patch);

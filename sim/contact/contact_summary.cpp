@@ -179,10 +179,9 @@ ContactSummary summary_through(const Model& model, const ContactResponse& respon
   SummarySums sums = no_summary(model, configuration, contact);
   for (const ContactPairState* pair_state : response.pair_states()) {
     if (pair_state->contact != contact) continue;
-    const bool is_triangle = sides_of(model, *pair_state).triangle_body == body;
+    const ContactSides sides = sides_of(model, *pair_state);
     const auto counts = [&](const ContactPairState::Patch& entry) {
-      return selected.empty() ||
-             selected[static_cast<std::size_t>(is_triangle ? entry.triangle : entry.face)] != 0;
+      return is_selected(sides, entry, body, selected);
     };
     add_to_summary(model, *pair_state, configuration, counts, sums);
   }

@@ -12,14 +12,12 @@ double area_above(const Model& model, const ContactResponse& response, ContactId
     if (pair_state->contact != contact) continue;
     const ContactSides side = sides_of(model, *pair_state);
     const auto& groups = side.triangles.groups;
-    const bool is_triangle = side.triangle_body == body;
     const double share = pair_state->pair.share;  // of the pressure too
     const double stiffness = pair_state->point_stiffness;
     Eigen::VectorXd phi;
     if (!(stiffness > 0)) phi = signed_pressures(model, *pair_state);
     for (const ContactPairState::Patch& entry : pair_state->patches()) {
-      const int face = is_triangle ? entry.triangle : entry.face;
-      if (!selected.empty() && selected[static_cast<std::size_t>(face)] == 0) continue;
+      if (!is_selected(side, entry, body, selected)) continue;
       if (!carries(*pair_state, entry.triangle, groups)) continue;
       const Vec3 pressure = stiffness > 0 ? Vec3(stiffness * entry.patch.depth)
                                           : Vec3(phi(groups.col(entry.triangle)));

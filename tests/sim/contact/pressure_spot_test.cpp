@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -16,13 +17,41 @@
 #include "sim/contact/contact_summary.hpp"
 #include "tests/sim/support/contact_scene.hpp"
 #include "tests/sim/support/pressed_block.hpp"
-#include "tests/sim/support/pressed_sheet.hpp"
 #include "tests/sim/support/probes.hpp"
 
 namespace articular::sim::pressure_spot_test {
 
 using std::numbers::pi;
 using Triangles = std::vector<PressedTriangle>;
+using Field = std::function<double(double x, double y)>;
+
+/// A square of the side 2 around the origin, in cells that are turned in its plane, where there is
+/// pressure. @param at  where a point of the plane lies
+Triangles sheet(
+    int cells, double turn, const Field& p,
+    const std::function<Vec3(double x, double y)>& at = [](double x, double y) {
+      return Vec3(x, y, 0);
+    }) {
+  Triangles triangles;
+  const auto add = [&](std::array<Eigen::Vector2d, 3> corners) {
+    PressedTriangle triangle;
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector2d q = Eigen::Rotation2Dd(turn) * corners[static_cast<std::size_t>(i)];
+      triangle.x.col(i) = at(q.x(), q.y());
+      triangle.p[i] = p(q.x(), q.y());
+    }
+    triangles.push_back(triangle);
+  };
+  const auto node = [&](int i, int j) {
+    return Eigen::Vector2d(2.0 * i / cells - 1, 2.0 * j / cells - 1);
+  };
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < cells; ++j) {
+      add({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
+      add({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
+    }
+  return triangles;
+}
 
 /// ∫ p dA within r of c, by the middles of small cells of a triangle.
 double sampled_force(const PressedTriangle& triangle, const Vec3& c, double r) {
@@ -80,18 +109,17 @@ TEST(PressureSpot, OfASliverIsAtMostItsPressureByItsArea) {
 
 // Affine pressure: cells do not matter.
 TEST(PressureSpot, DoesNotDependOnHowTheSurfaceIsCut) {
-  const PressureField p = [](double x, double y) { return 3 + x - 0.5 * y; };
-  const auto whole = pressed_sheet(1, 0, p);
+  const Field p = [](double x, double y) { return 3 + x - 0.5 * y; };
+  const auto whole = sheet(1, 0, p);
   for (const int cells : {2, 5, 16})
     for (const Vec3& c : {Vec3(0.1, 0.2, 0), Vec3(0.95, 0.3, 0.05), Vec3(-1, -1, 0)})
-      EXPECT_NEAR(force_within(pressed_sheet(cells, 0, p), c, 0.3), force_within(whole, c, 0.3),
-                  1e-12);
+      EXPECT_NEAR(force_within(sheet(cells, 0, p), c, 0.3), force_within(whole, c, 0.3), 1e-12);
 }
 
 TEST(PressureSpot, OfAnEvenPressureIsThatPressureWhereTheSpotFits) {
   for (const int cells : {1, 3, 10})
     for (const double turn : {0.0, 0.4}) {
-      const Triangles even = pressed_sheet(cells, turn, [](double, double) { return 7.0; });
+      const Triangles even = sheet(cells, turn, [](double, double) { return 7.0; });
       EXPECT_NEAR(largest_spot_pressure(even, 0.2), 7, 1e-9);
       EXPECT_NEAR(largest_spot_pressure(even, 5), 7 * 4 / (pi * 25), 1e-9);
     }
@@ -99,7 +127,7 @@ TEST(PressureSpot, OfAnEvenPressureIsThatPressureWhereTheSpotFits) {
 }
 
 TEST(PressureSpot, AtAnEdgeIsHalfAndAtACornerAQuarter) {
-  const Triangles even = pressed_sheet(4, 0, [](double, double) { return 7.0; });
+  const Triangles even = sheet(4, 0, [](double, double) { return 7.0; });
   const double whole = pi * 0.3 * 0.3 * 7;
   EXPECT_NEAR(force_within(even, {1, 0.1, 0}, 0.3), whole / 2, 1e-9);
   EXPECT_NEAR(force_within(even, {1, 1, 0}, 0.3), whole / 4, 1e-9);
@@ -110,7 +138,7 @@ TEST(PressureSpot, AtAnEdgeIsHalfAndAtACornerAQuarter) {
 TEST(PressureSpot, OfARowAlongAnEdgeIsWhatOfTheSpotItCovers) {
   constexpr double kWidth = 0.1, kRadius = 0.25;
   const int cells = static_cast<int>(2 / kWidth);
-  Triangles row = pressed_sheet(cells, 0, [](double, double) { return 1.0; });
+  Triangles row = sheet(cells, 0, [](double, double) { return 1.0; });
   std::erase_if(row, [&](const PressedTriangle& t) { return t.x.row(0).mean() < 1 - kWidth; });
   const double half = kWidth / 2;
   const double strip = 2 * (half * std::sqrt(kRadius * kRadius - half * half) +
@@ -124,7 +152,7 @@ TEST(PressureSpot, OnASphereIsTheEvenPressureToo) {
   const auto bowl = [&](double x, double y) {
     return Vec3(x, y, kRadius - std::sqrt(kRadius * kRadius - x * x - y * y));
   };
-  const Triangles even = pressed_sheet(
+  const Triangles even = sheet(
       60, 0.2, [](double, double) { return 7.0; }, bowl);
   EXPECT_NEAR(largest_spot_pressure(even, 0.5), 7, 7 * 2e-3);
 }
@@ -137,7 +165,7 @@ TEST(PressureSpot, OfHertzIsTheClosedForm) {
     for (const double aside : {0.0, 0.021}) {
       const double part = r * r / (kContact * kContact);
       const double exact = 2.0 / 3 * kPeak / part * (1 - std::pow(1 - part, 1.5));
-      const Triangles field = pressed_sheet(40, 0.1, [&](double x, double y) {
+      const Triangles field = sheet(40, 0.1, [&](double x, double y) {
         const double s = ((x - aside) * (x - aside) + y * y) / (kContact * kContact);
         return s < 1 ? kPeak * std::sqrt(1 - s) : 0;
       });
@@ -152,7 +180,7 @@ TEST(PressureSpot, IsTheLargestThatBruteForceFinds) {
   for (int round = 0; round < 5; ++round) {
     std::array<Vec3, 5> hills;
     for (Vec3& hill : hills) hill = {place(random), place(random), height(random)};
-    const Triangles field = pressed_sheet(12, 0, [&](double x, double y) {
+    const Triangles field = sheet(12, 0, [&](double x, double y) {
       double sum = 0;
       for (const Vec3& hill : hills)
         sum += hill.z() * std::exp(-((Vec3(x, y, 0) - hill).head<2>().squaredNorm()) / 0.05);
