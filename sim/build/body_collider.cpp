@@ -129,10 +129,12 @@ Collider rigid_collider(const Body& body, const BodyGeometry& geometry, std::siz
         {rigid.block, model.bodies[b].rigid, collider.X.col(i) - rigid.rest.p});
   collider.open_depth = kOpenDepth * depth;
   collider.mean_compliance = depth / constrained_modulus(kBoneModulus, kBonePoisson);
-  if (body.layer)
+  if (body.layer) {
+    collider.layer_thickness = body.layer->thickness;
     collider.layer_compliance =
         body.layer->thickness /
         constrained_modulus(body.layer->young_modulus, body.layer->poisson_ratio);
+  }
   collider.compliance.setConstant(collider.X.cols(), collider.mean_compliance);
   return collider;
 }

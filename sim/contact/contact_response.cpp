@@ -51,9 +51,18 @@ const FlatTriangle& face_now(const Configuration& configuration, const Collider&
   if (std::exchange(met.met[f], met.now) != met.now) {
     triangle = flat_triangle(corners_of(configuration, faces, face));
     triangle.rims = faces.rims[f];
-    triangle.rim_height = faces.rim_height.col(face);
+    triangle.rim_height = met.steepness * faces.rim_height.col(face);
   }
   return triangle;
+}
+
+/// Of depths beside a rim. Where surfaces give way by their elements they are as shallow as others.
+/// A layer is pressed by a good part of its thickness: what came in through the face would count as
+/// beside it in a strip that wide, and two blocks of the same outline would lose half of their
+/// force. So there depths grow faster from the rim on, and the strip is a thirtieth of that.
+double steepness_beside_rims(const ContactModel& contact) {
+  constexpr double kOnLayers = 30;
+  return contact.layers > 0 ? kOnLayers : 1;
 }
 
 /// Whether a face's neighbour of the same group stands oblique to the triangle, and so has not the
@@ -99,6 +108,7 @@ void find_patches(const Model& model, const CandidateList& list, const Configura
                   double allowance, MetFaces& met, ContactPairState& pair_state) {
   const ContactSides side = sides_of(model, pair_state);
   ++met.now;
+  met.steepness = steepness_beside_rims(pair_state.pair);
   if (met.face.size() < side.faces.face_area.size()) {
     met.face.resize(side.faces.face_area.size());
     met.met.resize(side.faces.face_area.size(), 0);

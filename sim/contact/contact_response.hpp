@@ -55,6 +55,7 @@ struct MetFaces {
   std::vector<FlatTriangle> face;
   std::vector<int> met;  // by face: when it was computed last
   int now = 0;
+  double steepness = 1;  // of their rim heights, by the pair
 };
 
 class ContactResponse {

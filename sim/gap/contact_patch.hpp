@@ -24,9 +24,9 @@
 ///
 /// A point that passed a sharp edge of the other body may be nearer to that edge than it is deep:
 /// it came in beside the face, not through it. There the depth is the distance from the edge, h_m
-/// β_m(N) with the face's height h_m over it at rest, so that d is the smaller one: else edges that
-/// touch would push each other aside with a finite force at once. Each part of the polygon, nearest
-/// to the face or to one of its edges, is a patch of its own.
+/// β_m(N) with the face's height h_m over it at rest (on layers a multiple of it), so that d is the
+/// smaller one: else edges that touch would push each other aside with a finite force at once. Each
+/// part of the polygon, nearest to the face or to one of its edges, is a patch of its own.
 ///
 /// w(n_F·n) is 1 for faces that oppose the triangle and falls smoothly to 0 where they stand
 /// oblique to it: along an oblique normal a shallow overlap reads deep, and a hard limit would make

@@ -63,15 +63,33 @@ struct OverlapResolution {
   double largest_motion = 0;  // [m] of a node
 };
 
+/// Of two bodies that touch, at the time when it was largest.
+struct WorstContact {
+  double value = 0;
+  ContactId contact = -1;
+  double at = 0;  // [s]
+};
+
+/// A load step of a static analysis that did not follow its equilibrium: what buckles or snaps
+/// through goes on to another one.
+struct Snap {
+  int body = -1;        // that moved farthest; -1: there was none
+  double at = 0;        // [s]
+  double motion = 0;    // [m] of that body
+  double expected = 0;  // [m] by the stiffness where it began
+  double loss = 0;      // [J]
+};
+
 /// Extreme values at the start or the end of any step, for warnings.
 struct RunExtrema {
   double volume_ratio = 1;  // least of any element
   int tissue = -1;          // that has it
   std::int64_t element = -1;
   double squeezed_at = 0;  // [s]
-  double overlap = 0;      // of two bodies, by the depth that their contact can follow
-  ContactId contact = -1;  // of these
-  double overlap_at = 0;   // [s]
+  WorstContact overlap;    // by the depth that their contact can follow
+  WorstContact layer;      // by the thickness of the layers between them
+  WorstContact driven;     // [m] of rigid bodies that the scenario moves, with no layer between
+  Snap snap;               // the first one
   double kinetic = 0;      // [J], largest
   double work = 0;         // [J], largest sum of what muscles, loads and driven motions had done
   double moved_at = 0;     // [s], last with kinetic energy that counts beside what was turned over

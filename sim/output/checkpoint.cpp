@@ -77,15 +77,32 @@ void each_of_crossing(AnyCrossing& crossing, const Visit& visit) {
   visit(crossing.t);
 }
 
+template <class Worst, class Visit>
+void each_of_worst(Worst& worst, const Visit& visit) {
+  visit(worst.value);
+  visit(worst.contact);
+  visit(worst.at);
+}
+
+template <class AnySnap, class Visit>
+void each_of_snap(AnySnap& snap, const Visit& visit) {
+  visit(snap.body);
+  visit(snap.at);
+  visit(snap.motion);
+  visit(snap.expected);
+  visit(snap.loss);
+}
+
 template <class Extrema, class Visit>
 void each_of_extrema(Extrema& extrema, const Visit& visit) {
   visit(extrema.volume_ratio);
   visit(extrema.tissue);
   visit(extrema.element);
   visit(extrema.squeezed_at);
-  visit(extrema.overlap);
-  visit(extrema.contact);
-  visit(extrema.overlap_at);
+  each_of_worst(extrema.overlap, visit);
+  each_of_worst(extrema.layer, visit);
+  each_of_worst(extrema.driven, visit);
+  each_of_snap(extrema.snap, visit);
   visit(extrema.kinetic);
   visit(extrema.work);
   visit(extrema.moved_at);

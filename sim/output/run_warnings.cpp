@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <tuple>
 
 #include "fem/mesh/tetrahedron.hpp"
 #include "sim/contact/contact_pressure.hpp"
@@ -20,6 +21,9 @@ namespace {
 constexpr double kMuchLost = 0.05, kMuchMade = 0.01;
 /// Of the depth to which contact is followed: half an element, where it is a tissue's.
 constexpr double kDeep = 0.5;
+/// Of rigid bodies that are both driven or fixed: what meets as drawn overlaps by rounded numbers
+/// [m].
+constexpr double kDrivenDepth = 1e-6;
 /// Of the volume at rest: the law "neo-hookean" stays crushed below 0.16 at ν = 0, and below 0.02
 /// at ν = 0.3 (fem/THEORY.md).
 constexpr double kCrushed = 0.1;
@@ -181,6 +185,42 @@ void warn_of_squeezed_elements(const Model& model, const RunExtrema& extrema,
                     element, extrema.volume_ratio, extrema.squeezed_at));
 }
 
+void warn_of_deep_contacts(const Model& model, const RunExtrema& extrema,
+                           std::vector<std::string>& warnings) {
+  const auto names = [&](const WorstContact& worst) {
+    const ContactModel contact = model.contacts[worst.contact];
+    return fmt::format("`{}` and `{}`", name_of(model, contact.a), name_of(model, contact.b));
+  };
+  const auto& [overlap, layer, driven] = std::tie(extrema.overlap, extrema.layer, extrema.driven);
+  if (overlap.value > kDeep)
+    warnings.push_back(fmt::format(
+        "{} lay in each other at t = {:.4g} s, to {:.1f} times the depth to which contact is "
+        "followed: one may go through the other",
+        names(overlap), overlap.at, overlap.value));
+  if (layer.value > 1)
+    warnings.push_back(fmt::format(
+        "{} were pressed into the layer between them at t = {:.4g} s, by {:.2g} times its "
+        "thickness: a layer is a spring that has no end, and forces are far too small; expected "
+        "a thicker or stiffer layer, or less of a load or motion",
+        names(layer), layer.at, layer.value));
+  if (driven.value > kDrivenDepth)
+    warnings.push_back(fmt::format(
+        "{} are both where the scenario puts them, and lay in each other by {:.3g} mm at t = "
+        "{:.4g} s: nothing gives way there, and the force between them means nothing; expected a "
+        "`layer` or tissue on one of them, or a body that is free to move",
+        names(driven), 1e3 * driven.value, driven.at));
+}
+
+void warn_of_snap(const Model& model, const Snap& snap, std::vector<std::string>& warnings) {
+  if (snap.body < 0) return;
+  warnings.push_back(fmt::format(
+      "`{}` buckled, or snapped through, in the load step to t = {:.4g} s: it moved by {:.3g} mm, "
+      "where its stiffness lets expect {:.2g} mm, and lost {:.2g} J. What follows is another "
+      "equilibrium, and need not be one that the body comes to; results are sure until shortly "
+      "before. analysis = \"dynamic\" shows where it goes",
+      name_of(model, snap.body), snap.at, 1e3 * snap.motion, 1e3 * snap.expected, snap.loss));
+}
+
 }  // namespace
 
 std::vector<std::string> run_warnings(const Model& model, const State& state,
@@ -188,13 +228,8 @@ std::vector<std::string> run_warnings(const Model& model, const State& state,
   std::vector<std::string> warnings;
   const RunExtrema& extrema = state.extrema;
   warn_of_squeezed_elements(model, extrema, warnings);
-  if (extrema.overlap > kDeep) {
-    const ContactModel contact = model.contacts[extrema.contact];
-    warnings.push_back(fmt::format(
-        "`{}` and `{}` lay in each other at t = {:.4g} s, to {:.1f} times the depth to which "
-        "contact is followed: one may go through the other",
-        name_of(model, contact.a), name_of(model, contact.b), extrema.overlap_at, extrema.overlap));
-  }
+  warn_of_deep_contacts(model, extrema, warnings);
+  warn_of_snap(model, extrema.snap, warnings);
   warn_of_small_strain_laws(model, stepper.now().configuration, warnings);
   warn_of_unresolved_contacts(model, stepper, warnings);
   warn_of_energy(model, state, stepper, warnings);

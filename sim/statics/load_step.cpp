@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sim/assembly/rigid_body_modes.hpp"
+#include "sim/model/newton_weights.hpp"
 #include "sim/statics/load_prediction.hpp"
 #include "sim/statics/pseudo_time.hpp"
 
@@ -21,6 +22,43 @@ constexpr int kMostAlone = 10;
 /// Where nothing limits the motion (no tissue, no contact) [m].
 constexpr double kLooseMotion = 1e-3;
 
+/// Of a load step that followed its equilibrium, at most so many times what the stiffness where it
+/// began lets expect.
+constexpr double kMostUnexpected = 10;
+
+Eigen::Quaterniond rotation(const Layout& layout, int r, const Eigen::VectorXd& y) {
+  const double* q = y.data() + layout.rigid_q(r);
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+}
+
+struct FarthestMotion {
+  int body = -1;
+  double motion = 0;  // [m]; of a rigid body, that of its surface as it turns too
+};
+
+FarthestMotion farthest_motion(const Model& model, const Eigen::VectorXd& y,
+                               const Eigen::VectorXd& z) {
+  const Layout& layout = model.layout;
+  FarthestMotion farthest;
+  const auto look_at = [&](int body, double motion) {
+    if (motion > farthest.motion) farthest = {body, motion};
+  };
+  for (const Tissue& tissue : model.tissues)
+    for (const NodeRef& node : tissue.nodes) {
+      if (node.rigid >= 0) continue;
+      const int x = layout.node_x(node.block);
+      look_at(tissue.body, (z.segment<3>(x) - y.segment<3>(x)).norm());
+    }
+  for (int r = 0; r < layout.num_rigid; ++r) {
+    const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(r)];
+    const int p = layout.rigid_p(r);
+    const double turn = rotation(layout, r, z).angularDistance(rotation(layout, r, y));
+    look_at(rigid.body,
+            std::max((z.segment<3>(p) - y.segment<3>(p)).norm(), turning_radius(rigid) * turn));
+  }
+  return farthest;
+}
+
 class LoadStep {
  public:
   LoadStep(const Model& model, Dynamics& dynamics, Equilibrium& equilibrium,
@@ -34,6 +72,7 @@ class LoadStep {
         t_(t),
         most_iterations_(most_iterations),
         convergence_(convergence),
+        first_row_(convergence.size()),
         reach_(std::isfinite(model.trusted_motion) ? model.trusted_motion : kLooseMotion) {}
 
   LoadStepResult take(Eigen::VectorXd& y) {
@@ -43,18 +82,37 @@ class LoadStep {
       result.reached = true;
       return result;
     }
+    const Eigen::VectorXd start = y;
     begin(y);
     result.loose = find_rigid_body_mode(model_, dynamics_);
     result.reached = !result.loose && balance(y);
-    if (!result.reached)
+    if (!result.reached) {
+      const bool held = !result.loose;
+      const double expected = farthest_motion(model_, start, y).motion + first_correction();
       result.reached =
           approach_in_pseudo_time(reach_, is_alone(result) ? kMostAlone : kMostSolutions,
                                   [&](double motion) { return settle(motion, y, result); });
+      if (held && !result.loose) look_for_snap(start, y, expected, result);
+    }
     result.iterations = iterations_;
     return result;
   }
 
  private:
+  /// Of the first solution of this load step [m]; infinite where it found none.
+  double first_correction() const {
+    if (convergence_.size() == first_row_) return std::numeric_limits<double>::infinity();
+    const NewtonIteration& first = convergence_[first_row_].newton;
+    return first.correction / first.fraction;
+  }
+
+  void look_for_snap(const Eigen::VectorXd& start, const Eigen::VectorXd& end, double expected,
+                     LoadStepResult& result) const {
+    const auto [body, motion] = farthest_motion(model_, start, end);
+    if (motion > std::max(reach_, kMostUnexpected * expected))
+      result.snap = {.body = body, .motion = motion, .expected = expected};
+  }
+
   /// The prediction, or, where a linear one is worse, where things were. What contact follows on a
   /// round surface is curved: there it is.
   void begin(Eigen::VectorXd& y) {
@@ -144,11 +202,7 @@ class LoadStep {
     for (int r = 0; r < layout.num_rigid; ++r) {
       const int row = 3 * model_.rigid_bodies[static_cast<std::size_t>(r)].block;
       add(row, z.segment<3>(layout.rigid_p(r)) - y.segment<3>(layout.rigid_p(r)));
-      const auto rotation = [&](const Eigen::VectorXd& at) {
-        const double* q = at.data() + layout.rigid_q(r);
-        return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
-      };
-      const Eigen::AngleAxisd turn(rotation(z) * rotation(y).conjugate());
+      const Eigen::AngleAxisd turn(rotation(layout, r, z) * rotation(layout, r, y).conjugate());
       add(row + 3, turn.angle() * turn.axis());
     }
     return sum;
@@ -161,6 +215,7 @@ class LoadStep {
   double t_before_, t_;
   int most_iterations_;
   std::vector<ConvergenceRow>& convergence_;
+  std::size_t first_row_;  // of this load step
   double reach_;
   Configuration where_;  // contacts are looked for
   int solution_ = 0;

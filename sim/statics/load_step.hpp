@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/assembly/rigid_body_modes.hpp"
+#include "sim/model/state.hpp"
 #include "sim/statics/equilibrium.hpp"
 
 namespace articular::sim {
@@ -33,6 +34,7 @@ struct LoadStepResult {
   bool reached = false;
   double settling_loss = 0;  // [J] work against pseudo-time damping while something was loose
   std::optional<RigidBodyMode> loose;  // what nothing holds where it ended
+  Snap snap;                           // without time and loss
   int iterations = 0;                  // of Newton, of all solutions
 };
 

@@ -22,6 +22,30 @@ double followed_depth(const Model& model, const ContactModel& contact) {
                   depth_range(b, a, contact.averaged).reach);
 }
 
+void note(double value, ContactId contact, double t, WorstContact& worst) {
+  if (value > worst.value) worst = {value, contact, t};
+}
+
+/// Whether the scenario says where it is, wholly or in part: it can't give way there.
+bool is_given(const Model& model, const BodyModel& body) {
+  if (body.rigid < 0 || body.tissue >= 0) return false;
+  const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
+  return !rigid.unknown || rigid.motion.has_value();
+}
+
+void note_contact(const Model& model, ContactId contact, double depth, double t,
+                  RunExtrema& extrema) {
+  const ContactModel pair = model.contacts[contact];
+  const BodyModel &a = model.bodies[static_cast<std::size_t>(pair.a)],
+                  &b = model.bodies[static_cast<std::size_t>(pair.b)];
+  note(depth / followed_depth(model, pair), contact, t, extrema.overlap);
+  const double layers = a.collider->layer_thickness + b.collider->layer_thickness;
+  if (layers > 0)
+    note(depth / layers, contact, t, extrema.layer);
+  else if (is_given(model, a) && is_given(model, b))
+    note(depth, contact, t, extrema.driven);
+}
+
 double work_done(const EnergyLedger& l) {
   return std::abs(l.muscle_work) + std::abs(l.load_work) + std::abs(l.motion_work);
 }
@@ -50,11 +74,7 @@ void note_extrema(const Moment& now, State& state) {
   for (const auto& [contact, depth] : depths.all()) {
     if (!(depth > 0)) continue;
     state.max_penetration = std::max(state.max_penetration, depth);
-    const double overlap = depth / followed_depth(model, model.contacts[contact]);
-    if (!(overlap > extrema.overlap)) continue;
-    extrema.overlap = overlap;
-    extrema.contact = contact;
-    extrema.overlap_at = state.t;
+    note_contact(model, contact, depth, state.t, extrema);
   }
   const double kinetic = kinetic_energy(now);
   extrema.kinetic = std::max(extrema.kinetic, kinetic);

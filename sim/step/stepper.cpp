@@ -210,6 +210,10 @@ void Stepper::remember_start(const State& state) {
   touched_before_ = dynamics_->now().contact.force_on_bodies();
   start_ = dynamics_->now().configuration;
   t_before_ = state.t;
+  if (equilibrium_) {
+    stored_before_ = stored_energy().total();
+    loss_before_ = numerical_loss(state, stored_energy());
+  }
   depths_before_ = dynamics_->now().contact.point_depths();
   damping_before_ = damping_.power(dynamics_->now());
   contact_power_before_ = dynamics_->now().contact.damping_power();
@@ -237,9 +241,23 @@ bool Stepper::try_step(State& state, double h) {
   if (!(integrator_ ? try_time_step(state, h) : try_load_step(state, h))) return false;
   crush_boluses(state);
   account(state);
+  note_snap(state);
   keep_wraps(dynamics_->now().paths, state.wraps);
   dynamics_->set_wraps(state.wraps);
   return true;
+}
+
+/// What buckles or snaps through loses a good part of the work that was done.
+void Stepper::note_snap(State& after) const {
+  constexpr double kMuchLost = 0.25;
+  if (snap_.body < 0 || after.extrema.snap.body >= 0) return;
+  const StoredEnergy stored = stored_energy();
+  const double loss = numerical_loss(after, stored) - loss_before_;
+  const double gained = stored.total() - stored_before_;
+  if (!(loss > kMuchLost * std::max(std::abs(gained), std::abs(gained + loss)))) return;
+  after.extrema.snap = snap_;
+  after.extrema.snap.at = after.t;
+  after.extrema.snap.loss = loss;
 }
 
 /// Food stays as it was pressed in this step. What is put in has no force yet.
@@ -345,6 +363,7 @@ bool Stepper::try_load_step(State& state, double h) {
                      most_load_step_iterations(settings_) - iterations_, y_, convergence_);
   iterations_ += result.iterations;
   loose_ = result.loose;
+  snap_ = result.snap;
   if (!result.reached) {
     why_ = Rejection::NoEquilibrium;
     if (loose_) fail(state, h);  // a smaller load would not hold it either

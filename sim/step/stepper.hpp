@@ -103,6 +103,7 @@ class Stepper {
   SolverCounts solver_counts() const;
   bool has_parted(int body) const;
   void account(State& after);
+  void note_snap(State& after) const;
   void crush_boluses(State& state) const;
   std::vector<BolusState> about_to_be_crushed(const State& state) const;
   double work_on_supports(double t) const;
@@ -122,6 +123,7 @@ class Stepper {
   std::vector<ConvergenceRow> convergence_;
   std::optional<RigidBodyMode> loose_;  // in the last load step: what nothing holds
   std::vector<RigidBodyMode> indifferent_;
+  Snap snap_;  // in the last load step
   /// Of Newton's iterations, all towards the load step that is being tried.
   std::size_t first_row_ = 0;
   int iterations_ = 0;
@@ -141,9 +143,10 @@ class Stepper {
   std::vector<double> touched_before_;  // force on bodies [N]
   ContactDepths depths_before_;         // of any point
   double t_before_ = 0;
-  double damping_before_ = 0;                // [W]
-  double contact_power_before_ = 0;          // [W]
-  std::vector<double> fibre_energy_before_;  // [J] per activation, of each tissue
+  double stored_before_ = 0, loss_before_ = 0;  // [J] of a load step
+  double damping_before_ = 0;                   // [W]
+  double contact_power_before_ = 0;             // [W]
+  std::vector<double> fibre_energy_before_;     // [J] per activation, of each tissue
 };
 
 }  // namespace articular::sim

@@ -17,9 +17,14 @@ std::vector<double> numbers(const EnergyLedger& l) {
 }
 
 std::vector<double> numbers(const RunExtrema& e) {
-  return {e.volume_ratio,    double(e.tissue), double(e.element), e.squeezed_at, e.overlap,
-          double(e.contact), e.overlap_at,     e.kinetic,         e.work,        e.made,
-          e.gravity_low,     e.gravity_high};
+  std::vector<double> all{e.volume_ratio, double(e.tissue), double(e.element), e.squeezed_at,
+                          e.kinetic,      e.work,           e.moved_at,        e.made,
+                          e.gravity_low,  e.gravity_high};
+  for (const WorstContact& worst : {e.overlap, e.layer, e.driven})
+    all.insert(all.end(), {worst.value, double(worst.contact), worst.at});
+  const Snap& snap = e.snap;
+  all.insert(all.end(), {double(snap.body), snap.at, snap.motion, snap.expected, snap.loss});
+  return all;
 }
 
 std::vector<std::int64_t> numbers(const Counts& c) {
@@ -62,7 +67,20 @@ State some_state() {
   s.counts.reported_pairs = 12;
   s.counts.deep_pairs = 13;
   s.overlap_resolution = {{{1, 0.2, 0.3}, {2, 0.4, 0.5}}, 3, 7, 0.6};
-  s.extrema = {0.1, 2, 3, 0.4, 0.5, 6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2};
+  s.extrema = {0.1,
+               2,
+               3,
+               0.4,
+               {0.5, 6, 0.7},
+               {0.8, 9, 1.0},
+               {1.1, 12, 1.3},
+               {14, 1.5, 1.6, 1.7, 1.8},
+               1.9,
+               2.0,
+               2.1,
+               2.2,
+               2.3,
+               2.4};
   s.wraps = {{{0, 7, true, 0.25}, {1, 8, false, 0.75}}, {}, {{2, 9, true, 1.0 / 3}}};
   s.boluses = {{0.02, 0.003, 0.002, 0.7}, {}};
   return s;

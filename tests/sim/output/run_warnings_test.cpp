@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
+#include "fem/material/any_material.hpp"
 #include "sim/base/error.hpp"
 #include "sim/run/run.hpp"
 #include "sim/step/run_extrema.hpp"
@@ -263,6 +265,86 @@ TEST(RunWarnings, EnergyMadeOfNothingEndsARun) {
     EXPECT_TRUE(has(error.what(), "made out of nothing")) << error.what();
     EXPECT_TRUE(has(error.what(), "body `mass` (3 m/s)")) << error.what();
   }
+}
+
+/// A driven block goes down into a fixed one that it stands on [m].
+Scenario driven_block(double down, std::optional<Layer> layer) {
+  Scenario s = scene(1);
+  s.contact = true;
+  s.analysis = Scenario::Analysis::Static;
+  s.bodies = {box_body("base", Body::Kind::Fixed, {0.02, 0.02, 0.004}, {0, 0, -0.002}, {1, 1, 1}),
+              box_body("top", Body::Kind::Rigid, {0.01, 0.01, 0.004}, {0, 0, 0.002}, {1, 1, 1})};
+  s.bodies[1].hold.emplace().held.fill(true);
+  s.bodies[0].layer = layer;
+  s.loads = {shift("top", 1, {0, 0, -down})};
+  return s;
+}
+
+// The force of such a contact is that of its stiffness, which is a means and no property.
+TEST(RunWarnings, RigidBodiesDrivenIntoEachOtherHaveNoForceThatMeansAnything) {
+  for (const double down : {0.0, 1e-4}) {
+    Simulation run(driven_block(down, {}));
+    run.advance(1);
+    EXPECT_EQ(has(all_warnings(run),
+                  "`base` and `top` are both where the scenario puts them, and "
+                  "lay in each other by 0.1 mm"),
+              down > 0)
+        << all_warnings(run);
+  }
+}
+
+TEST(RunWarnings, ALayerThatIsPressedByMoreThanItHasIsTold) {
+  for (const double down : {4e-4, 6e-4}) {
+    Simulation run(driven_block(down, Layer{5e-4, 1e6, 0.3}));
+    run.advance(1);
+    const std::string told = all_warnings(run);
+    EXPECT_EQ(has(told,
+                  "`base` and `top` were pressed into the layer between them at t = 1 s, by "
+                  "1.2 times its thickness"),
+              down > 5e-4)
+        << told;
+    EXPECT_FALSE(has(told, "are both where")) << told;
+  }
+}
+
+/// A block of the law "corotated" on three planes of symmetry. From half of its modulus on its free
+/// faces fold, and it flips through its supports.
+Scenario block_that_buckles() {
+  constexpr double kSide = 0.01, kYoung = 15e3;
+  Scenario s = scene(0.1);
+  s.analysis = Scenario::Analysis::Static;
+  s.bodies = {box_body("block", Body::Kind::Tissue, Vec3::Constant(kSide),
+                       Vec3::Constant(kSide / 2), {2, 2, 2})};
+  s.bodies[0].material = material_of(fem::Corotated(kYoung, 0));
+  for (int k = 0; k < 3; ++k) {
+    Support plane;
+    plane.body = "block";
+    const Vec3 high = Vec3::Ones() - (1 - 1e-6) * Vec3::Unit(k);
+    plane.region.box = {Vec3::Constant(-1), high};
+    plane.held = Vec3::Unit(k);
+    s.supports.push_back(plane);
+  }
+  SurfaceLoad load;
+  load.at = {"block", {}};
+  load.at.region.box = {Vec3(-1, -1, kSide * (1 - 1e-6)), Vec3::Ones()};
+  load.stress = Vec3(0, 0, -kYoung);
+  load.profile = {{0, 1}, {0, 1}};
+  // Without a push it would stand on the top of the hill, exactly.
+  s.loads = {load, ForceLoad{anchor("block", Vec3::Constant(kSide)), {1e-6, 0, 0}, {}, {}}};
+  return s;
+}
+
+TEST(RunWarnings, ABlockThatBucklesIsToldWhereItDid) {
+  Simulation run(block_that_buckles());
+  run.advance(0.2);
+  EXPECT_EQ(all_warnings(run), "");
+  run.advance(0.8);
+  const Snap& snap = run.state.extrema.snap;
+  EXPECT_TRUE(has(all_warnings(run), "`block` buckled, or snapped through, in the load step to"))
+      << all_warnings(run);
+  EXPECT_GT(snap.motion, 0.01);
+  EXPECT_NEAR(snap.expected, 1e-3, 5e-4);  // a tenth of its height
+  EXPECT_GT(snap.loss, 0.5 * run.state.energy.load_work);
 }
 
 // Where no step can be made, what the summary is made from is that of the last one that was.
