@@ -233,6 +233,11 @@ std::vector<std::string> run_warnings(const Model& model, const State& state,
   warn_of_small_strain_laws(model, stepper.now().configuration, warnings);
   warn_of_unresolved_contacts(model, stepper, warnings);
   warn_of_energy(model, state, stepper, warnings);
+  if (stepper.is_unstable())
+    warnings.push_back(
+        "the equilibrium at the end is not stable: where it is pushed a little, however little, "
+        "it goes on to another one, as a straight column does under more than it bears. "
+        "analysis = \"dynamic\" with a small disturbance shows where");
   for (const RigidBodyMode& motion : stepper.indifferent())
     warnings.push_back(motion.words + ": nothing holds it, and nothing drives it");
   return warnings;

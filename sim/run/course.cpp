@@ -95,7 +95,10 @@ bool Course::set_apart() {
 
 void Course::step() {
   stepper_.step(state_, next_event());
-  if (!model_.is_static) note_balance(numerical_loss(state_, stepper_.stored_energy()), state_);
+  if (!model_.is_static)
+    note_balance(numerical_loss(state_, stepper_.stored_energy()), state_);
+  else if (is_done())
+    stepper_.judge_stability();
 }
 
 double Course::next_event() const {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <random>
 #include <utility>
 
 #include "sim/assembly/line_search.hpp"
@@ -67,6 +68,7 @@ class Equilibrium::Solver {
              const ContactCover& cover);
   bool yield(const Eigen::VectorXd& f, double damping, Eigen::VectorXd& y);
   bool linearise(double damping);
+  bool is_stable(double damping);
   bool respond(const Eigen::VectorXd& f, Eigen::VectorXd& x);
   void restart() { linear_ = make_linear_solver(model_); }
   /// The largest force, or moment by the rigid body's size, of a vector of block forces [N].
@@ -519,6 +521,21 @@ bool Equilibrium::Solver::linearise(double damping) {
   return prepare(fem::Tangent::Consistent) || prepare(fem::Tangent::Projected);
 }
 
+/// A factorization says so at once. Iterations meet a direction that is driven on by a load that
+/// has a part along it: one at random has.
+bool Equilibrium::Solver::is_stable(double damping) {
+  taken_ = {};
+  damping_ = damping;
+  if (!prepare(fem::Tangent::Consistent)) return false;
+  std::mt19937 random(1);  // its raw numbers are the same everywhere
+  rhs_.resize(view(solution_).size());
+  for (double& force : rhs_)
+    force = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  keep_free_part(model_, rhs_);
+  correction_.setZero(rhs_.size());
+  return !linear_->solve(rhs_, correction_).is_indefinite;
+}
+
 bool Equilibrium::Solver::respond(const Eigen::VectorXd& f, Eigen::VectorXd& x) {
   rhs_ = f.head(view(solution_).size());
   if (!solve_by_either_tangent()) return false;
@@ -538,6 +555,7 @@ bool Equilibrium::yield(const Eigen::VectorXd& f, double damping, Eigen::VectorX
   return solver_->yield(f, damping, y);
 }
 bool Equilibrium::linearise(double damping) { return solver_->linearise(damping); }
+bool Equilibrium::is_stable(double damping) { return solver_->is_stable(damping); }
 bool Equilibrium::respond(const Eigen::VectorXd& f, Eigen::VectorXd& x) {
   return solver_->respond(f, x);
 }

@@ -61,6 +61,9 @@ class Equilibrium {
   /// one is not positive definite.
   /// @return false when neither can be factored
   [[nodiscard]] bool linearise(double damping);
+  /// Whether every small motion from the last Dynamics::evaluate() meets a force that drives it
+  /// back, beside that of `damping` [1/s²] by mass: the consistent matrix is positive definite.
+  bool is_stable(double damping);
   /// x = (K + d M)⁻¹ f, with the matrix that was made ready last.
   /// @param f  block forces [N]  @param[out] x  of the unknown blocks [m, rad]
   [[nodiscard]] bool respond(const Eigen::VectorXd& f, Eigen::VectorXd& x);

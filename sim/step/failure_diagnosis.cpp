@@ -60,12 +60,16 @@ std::string failure_diagnosis(const Model& model, const Configuration& start,
   return most_squeezed(model, tried) + fastest(model, start);
 }
 
-std::string yielding_tissues(const Model& model) {
+std::string what_gives_way(const Model& model) {
   std::string words;
   for (const Tissue& tissue : model.tissues)
     if (!tissue.law_ends.empty())
       words += fmt::format("; or tissue `{}` gives way: {}", name_of(model, tissue.body),
                            tissue.law_ends);
+  for (const BodyModel& body : model.bodies)
+    if (body.collider && body.collider->layer_thickness > 0)
+      words += fmt::format("; or the layer of `{}`, {:.3g} mm thick, is pressed through", body.name,
+                           1e3 * body.collider->layer_thickness);
   return words;
 }
 

@@ -14,9 +14,9 @@ namespace articular::sim {
 std::string failure_diagnosis(const Model& model, const Configuration& start,
                               const Configuration& tried);
 
-/// Where nothing resists a motion: the tissues that give way under a load, as their law ends. "; or
-/// tissue `a` gives way: ...". Mostly empty.
-std::string yielding_tissues(const Model& model);
+/// Where nothing resists a motion: what may have given way under a load, tissues whose law ends and
+/// layers. "; or tissue `a` gives way: ...". Mostly empty.
+std::string what_gives_way(const Model& model);
 
 /// The two bodies whose contact has stored the most energy: "; contact of `a` and `b` holds 2 J,
 /// 3 mm deep: ...". Empty where nothing touches.

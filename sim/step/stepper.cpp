@@ -18,6 +18,7 @@
 #include "sim/model/relative_motion.hpp"
 #include "sim/scenario/curve.hpp"
 #include "sim/statics/contact_hooks.hpp"
+#include "sim/statics/load_prediction.hpp"
 #include "sim/step/failure_diagnosis.hpp"
 #include "sim/step/run_extrema.hpp"
 
@@ -258,6 +259,12 @@ void Stepper::note_snap(State& after) const {
   after.extrema.snap = snap_;
   after.extrema.snap.at = after.t;
   after.extrema.snap.loss = loss;
+}
+
+void Stepper::judge_stability() {
+  constexpr double kLeastSpeed = 1e-8;  // of the fastest motion: what is slower has no stiffness
+  if (!equilibrium_ || !indifferent_.empty() || model_.layout.num_unknown_blocks() == 0) return;
+  is_unstable_ = !equilibrium_->is_stable(kLeastSpeed * fastest_rate(model_, *dynamics_));
 }
 
 /// Food stays as it was pressed in this step. What is put in has no force yet.
@@ -511,7 +518,7 @@ void Stepper::stop_where_energy_is_made(const State& state) const {
 EquilibriumDiagnosis Stepper::why_no_equilibrium(const State& state, double h) {
   if (loose_)
     return {.cause = fmt::format("; {}: a support is missing, or contact is not made{}",
-                                 loose_->words, yielding_tissues(model_))};
+                                 loose_->words, what_gives_way(model_))};
   const std::string squeezed = failure_diagnosis(model_, start_, dynamics_->now().configuration);
   dynamics_->evaluate(y_.data(), state.t + h);
   find_contacts(dynamics_->now().configuration, state.next_margin);
@@ -519,7 +526,7 @@ EquilibriumDiagnosis Stepper::why_no_equilibrium(const State& state, double h) {
   const std::optional<SoftMotion> softest = find_softest_motion(model_, *dynamics_, *equilibrium_);
   EquilibriumDiagnosis diagnosis =
       diagnose_equilibrium(dynamics_->now(), softest, std::span(convergence_).subspan(first_row_));
-  diagnosis.cause += diagnosis.is_nearly_free ? yielding_tissues(model_) : squeezed;
+  diagnosis.cause += diagnosis.is_nearly_free ? what_gives_way(model_) : squeezed;
   return diagnosis;
 }
 

@@ -87,6 +87,10 @@ class Stepper {
   std::vector<ConvergenceRow> take_convergence() { return std::exchange(convergence_, {}); }
   /// Bodies that nothing holds, though nothing drives them either: they stay where they were.
   const std::vector<RigidBodyMode>& indifferent() const { return indifferent_; }
+  /// At the end of a static analysis: whether a small push would let things go on from where they
+  /// are. Not asked of what nothing holds.
+  void judge_stability();
+  bool is_unstable() const { return is_unstable_; }
   /// What no force resists where things are now, see find_rigid_body_mode().
   std::optional<RigidBodyMode> loose() { return find_rigid_body_mode(model_, *dynamics_); }
 
@@ -124,6 +128,7 @@ class Stepper {
   std::optional<RigidBodyMode> loose_;  // in the last load step: what nothing holds
   std::vector<RigidBodyMode> indifferent_;
   Snap snap_;  // in the last load step
+  bool is_unstable_ = false;
   /// Of Newton's iterations, all towards the load step that is being tried.
   std::size_t first_row_ = 0;
   int iterations_ = 0;

@@ -307,9 +307,24 @@ TEST(RunWarnings, ALayerThatIsPressedByMoreThanItHasIsTold) {
   }
 }
 
+// Two kilonewtons on a layer that follows a body for a quarter of that: no support is missing.
+TEST(RunWarnings, ALoadThatPressesALayerThroughNamesTheLayer) {
+  Scenario s = driven_block(0, Layer{5e-4, 1e6, 0.3});
+  s.bodies[1].hold->held[2] = false;
+  s.loads = {ForceLoad{anchor("top", {0, 0, 2e-3}), {0, 0, -2000}, {}, {}}};
+  Simulation run(s);
+  try {
+    run.advance(1);
+    FAIL() << "it went on";
+  } catch (const SimulationError& error) {
+    EXPECT_TRUE(has(error.what(), "or the layer of `base`, 0.5 mm thick, is pressed through"))
+        << error.what();
+  }
+}
+
 /// A block of the law "corotated" on three planes of symmetry. From half of its modulus on its free
 /// faces fold, and it flips through its supports.
-Scenario block_that_buckles() {
+Scenario block_that_buckles(double push = 1e-6) {
   constexpr double kSide = 0.01, kYoung = 15e3;
   Scenario s = scene(0.1);
   s.analysis = Scenario::Analysis::Static;
@@ -330,7 +345,7 @@ Scenario block_that_buckles() {
   load.stress = Vec3(0, 0, -kYoung);
   load.profile = {{0, 1}, {0, 1}};
   // Without a push it would stand on the top of the hill, exactly.
-  s.loads = {load, ForceLoad{anchor("block", Vec3::Constant(kSide)), {1e-6, 0, 0}, {}, {}}};
+  s.loads = {load, ForceLoad{anchor("block", Vec3::Constant(kSide)), {push, 0, 0}, {}, {}}};
   return s;
 }
 
@@ -345,6 +360,18 @@ TEST(RunWarnings, ABlockThatBucklesIsToldWhereItDid) {
   EXPECT_GT(snap.motion, 0.01);
   EXPECT_NEAR(snap.expected, 1e-3, 5e-4);  // a tenth of its height
   EXPECT_GT(snap.loss, 0.5 * run.state.energy.load_work);
+}
+
+// At 6.9 of 15 kPa it stands, and at 12 only as nothing pushes it.
+TEST(RunWarnings, ABlockThatStandsOnTheTopOfAHillIsTold) {
+  Simulation run(block_that_buckles(0));
+  for (const double t : {0.46, 0.8}) {
+    run.advance(t);
+    EXPECT_EQ(run.state.extrema.snap.body, -1);
+    run.stepper.judge_stability();
+    EXPECT_EQ(has(all_warnings(run), "the equilibrium at the end is not stable"), t > 0.6)
+        << all_warnings(run);
+  }
 }
 
 // Where no step can be made, what the summary is made from is that of the last one that was.
