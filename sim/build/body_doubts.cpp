@@ -11,7 +11,7 @@
 namespace articular::sim {
 namespace {
 
-/// Of a ball's volume; edges of half the radius leave 0.93.
+/// Of a ball's volume; elements up to 0.6 of the radius leave more.
 constexpr double kLeastVolume = 0.9;
 
 /// Of a layer's stiffness per area by E/h: that of ν = 0.495. Articular cartilage at once has 0.49
