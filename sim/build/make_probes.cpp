@@ -65,8 +65,40 @@ struct Resolver {
       const Resolver resolver{scenario, model, geometry, surfaces, warnings, part};
       observed.of.push_back(std::get<ObservedContact>(resolver(std::get<ContactProbe>(part.what))));
     }
+    for (std::size_t k = 0; k < observed.of.size(); ++k)
+      for (std::size_t j = 0; j < k; ++j)
+        check_parts(contacts.of[j], observed.of[j], contacts.of[k], observed.of[k]);
     check_spot(observed.sensor.spot, observed.of);
     return observed;
+  }
+
+  /// A sum counts what passes between two bodies once, and as it acts on the same of them.
+  void check_parts(const std::string& name, const ObservedContact& part, const std::string& other,
+                   const ObservedContact& more) const {
+    if (part.contact != more.contact) return;
+    const auto refuse = [&](const char* what, const char* expected) {
+      const ContactModel& pair = model.contacts[part.contact];
+      const auto body_name = [&](int b) -> const std::string& {
+        return model.bodies[static_cast<std::size_t>(b)].name;
+      };
+      throw InputError(
+          probe.where,
+          fmt::format("probe `{}`: `{}` and `{}` are both of `{}` and `{}`, {}; expected {}",
+                      probe.name, name, other, body_name(pair.a), body_name(pair.b), what,
+                      expected));
+    };
+    if (part.body != more.body)
+      refuse("in opposite orders, so that their forces cancel",
+             "`bodies` in the same order, and a `region` each");
+    const BodyModel& body = model.bodies[static_cast<std::size_t>(part.body)];
+    for (std::size_t f = 0; f < body.collider->face_area.size(); ++f)
+      if (is_counted(part, f) && is_counted(more, f))
+        refuse("and what passes through the same face counts twice",
+               "one of them, or a `region` each that has no face of the other's");
+  }
+
+  static bool is_counted(const ObservedContact& part, std::size_t face) {
+    return part.faces.empty() || part.faces[face] != 0;
   }
 
   Observed operator()(const ContactProbe& contact) const {

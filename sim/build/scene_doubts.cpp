@@ -2,15 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <utility>
 
 #include "sim/base/error.hpp"
+#include "sim/build/body_doubts.hpp"
+#include "sim/build/muscle_doubts.hpp"
 #include "sim/mesh/chord_depth.hpp"
 #include "sim/mesh/extent.hpp"
 #include "sim/model/tissue.hpp"
+#include "sim/scenario/driven_motion.hpp"
 
 namespace articular::sim {
 namespace {
@@ -22,6 +29,12 @@ constexpr double kMostStrain = 0.5;
 /// tibia.
 constexpr double kMostGap = 0.1;
 
+/// How far from where it is drawn a driven body may begin: samples are rounded.
+constexpr double kRoundedShift = 1e-5, kRoundedTurn = 1e-4;  // [m], [rad]
+
+/// Cosine of a lateral axis with an axis of the world that has a name: of one that lies along it.
+constexpr double kAlong = 0.5;
+
 class Doubts {
  public:
   Doubts(const Scenario& scenario, const Model& model, const std::vector<BodyGeometry>& geometry)
@@ -32,6 +45,8 @@ class Doubts {
     for (const Body& body : scenario_.bodies)
       if (body.kind == Body::Kind::Tissue) look_at(body);
     look_at_loads();
+    for (const Load& load : scenario_.loads)
+      if (const auto* motion = std::get_if<MotionLoad>(&load)) look_at(*motion);
     for (const LigamentModel& ligament : model_.ligaments) look_at(ligament);
     for (const Probe& probe : scenario_.probes)
       if (const auto* joint = std::get_if<JointProbe>(&probe.what)) look_at(probe, *joint);
@@ -135,6 +150,41 @@ class Doubts {
     };
     look("lateral", joint.proximal.lateral, joint.distal.lateral);
     look("up", joint.proximal.up, joint.distal.up);
+    for (const JointSide* side : {&joint.proximal, &joint.distal})
+      for (std::size_t k = 0; k < scenario_.output.directions.size(); ++k) {
+        const std::string& word = scenario_.output.directions[k];
+        const double along = side->lateral[static_cast<Eigen::Index>(k)];
+        if (outwards(word, joint.is_right) * along >= -kAlong) continue;
+        return doubt(
+            probe.where,
+            fmt::format("`lateral` of `{}` points inwards, as `directions` of [output] "
+                        "has \"{}\" for +{} and the joint `{}` is a {} one: expected "
+                        "another `side`, `lateral` or `directions`",
+                        side->body, word, "xyz"[k], probe.name, joint.is_right ? "right" : "left"));
+      }
+  }
+
+  /// 1, or −1, where a direction of the body is away from its middle, or to it, on that side; else
+  /// 0.
+  static double outwards(const std::string& direction, bool is_right) {
+    if (direction == "lateral" || direction == (is_right ? "right" : "left")) return 1;
+    if (direction == "medial" || direction == (is_right ? "left" : "right")) return -1;
+    return 0;
+  }
+
+  /// Of a rigid body and of a support the reader refuses it.
+  void look_at(const MotionLoad& load) {
+    if (load.body.empty()) return;
+    const RigidBody& rigid =
+        model_.rigid_bodies[static_cast<std::size_t>(model_.bodies[index(load.body)].rigid)];
+    const Pose begin = driven_pose(*rigid.motion, rigid.rest, 0);
+    const double shift = (begin.p - rigid.rest.p).norm(), turn = Eigen::AngleAxisd(begin.R).angle();
+    if (shift > kRoundedShift || turn > kRoundedTurn)
+      doubt(load.where,
+            fmt::format("the motion of `{}` does not begin at 0: at the start the body jumps by "
+                        "{:.3g} mm and {:.3g} degrees from where it is drawn, and takes along "
+                        "what is tied to it",
+                        load.body, 1e3 * shift, 180 / std::numbers::pi * turn));
   }
 
   const Scenario& scenario_;
@@ -148,7 +198,11 @@ class Doubts {
 
 std::vector<std::string> scene_doubts(const Scenario& scenario, const Model& model,
                                       const std::vector<BodyGeometry>& geometry) {
-  return Doubts(scenario, model, geometry).all();
+  std::vector<std::string> doubts = Doubts(scenario, model, geometry).all();
+  for (std::vector<std::string>& more :
+       std::array{muscle_doubts(scenario, model), body_doubts(scenario, geometry)})
+    std::move(more.begin(), more.end(), std::back_inserter(doubts));
+  return doubts;
 }
 
 }  // namespace articular::sim

@@ -22,9 +22,10 @@ struct Usual {
 // Of what moves or gives way. Lungs have 200 kg/m³, tungsten has 19300; brain has a shear modulus
 // of about 500 Pa, tendon and plastics have less than 4e8 Pa (Young's modulus 1 GPa), bone has
 // more; the strongest muscle of a man has some thousand newtons, fibres pull with up to 1 MPa.
+// Rubber has a friction coefficient of 1 to 2, and ligaments tear at a strain of 0.1 to 0.3.
 constexpr Usual kExtent{1e-4, 1}, kTissueDensity{100, 4000}, kRigidDensity{100, 25000},
     kShearModulus{10, 4e8}, kForce{0, 2e4}, kMass{0, 100}, kFibreStress{0, 3e6}, kGravity{0, 100},
-    kSlackLength{0, 1};
+    kSlackLength{0, 1}, kFriction{0, 2}, kToeStrain{0, 0.5};
 
 constexpr double kFarthest = 2;  // [m] of the end of a muscle or ligament from its body's middle
 
@@ -60,6 +61,26 @@ void doubt_times(const Scenario& scenario, const Doubt& doubt) {
   for (const Muscle& muscle : scenario.muscles)
     look_at(muscle.excitation.time, muscle.where,
             fmt::format("the excitation of `{}`", muscle.name));
+  for (const Bolus& bolus : scenario.boluses)
+    if (bolus.from >= scenario.duration)
+      doubt(bolus.where, fmt::format("bolus `{}` is put in at {:.4g} s, when the run of {:.4g} s "
+                                     "is over",
+                                     bolus.name, bolus.from, scenario.duration));
+}
+
+/// Plain numbers that were given in per cent.
+template <class Doubt>
+void doubt_ratios(const Scenario& scenario, const Doubt& doubt) {
+  for (const ContactPair& pair : scenario.contacts)
+    if (!is_usual(pair.friction, kFriction))
+      doubt(pair.where, fmt::format("`{}` and `{}` have a friction coefficient of {:.3g}, usual is "
+                                    "up to {:g}",
+                                    pair.a, pair.b, pair.friction, kFriction.most));
+  for (const Ligament& ligament : scenario.ligaments)
+    if (ligament.law == Ligament::Law::Blankevoort && !is_usual(ligament.toe_strain, kToeStrain))
+      doubt(ligament.where, fmt::format("ligament `{}` has a toe strain of {:.3g}, usual is up to "
+                                        "{:g}",
+                                        ligament.name, ligament.toe_strain, kToeStrain.most));
 }
 
 double largest_factor(const Curve& profile) {
@@ -189,6 +210,7 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
   doubt_turns(scenario, doubt);
   doubt_surface_loads(scenario, model, doubt);
   doubt_times(scenario, doubt);
+  doubt_ratios(scenario, doubt);
   return doubts;
 }
 

@@ -65,8 +65,14 @@ std::string read_held_body(const Node& node, const Context& context) {
 Names read_probe_names(const Node& node, const Context& context) {
   Names names;
   for (const Node& element :
-       read_list(node, "a list of probes with forces, such as [\"medial\", \"lateral\"]"))
-    names.push_back(context.name(read_text(element)));
+       read_list(node, "a list of probes with forces, such as [\"medial\", \"lateral\"]")) {
+    std::string name = context.name(read_text(element));
+    if (is_in(name, names))
+      fail(element, fmt::format("probe `{}` is named twice, and would count twice: expected each "
+                                "once",
+                                one_line(name)));
+    names.push_back(std::move(name));
+  }
   return names;
 }
 
@@ -266,8 +272,10 @@ constexpr ProbeKind kProbeKinds[] = {
     {"way", read_way, true, "velocity of a place, and how far it has come"},
     {"angle", read_angle, true, "rotation of a body since the start, in (-180, 180] deg"},
     {"helical_axis", read_helical_axis, false,
-     "the axis about which a body has turned since the start, and turns now"},
-    {"contact", read_contact, true, "what passes between two bodies"},
+     "the axis about which a body has turned since the start, by at most 180 deg, and turns now"},
+    {"contact", read_contact, true,
+     "what passes between two bodies; area and mean pressure are by the area before deformation, "
+     "other pressures by the area now"},
     {"contacts", read_contacts, true, "what passes in several contact probes together"},
     {"line", read_line, true,
      "force and length of a muscle or ligament; activation of a muscle, strain of a ligament"},
@@ -331,7 +339,7 @@ std::vector<Key> own_keys(std::string_view kind) {
              {list_of({form::Text{"name of a contact probe"}})},
              kRequired,
              "contact probes whose forces and areas are added, and of whose pressures the largest "
-             "counts"},
+             "counts; all with the same body first, none with a face of another's"},
             spot,
             threshold};
   if (kind == "muscle_moment")

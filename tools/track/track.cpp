@@ -10,6 +10,7 @@
 #include "sim/base/error.hpp"
 #include "sim/build/build_model.hpp"
 #include "sim/scenario/curve.hpp"
+#include "sim/scenario/name_pattern.hpp"
 #include "tools/process/interruption.hpp"
 #include "tools/shipped/shipped_scenarios.hpp"
 #include "tools/track/least_activation.hpp"
@@ -124,7 +125,15 @@ class Tracker {
  private:
   sim::Model build() {
     scenario_.threads = options_.threads;
-    sim::Model model = sim::build_model(scenario_);
+    // What is sought needs no excitation in the scenario: it is not warned of.
+    sim::Scenario driven = scenario_;
+    for (sim::Muscle& muscle : driven.muscles)
+      for (const TrackMuscle& sought : track_.muscles)
+        if (muscle.excitation.time.empty() && sim::fits(sought.name, muscle.name))
+          muscle.excitation = {{0}, {0}};
+    sim::Model model = sim::build_model(driven);
+    for (std::size_t m = 0; m < model.muscles.size(); ++m)
+      model.muscles[m].given.excitation = scenario_.muscles[m].excitation;
     if (options_.warn)
       for (const std::string& warning : model.warnings) options_.warn(warning);
     return model;

@@ -53,6 +53,35 @@ TEST(MakeProbes, ContactThatIsTurnedOffIsRefusedToo) {
   }
 }
 
+// Forces of one part are counted once, and as they act on one of the two bodies. Faces of "left"
+// have their middles at x = −25, −21.7, −18.3 and −15 mm.
+TEST(MakeProbes, ContactsThatCountAForceTwiceOrAgainstItselfAreRefused) {
+  const auto part = [](const std::string& first, double low, double high) {
+    ContactProbe contact{first, first == "left" ? "floor" : "left", Region{}};
+    contact.region->box = {Vec3(low, -1, -1), Vec3(high, 1, 1)};
+    return contact;
+  };
+  const auto of = [](const ContactProbe& one, const ContactProbe& other) {
+    Scenario s = balls("left", "floor");
+    s.probes = {{"one", one}, {"other", other}, {"both", ContactsProbe{{"one", "other"}}}};
+    s.probes[2].where = {"scene.toml", 7, 1};
+    try {
+      build_model(s);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const ContactProbe whole{"left", "floor", {}}, turned{"floor", "left", {}};
+  for (const std::string& said : {of(whole, whole), of(whole, part("left", -0.03, -0.01)),
+                                  of(part("left", -0.022, 1), part("left", -1, -0.019))}) {
+    EXPECT_NE(said.find("scene.toml:7"), std::string::npos) << said;
+    EXPECT_NE(said.find("counts twice"), std::string::npos) << said;
+  }
+  EXPECT_NE(of(whole, turned).find("in opposite orders"), std::string::npos);
+  EXPECT_EQ(of(part("left", -0.0201, 1), part("left", -1, -0.0201)), "");
+}
+
 // Faces of "left" have sides of 10 mm, those of the floor more.
 TEST(MakeProbes, ASpotFarSmallerThanFacesIsRefused) {
   for (const auto& [first, second] : {std::pair("left", "floor"), std::pair("floor", "left")}) {

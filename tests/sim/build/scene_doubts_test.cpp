@@ -102,4 +102,45 @@ TEST(SceneDoubts, AreOfJointAxesThatPointOppositeWays) {
   EXPECT_TRUE(says(doubt(s), "`lateral` of `floor` and of `bone` point opposite ways"));
 }
 
+// The lateral axis of a right joint points to the right, that of a left one to the left.
+TEST(SceneDoubts, AreOfJointAxesThatPointInwards) {
+  const auto of = [](const std::string& towards_x, bool is_right, double x, double y) {
+    JointProbe joint;
+    const Vec3 lateral = Vec3(x, y, 0).normalized();
+    joint.proximal = {"floor", Vec3::Zero(), lateral, Vec3::UnitZ()};
+    joint.distal = {"bone", Vec3::Zero(), lateral, Vec3::UnitZ()};
+    joint.is_right = is_right;
+    Scenario s = cartilage_on_bone(0);
+    s.output.directions = {towards_x, "posterior", "superior"};
+    s.probes = {{"knee", joint}};
+    return doubt(s);
+  };
+  EXPECT_EQ(of("left", false, 1, 0.1), "");
+  EXPECT_EQ(of("left", true, -1, 0.1), "");
+  EXPECT_EQ(of("right", true, 1, 0), "");
+  EXPECT_EQ(of("medial", true, -1, 0), "");
+  EXPECT_EQ(of("lateral", false, 1, 0), "");
+  EXPECT_EQ(of("left", true, 0.1, 1), "");  // along another axis: no word for it
+  EXPECT_TRUE(says(of("left", false, -1, 0.1), "`lateral` of `floor` points inwards"));
+  EXPECT_TRUE(says(of("right", false, 1, 0), "\"right\" for +x and the joint `knee` is a left"));
+  EXPECT_TRUE(says(of("medial", true, 1, 0), "\"medial\" for +x"));
+  EXPECT_TRUE(says(of("lateral", false, -1, 0), "\"lateral\" for +x"));
+}
+
+TEST(SceneDoubts, AreOfADrivenBodyThatJumpsAtTheStart) {
+  const auto of = [](const Vec3& translation, const Vec3& rotation) {
+    MotionLoad load = shift("floor", 1, {0, 0, 0.01});
+    load.motion.translation.front() = translation;
+    load.motion.rotation = {rotation, Vec3::Zero()};
+    Scenario s = cartilage_on_bone(0);
+    s.ligaments.clear();
+    s.loads = {load};
+    return doubt(s);
+  };
+  EXPECT_EQ(of(Vec3::Zero(), Vec3::Zero()), "");
+  EXPECT_EQ(of({5e-6, 0, 0}, {0, 5e-5, 0}), "");
+  EXPECT_TRUE(says(of({0, 3e-3, 4e-3}, Vec3::Zero()), "jumps by 5 mm and 0 degrees"));
+  EXPECT_TRUE(says(of(Vec3::Zero(), {0, 0, 0.1}), "jumps by 0 mm and 5.73 degrees"));
+}
+
 }  // namespace articular::sim::scene_doubts_test

@@ -19,6 +19,7 @@ Scenario usual() {
   muscle.name = "masseter";
   muscle.path = {anchor("bone", {1, 0, 0}), anchor("floor", {1, 0, 0.3})};
   muscle.max_force = 300;
+  muscle.excitation = {{0}, {1}};
   s.muscles = {muscle};
   return s;
 }
@@ -60,6 +61,11 @@ TEST(UnitDoubts, AreOfTheStressOfFibres) {
         material_of(fem::BlemkerMuscle<>(fem::MuscleFibre({.max_stress = stress}), {}));
     s.bodies[0].material->fibres = Fibres{.along = Vec3::UnitZ()};
     s.bodies[0].material->element = TissueMaterial::Element::Smoothed;  // plain ones would lock
+    Muscle muscle;
+    muscle.name = "fibres";
+    muscle.tissue = "block";
+    muscle.excitation = {{0}, {1}};
+    s.muscles.push_back(muscle);
     EXPECT_EQ(num_doubts(s), stress < 3e6 ? 0U : 1U) << stress;
   }
 }
@@ -118,6 +124,51 @@ TEST(UnitDoubts, AreOfCurvesThatBeginWhenTheRunIsOver) {
     s.loads = {shift("floor", begin + 1, {0, 0, 0.01})};
     std::get<MotionLoad>(s.loads[0]).motion.time.front() = begin;
     EXPECT_EQ(num_doubts(s), begin < 1 ? 0U : 2U) << begin;
+  }
+}
+
+TEST(UnitDoubts, AreOfFoodThatIsPutInWhenTheRunIsOver) {
+  for (const double from : {0.9, 1.0}) {
+    Scenario s = usual();
+    s.duration = 1;
+    Bolus bolus;
+    bolus.name = "carrot";
+    bolus.path = {anchor("bone", {1, 0, 0}), anchor("floor", {1, 0, 0.3})};
+    bolus.from = from;
+    bolus.force = {{0, 1e-3}, {0, 10}};
+    bolus.unloading_stiffness = 1e5;
+    s.boluses = {bolus};
+    EXPECT_EQ(num_doubts(s), from < 1 ? 0U : 1U) << from;
+  }
+}
+
+TEST(UnitDoubts, AreOfFrictionInPerCent) {
+  for (const double friction : {2.0, 2.1, 30.0}) {
+    Scenario s = usual();
+    ContactPair pair;
+    pair.a = "block";
+    pair.b = "bone";
+    pair.friction = friction;
+    s.contact = true;
+    s.contacts = {pair};
+    EXPECT_EQ(num_doubts(s), friction <= 2 ? 0U : 1U) << friction;
+  }
+}
+
+// A linear ligament has no toe, and none in the scenario.
+TEST(UnitDoubts, AreOfAToeStrainInPerCent) {
+  for (const double strain : {0.03, 0.5, 3.0}) {
+    Scenario s = usual();
+    Ligament ligament;
+    ligament.name = "acl";
+    ligament.path = {anchor("bone", {1, 0, 0}), anchor("floor", {1, 0, 0.3})};
+    ligament.law = Ligament::Law::Blankevoort;
+    ligament.stiffness = 100;
+    ligament.toe_strain = strain;
+    s.ligaments = {ligament};
+    EXPECT_EQ(num_doubts(s), strain <= 0.5 ? 0U : 1U) << strain;
+    s.ligaments[0].law = Ligament::Law::Linear;
+    EXPECT_EQ(num_doubts(s), 0U) << strain;
   }
 }
 

@@ -242,7 +242,7 @@ mirror = "x"
 [[probe]]
 name = "contacts"
 kind = "contacts"
-of = ["contact_left", "contact_right"]
+of = ["contact_left"]
 spot = "4 mm"
 threshold = "0.1 MPa"
 mirror = "x"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 #include "tests/tools/support/number_columns.hpp"
@@ -191,6 +192,23 @@ TEST_F(Track, SaysWhichTargetsItMissesAndWhenMost) {
   EXPECT_NE(result.err.find("`other` at 0.5 s by -"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("EMG of `pull_y` at "), std::string::npos) << result.err;
   EXPECT_NE(content(folder_ / "out/t/track.md").find("\n**Missed**: "), std::string::npos);
+}
+
+// `run` warns of muscles that nothing excites; here they are what is sought.
+TEST_F(Track, DoesNotMissExcitationsThatItFinds) {
+  make_twin();
+  std::istringstream scene(content(kScene));
+  std::string silent;
+  for (std::string line; std::getline(scene, line);)
+    if (line.rfind("excitation", 0) != 0) silent += line + "\n";
+  folder_.file("silent.toml", silent);
+  folder_.file("t.toml", "scenario = \"silent.toml\"\n[[muscle]]\nname = \"*\"\n" + kTargets);
+  const ProgramResult track = program("track t.toml");
+  EXPECT_EQ(track.exit_code, 0);
+  EXPECT_EQ(track.err.find("excitation"), std::string::npos) << track.err;
+  const ProgramResult run = program("run silent.toml --out silent");
+  EXPECT_NE(run.err.find("no muscle of the scene has an `excitation`"), std::string::npos)
+      << run.err;
 }
 
 // Three tenths of a second are 0.30000000000000004 in binary.

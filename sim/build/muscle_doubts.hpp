@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/model/model.hpp"
+
+namespace articular::sim {
+
+/// Muscles that can be computed and never pull: fibres that a muscle activates and whose material
+/// has no active stress, fibres with one that no muscle activates, muscles of fibres without
+/// excitation, and lines of which none in the scene has one. One line with an excitation says that
+/// the others are silent on purpose; so does an excitation that is 0.
+/// @return one line each, with the place in the scenario
+std::vector<std::string> muscle_doubts(const Scenario& scenario, const Model& model);
+
+}  // namespace articular::sim

@@ -1,0 +1,66 @@
+// Balls that are too small, layers that are too stiff.
+#include "sim/build/body_doubts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "sim/base/error.hpp"
+#include "tests/sim/support/scene.hpp"
+
+namespace articular::sim::body_doubts_test {
+
+/// Of one body.
+std::vector<std::string> doubts_of(const Body& body) {
+  Scenario s = scene(1e-3);
+  s.bodies = {body};
+  return body_doubts(s, {read_geometry(body)});
+}
+
+Body ball(Body::Kind kind, double element_size) {
+  Body body;
+  body.name = "ball";
+  body.kind = kind;
+  body.geometry = SphereGeometry{0.01, element_size, {0.1, 0, 0}};
+  body.density = 1000;
+  body.where = {"scene.toml", 3, 1};
+  return body;
+}
+
+// 4/3 π (10 mm)³ = 4189 mm³.
+TEST(BodyDoubts, AreOfABallThatLacksATenthOfItsVolume) {
+  EXPECT_TRUE(doubts_of(ball(Body::Kind::Rigid, 2e-3)).empty());
+  EXPECT_TRUE(doubts_of(ball(Body::Kind::Fixed, 1e-2)).empty());
+  for (const Body::Kind kind : {Body::Kind::Rigid, Body::Kind::Tissue}) {
+    const std::vector<std::string> doubts = doubts_of(ball(kind, 1e-2));
+    ASSERT_EQ(doubts.size(), 1U);
+    EXPECT_NE(doubts[0].find("scene.toml:3:1: the ball `ball` has a volume of "),
+              std::string::npos);
+    EXPECT_NE(doubts[0].find(" mm^3 for 4189 mm^3 "), std::string::npos) << doubts[0];
+    EXPECT_NE(doubts[0].find(" g for 4.189 g"), std::string::npos) << doubts[0];
+  }
+}
+
+// Twice as large, eight times the volume: no other part of it is missing.
+TEST(BodyDoubts, AreOfAPlacedBallByItsOwnSize) {
+  Body body = ball(Body::Kind::Rigid, 2e-3);
+  body.placement.scale = 2;
+  EXPECT_TRUE(doubts_of(body).empty());
+  body.geometry = SphereGeometry{0.01, 1e-2, {0.1, 0, 0}};
+  ASSERT_EQ(doubts_of(body).size(), 1U);
+  EXPECT_NE(doubts_of(body)[0].find(" mm^3 for 3.351e+04 mm^3 "), std::string::npos)
+      << doubts_of(body)[0];
+}
+
+// (1 − ν)/((1 + ν)(1 − 2ν)) is 17 at 0.49 and 167 at 0.499.
+TEST(BodyDoubts, AreOfALayerThatCannotGiveWay) {
+  Body bone = box_body("bone", Body::Kind::Fixed, {0.05, 0.05, 0.02});
+  bone.layer = Layer{1e-3, 1e6, 0.49};
+  EXPECT_TRUE(doubts_of(bone).empty());
+  bone.layer->poisson_ratio = 0.499;
+  ASSERT_EQ(doubts_of(bone).size(), 1U);
+  EXPECT_NE(doubts_of(bone)[0].find("the layer of `bone` is 167 times as stiff"), std::string::npos)
+      << doubts_of(bone)[0];
+}
+
+}  // namespace articular::sim::body_doubts_test

@@ -1,0 +1,100 @@
+// Muscles that never pull.
+#include "sim/build/muscle_doubts.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fem/material/any_material.hpp"
+#include "sim/build/build_model.hpp"
+#include "tests/sim/support/scene.hpp"
+
+namespace articular::sim::muscle_doubts_test {
+
+/// A block of fibres that can pull with a stress [Pa], and one of tissue without.
+Scenario fibres(double active_stress) {
+  Scenario s = scene(1e-3);
+  s.contact = false;
+  Body block = box_body("block", Body::Kind::Tissue, {0.02, 0.02, 0.02});
+  block.material = material_of(fem::TransverselyIsotropic<fem::VolumeChange>(
+      1e4, 0, fem::ToeLinearFibre({.c3 = 1e3, .c4 = 10, .c5 = 1e5, .toe_end = 1.1}), 1e6,
+      fem::ActiveFibre({.stress = active_stress, .force_length = {}})));
+  block.material->fibres = Fibres{Vec3::UnitZ()};
+  block.material->element = TissueMaterial::Element::Smoothed;  // plain ones would lock
+  block.material->where = {"scene.toml", 3, 1};
+  s.bodies = {block, box_body("pad", Body::Kind::Tissue, {0.02, 0.02, 0.02}, {0.1, 0, 0}),
+              stand("floor")};
+  return s;
+}
+
+Muscle of_fibres(const Curve& excitation) {
+  Muscle muscle;
+  muscle.name = "masseter";
+  muscle.tissue = "block";
+  muscle.excitation = excitation;
+  muscle.where = {"scene.toml", 7, 1};
+  return muscle;
+}
+
+Muscle line(const std::string& name, const Curve& excitation) {
+  Muscle muscle;
+  muscle.name = name;
+  muscle.path = {anchor("block", {0, 0, 0.01}), anchor("floor", {0, 0, 0.1})};
+  muscle.max_force = 100;
+  muscle.excitation = excitation;
+  muscle.where = {"scene.toml", 9, 1};
+  return muscle;
+}
+
+const Curve kNone, kSilent{{0}, {0}}, kPull{{0, 1}, {0, 1}};
+
+/// The only warning; "" without one.
+std::string doubt(const Scenario& s) {
+  const std::vector<std::string> warnings = build_model(s).warnings;
+  EXPECT_LE(warnings.size(), 1U);
+  return warnings.empty() ? "" : warnings.front();
+}
+
+testing::AssertionResult says(const std::string& doubt, const std::string& part) {
+  if (doubt.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "\"" << doubt << "\" does not say " << part;
+}
+
+TEST(MuscleDoubts, AreNoneOfFibresThatPull) {
+  Scenario s = fibres(2e5);
+  s.muscles = {of_fibres(kPull)};
+  EXPECT_EQ(doubt(s), "");
+  EXPECT_EQ(doubt(fibres(0)), "");
+}
+
+TEST(MuscleDoubts, AreOfAMuscleWhoseMaterialCannotPull) {
+  Scenario s = fibres(0);
+  s.muscles = {of_fibres(kPull)};
+  EXPECT_TRUE(says(doubt(s), "scene.toml:7:1: muscle `masseter` never pulls"));
+}
+
+TEST(MuscleDoubts, AreOfFibresThatNoMuscleActivates) {
+  Scenario s = fibres(2e5);
+  EXPECT_TRUE(says(doubt(s), "scene.toml:3:1: the fibres of `block` can pull with 200 kPa"));
+  s.muscles = {line("other", kPull)};
+  EXPECT_TRUE(says(doubt(s), "can pull with 200 kPa and never do"));
+}
+
+TEST(MuscleDoubts, AreOfFibresWithoutExcitationUnlessItIsGivenAsNone) {
+  Scenario s = fibres(2e5);
+  s.muscles = {of_fibres(kNone), line("other", kPull)};
+  EXPECT_TRUE(says(doubt(s), "scene.toml:7:1: muscle `masseter` has no `excitation`"));
+  s.muscles = {of_fibres(kSilent)};
+  EXPECT_EQ(doubt(s), "");
+}
+
+// In a scene with one that pulls, others are silent on purpose: openers while closers bite.
+TEST(MuscleDoubts, AreOfLinesOfWhichNoneIsExcited) {
+  Scenario s = fibres(0);
+  s.muscles = {line("closer", kNone), line("opener", kNone)};
+  EXPECT_TRUE(says(doubt(s), "scene.toml:9:1: no muscle of the scene has an `excitation`"));
+  s.muscles[1].excitation = kPull;
+  EXPECT_EQ(doubt(s), "");
+  s.muscles[1].excitation = kSilent;
+  EXPECT_EQ(doubt(s), "");
+}
+
+}  // namespace articular::sim::muscle_doubts_test
