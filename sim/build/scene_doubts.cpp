@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -29,6 +30,10 @@ constexpr double kMostStrain = 0.5;
 /// tibia.
 constexpr double kMostGap = 0.1;
 
+/// Of contact's stiffness by that of the elements at a surface: below, contact gives way by more
+/// than a tenth of what these do.
+constexpr double kLeastContactStiffness = 10;
+
 /// How far from where it is drawn a driven body may begin: samples are rounded.
 constexpr double kRoundedShift = 1e-5, kRoundedTurn = 1e-4;  // [m], [rad]
 
@@ -45,6 +50,7 @@ class Doubts {
     for (const Body& body : scenario_.bodies)
       if (body.kind == Body::Kind::Tissue) look_at(body);
     look_at_loads();
+    look_at_contact_stiffness();
     for (const Load& load : scenario_.loads)
       if (const auto* motion = std::get_if<MotionLoad>(&load)) look_at(*motion);
     for (const LigamentModel& ligament : model_.ligaments) look_at(ligament);
@@ -56,6 +62,19 @@ class Doubts {
  private:
   void doubt(const Location& where, const std::string& what) {
     lines_.push_back(prefix(where) + what);
+  }
+
+  void look_at_contact_stiffness() {
+    const std::optional<double>& factor = scenario_.contact_stiffness_factor;
+    if (!factor || !(*factor < kLeastContactStiffness)) return;
+    doubt({scenario_.file.string()},
+          fmt::format("`contact_stiffness_factor` = {:g} lets surfaces sink into each other {} the "
+                      "elements there are pressed together: expected {:g} or more",
+                      *factor,
+                      *factor < 1    ? "farther than"
+                      : *factor == 1 ? "as far as"
+                                     : "nearly as far as",
+                      kLeastContactStiffness));
   }
 
   std::size_t index(const std::string& body) const {

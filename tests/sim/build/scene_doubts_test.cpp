@@ -48,6 +48,14 @@ TEST(SceneDoubts, AreOfAGapBetweenWhatIsTied) {
   EXPECT_EQ(doubt(cartilage_on_bone(-0.01)), "");  // well within the bone
 }
 
+TEST(SceneDoubts, AreOfContactAsSoftAsWhatTouches) {
+  Scenario s = cartilage_on_bone(0);
+  s.contact_stiffness_factor = 10;
+  EXPECT_EQ(doubt(s), "");
+  s.contact_stiffness_factor = 0.1;
+  EXPECT_TRUE(says(doubt(s), "sink into each other farther than the elements"));
+}
+
 TEST(SceneDoubts, AreOfTissueThatCannotDeform) {
   Scenario s = cartilage_on_bone(0);
   s.attachments = {attach("cartilage", "bone", {-1, -1, -1}, {1, 1, 1})};
