@@ -30,7 +30,8 @@ struct OneMuscle {
 class MuscleOfTissue : public testing::TestWithParam<OneMuscle> {};
 INSTANTIATE_TEST_SUITE_P(Jaw, MuscleOfTissue,
                          testing::Values(OneMuscle{"masseter", 0.8},
-                                         OneMuscle{"medial_pterygoid", 0.75}),
+                                         OneMuscle{"medial_pterygoid", 0.75},
+                                         OneMuscle{"lateral_pterygoid", 0.9}),
                          [](const auto& muscle) { return muscle.param.name; });
 
 // It pulls both bones together with less than the lines, for its fibres bulge and are shorter in
@@ -86,6 +87,12 @@ INSTANTIATE_TEST_SUITE_P(Clench, JawWithMuscles,
                                          Clench{"MedialPterygoid",
                                                 {"choice.masseter=lines", "choice.temporalis=lines",
                                                  "choice.medial_pterygoid=tissue"},
+                                                2},
+                                         Clench{"LateralPterygoid",
+                                                {"choice.masseter=lines", "choice.temporalis=lines",
+                                                 "choice.lateral_pterygoid=tissue",
+                                                 "curve.protruders.time=['0 s', '0.02 s']",
+                                                 "curve.protruders.value=[0, 0.3]"},
                                                 2}),
                          [](const auto& clench) { return clench.param.name; });
 

@@ -49,10 +49,10 @@ void add_mandible(CLI::App& anatomy, int& exit_code) {
   const auto options = std::make_shared<Options>();
   mandible->add_option("--size", options->size_mm, "Element size of the discs in mm (0.3 to 2.5)")
       ->capture_default_str();
-  CLI::Option* muscles = mandible->add_flag(
-      "--muscles", options->muscles,
-      "Adds masseter, temporalis and medial pterygoid of both sides as tissue with fibres, and the "
-      "bone they touch");
+  CLI::Option* muscles = mandible->add_flag("--muscles", options->muscles,
+                                            "Adds masseter, temporalis, medial and inferior "
+                                            "lateral pterygoid of both sides as tissue with "
+                                            "fibres, and the bone they touch");
   mandible
       ->add_option("--muscle-size", options->muscle_size_mm,
                    "Element size of the muscles in mm (3 to 6)")

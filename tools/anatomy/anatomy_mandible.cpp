@@ -187,7 +187,7 @@ Anatomy mandible_anatomy(double disc_edge, double slope_deg, double guidance_deg
 }
 
 void add_muscle_bodies(double element_size, Anatomy& anatomy) {
-  for (const FibreBody& shape : closing_muscles())
+  for (const FibreBody& shape : muscle_shapes())
     add_both_sides(shape.name, ".vtu", muscle_mesh(shape, element_size), anatomy);
   add_both_sides("ramus", ".vtp", ramus_sheet(kMuscleBoneGrid), anatomy);
   add_both_sides("temporal", ".vtp", temporal_sheet(kMuscleBoneGrid), anatomy);

@@ -15,7 +15,7 @@ namespace articular::anatomy {
 Anatomy mandible_anatomy(double disc_edge, double slope_deg = kSlopeDeg,
                          double guidance_deg = kGuidanceDeg);
 
-/// Adds the closing muscles of both sides as tissue, and the parts of the bones that they touch.
+/// Adds the muscles of both sides that are tissue, and the parts of the bones that they touch.
 /// @param element_size  of the muscles
 /// @throws std::invalid_argument for element_size outside [3, 6] mm
 void add_muscle_bodies(double element_size, Anatomy& anatomy);

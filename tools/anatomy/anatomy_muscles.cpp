@@ -7,7 +7,7 @@
 
 namespace articular::anatomy {
 
-std::vector<FibreBody> closing_muscles() {
+std::vector<FibreBody> muscle_shapes() {
   return {{"masseter",
            {{{49.5, -15.5, 71.5}, {60, 0, 75.8}, {65.3, 20, 82.5}, 4},
             {{49.5, -8, 57}, {59.3, 6.5, 60}, {63, 22, 64}, 6.4},
@@ -35,7 +35,20 @@ std::vector<FibreBody> closing_muscles() {
             {{39, 29, 35}, {36.5, 22.5, 35}, {31, 17.5, 35}, 4.8},
             {{41, 30, 23.5}, {39, 24, 23.5}, {34.5, 18.5, 23.5}, 3.6}},
            {"skull", 0.28},
-           {"mandible", 0.3}}};
+           {"mandible", 0.3}},
+          // The inferior head, from the outer side of the pterygoid plate to the front of the neck,
+          // by its face. Its rows run from below upwards, as outwards is to the side. Between the
+          // bones there is less room than round the other muscles.
+          {"lateral_pterygoid",
+           {{{34.9, -2.2, 61}, {32.5, 0.8, 74.2}, {31.3, 1.1, 80.7}, 6.2},
+            {{33.8, 4.3, 61.2}, {35.6, 8.2, 71.1}, {34.1, 6.3, 78.4}, 5.8},
+            {{36, 14.7, 58.6}, {38.3, 13.1, 70.2}, {40.1, 13.5, 78.7}, 4.6},
+            {{44.2, 19.6, 71.1}, {44.8, 18.5, 75.9}, {44.4, 18.2, 80}, 3.4},
+            {{47.3, 27.1, 73.2}, {47.1, 27.4, 77}, {46.9, 27.3, 79.7}, 3.6}},
+           {"skull", 0.22},
+           {"mandible"},
+           0.5,
+           1.1}};
 }
 
 Mesh muscle_mesh(const FibreBody& muscle, double h) {

@@ -4,13 +4,15 @@
 
 #include "tools/anatomy/anatomy_fibre_body.hpp"
 
-/// Closing muscles of the jaw as bodies of tissue, between "skull" and "mandible". mm; left side.
+/// Muscles of the jaw as bodies of tissue, between "skull" and "mandible". mm; left side.
 namespace articular::anatomy {
 
-/// Masseter (both parts as one), temporalis and medial pterygoid. The volumes are about those of
-/// the fibres of the lines of mandible_muscles (PECK): physiological cross-section times the part
-/// of the length that is no tendon. The temporalis has less room, and 0.6 of that.
-std::vector<FibreBody> closing_muscles();
+/// Masseter (both parts as one), temporalis, medial pterygoid, and the inferior head of the lateral
+/// pterygoid. The volumes are about those of the fibres of the lines of mandible_muscles (PECK):
+/// physiological cross-section times the part of the length that is no tendon. The temporalis has
+/// less room, and 0.6 of that. That line of the lateral pterygoid has no tendon, but fibres of
+/// people are 23 mm long there (VE-PT), shorter than the line; the volume is that of these fibres.
+std::vector<FibreBody> muscle_shapes();
 
 /// Nodes that lie on the bone of an end: nearer than kAttachedWithin, all others farther than that.
 constexpr double kAttachedWithin = 1.0;
