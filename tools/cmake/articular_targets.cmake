@@ -109,8 +109,8 @@ endfunction()
 
 # articular_test(name SOURCES ... LIBRARIES ... [LABELS ...] [UNSANITIZED ...] [IN_ONE_PROCESS]): one GoogleTest program,
 # each of its tests a ctest, or all of them one. With ARTICULAR_SANITIZED all tests are run, and most take less time than
-# the start of a process: those of a program share eight, ctests "NAME 1 of 8" and so on; but each slow one is a ctest.
-# The same objects are then linked a second time, with the sanitized libraries, for ctests "sanitized/NAME 1 of 8" with
+# the start of a process: those of a program share eight, ctests "NAME/1of8" and so on; but each slow one is a ctest.
+# The same objects are then linked a second time, with the sanitized libraries, for ctests "sanitized/NAME/1of8" with
 # the label "sanitized". Tests take longest to compile, and what they are to find is in the libraries. Slow ones would take
 # minutes with sanitizers, and graphics drivers leak. So would those of UNSANITIZED, patterns of GoogleTest: they compute
 # for long what shorter ones reach.
@@ -169,7 +169,7 @@ function(articular_register_tests program prefix in_one_process labels filter)
   if(prefix AND ARTICULAR_SANITIZED_WHOLE)
     set(properties TIMEOUT 7200)
   endif()
-  if(labels MATCHES "slow")
+  if(labels MATCHES "slow" OR in_one_process)
     list(APPEND properties COST 100)  # first, so that at the end no processor waits for another
   endif()
   if(in_one_process)
@@ -189,7 +189,7 @@ function(articular_register_processes program prefix processes labels filter)
   foreach(process RANGE 1 ${processes})
     set(name ${prefix}${program})
     if(processes GREATER 1)
-      string(APPEND name " ${process} of ${processes}")
+      string(APPEND name "/${process}of${processes}")  # without spaces: ctest keeps no times of names that have some
     endif()
     math(EXPR index "${process} - 1")
     set(environment GTEST_TOTAL_SHARDS=${processes} GTEST_SHARD_INDEX=${index})

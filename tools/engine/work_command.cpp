@@ -1,5 +1,6 @@
 #include "tools/engine/work_command.hpp"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "sim/base/error.hpp"

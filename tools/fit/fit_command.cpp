@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostJobs = 256, kMostIterations = 1000;
+constexpr int kMostFitJobs = 256, kMostFitIterations = 1000;
 /// The fit ended before it converged: what is written is the best so far.
 constexpr int kNotConverged = 3;
 
@@ -82,11 +82,11 @@ void add_fit_command(CLI::App& app, int& exit_code) {
                   "Folder of the results (default: out/NAME)")
       ->type_name("DIR");
   command.add_option("--jobs", arguments->options.jobs, "Runs at the same time [1]")
-      ->check(CLI::Range(1, kMostJobs));
+      ->check(CLI::Range(1, kMostFitJobs));
   command
       .add_option("--iterations", arguments->most_iterations,
                   "Ends, not converged, after so many [20]")
-      ->check(CLI::Range(1, kMostIterations));
+      ->check(CLI::Range(1, kMostFitIterations));
   command.add_flag("--fresh", arguments->options.fresh, "Run again what is there already");
   command.add_flag("--quiet", arguments->options.quiet, "No progress on stderr");
   command.footer(kFitHelp);

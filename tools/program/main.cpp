@@ -15,7 +15,7 @@
 #include "sim/base/error.hpp"
 #include "sim/base/message_text.hpp"
 #include "sim/base/version.hpp"
-#include "tools/anatomy/anatomy.hpp"
+#include "tools/anatomy/anatomy_command.hpp"
 #include "tools/collide/collide_command.hpp"
 #include "tools/engine/work_command.hpp"
 #include "tools/fit/fit_command.hpp"

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostThreads = 256, kMostIterations = 1000;
+constexpr int kMostTrackThreads = 256, kMostTrackIterations = 1000;
 /// The scenario could not go on, or a time did not converge: what is written is the best so far.
 constexpr int kEndedEarly = 3;
 
@@ -128,11 +128,11 @@ void add_track_command(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command.add_option("--threads", arguments->options.threads, "As of `articular run` [1]")
-      ->check(CLI::Range(1, kMostThreads));
+      ->check(CLI::Range(1, kMostTrackThreads));
   command
       .add_option("--iterations", arguments->options.most_iterations,
                   "At each time at most so many [10]")
-      ->check(CLI::Range(1, kMostIterations));
+      ->check(CLI::Range(1, kMostTrackIterations));
   command.add_flag("--quiet", arguments->quiet, "No progress on stderr");
   command.footer(kTrackHelp);
   command.callback([arguments, &exit_code] { exit_code = run_track(*arguments); });
