@@ -200,8 +200,8 @@ void warn_of_deep_contacts(const Model& model, const RunExtrema& extrema,
   if (layer.value > 1)
     warnings.push_back(fmt::format(
         "{} were pressed into the layer between them at t = {:.4g} s, by {:.2g} times its "
-        "thickness: a layer is a spring that has no end, and forces are far too small; expected "
-        "a thicker or stiffer layer, or less of a load or motion",
+        "thickness: a layer is a spring that has no end, so that bodies are too near or forces too "
+        "small; expected a thicker or stiffer layer, or less of a load or motion",
         names(layer), layer.at, layer.value));
   if (driven.value > kDrivenDepth)
     warnings.push_back(fmt::format(

@@ -339,7 +339,7 @@ std::vector<Key> own_keys(std::string_view kind) {
              {list_of({form::Text{"name of a contact probe"}})},
              kRequired,
              "contact probes whose forces and areas are added, and of whose pressures the largest "
-             "counts; all with the same body first, none with a face of another's"},
+             "counts; those of the same two bodies name the same one first, and share no face"},
             spot,
             threshold};
   if (kind == "muscle_moment")
