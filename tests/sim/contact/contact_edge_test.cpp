@@ -66,6 +66,7 @@ Scenario blocks_of_one_outline(double depth, const Layer& layer, const Eigen::Ve
 
 // The layer is compressed all over but for a strip along the edges, a thirtieth of the depth wide.
 // Were the strip as wide as the layer is pressed, a third of the force would be missing.
+// Beside the layer the bones give way, by 1.3e-4 of it.
 TEST(EdgesThatMeet, HardlyTakeForceFromALayerBetweenFacesOfOneOutline) {
   const Layer layer{2e-3, 1e6, 0.3};
   const double stiffness =
@@ -76,12 +77,12 @@ TEST(EdgesThatMeet, HardlyTakeForceFromALayerBetweenFacesOfOneOutline) {
           contact_at_start(blocks_of_one_outline(depth, layer, {cells, cells, cells}));
       const double whole = stiffness * kSide * kSide * depth, strip = depth / 30;
       const double inner = kSide - 2 * strip;
-      EXPECT_NEAR(sum.force.z() / whole, inner * inner / (kSide * kSide), 1e-4) << depth;
+      EXPECT_NEAR(-sum.force.z() / whole, inner * inner / (kSide * kSide), 2e-4) << depth;
       // ½ k ∫ d² dA, with depths that rise to d over the strip.
       const double energy = 0.5 * stiffness *
                             (depth * depth * inner * inner +
                              900 * 4 * (kSide * std::pow(strip, 3) / 3 - 0.5 * std::pow(strip, 4)));
-      EXPECT_NEAR(sum.energy / energy, 1, 1e-4) << depth;
+      EXPECT_NEAR(sum.energy / energy, 1, 2e-4) << depth;
     }
 }
 

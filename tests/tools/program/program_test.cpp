@@ -381,6 +381,7 @@ TEST(Program, WarnsOfAMuscleThatCanHardlyPull) {
   folder.file("scene.toml",
               kScene +
                   "[[muscle]]\nname = \"lip\"\nmax_force = \"1 N\"\noptimal_length = \"5 mm\"\n"
+                  "excitation = { time = [\"0 s\"], value = [1] }\n"
                   "path = [{ body = \"floor\", point = \"0 0 0 mm\" }, "
                   "{ body = \"roof\", point = \"0 0 10 mm\" }]\n"
                   "[[body]]\nname = \"roof\"\nkind = \"fixed\"\n");
