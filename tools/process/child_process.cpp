@@ -1,6 +1,7 @@
 #include "tools/process/child_process.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -78,9 +79,19 @@ ChildProcess::Started ChildProcess::start(const std::vector<std::string>& comman
   throw sim::SystemError("can't start " + command[0] + ": " + reason(error));
 }
 
+/// An X server that has just begun forgets the signal, and would be waited for without end: it is
+/// asked again.
 ChildProcess::~ChildProcess() {
+  constexpr int kMostRequests = 100;
+  for (int request = 0; pid_ > 0 && request < kMostRequests; ++request) {
+    ::kill(pid_, SIGTERM);
+    for (int look = 0; look < 10; ++look) {
+      if (::waitpid(pid_, nullptr, WNOHANG) == pid_) return;
+      ::poll(nullptr, 0, 2);  // [ms]
+    }
+  }
   if (pid_ <= 0) return;
-  ::kill(pid_, SIGTERM);
+  ::kill(pid_, SIGKILL);
   wait();
 }
 

@@ -40,7 +40,7 @@ class ChildProcess {
                        ChildProcess& child);
 
   ChildProcess() = default;
-  ~ChildProcess();
+  ~ChildProcess();  // asks it to end until it does; after a few seconds it is killed
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
