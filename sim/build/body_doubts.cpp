@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "fem/mesh/tetrahedron.hpp"
 #include "sim/base/error.hpp"
+#include "sim/model/tissue.hpp"
 
 namespace articular::sim {
 namespace {
@@ -20,10 +22,8 @@ constexpr double kMostStiffening = 34;
 
 double volume_of(const MeshData& mesh) {
   double six_volumes = 0;
-  for (const auto& tet : mesh.tets.colwise()) {
-    const Positions x = mesh.X(Eigen::all, tet);
-    six_volumes += (x.rightCols<3>().colwise() - x.col(0)).determinant();
-  }
+  for (const auto& tet : mesh.tets.colwise())
+    six_volumes += fem::edge_matrix(mesh.X(Eigen::all, tet)).determinant();
   return six_volumes / 6;
 }
 
@@ -47,7 +47,7 @@ std::string doubt_of_ball(const Body& body, const MeshData& mesh) {
 std::string doubt_of_layer(const Body& body) {
   if (!body.layer) return "";
   const double nu = body.layer->poisson_ratio;
-  const double stiffening = (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+  const double stiffening = constrained_modulus(1, nu);
   if (!(stiffening > kMostStiffening)) return "";
   return fmt::format(
       "the layer of `{}` is {:.0f} times as stiff as its Young's modulus by its "

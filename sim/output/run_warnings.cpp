@@ -216,8 +216,7 @@ void warn_of_snap(const Model& model, const Snap& snap, std::vector<std::string>
   warnings.push_back(fmt::format(
       "`{}` buckled, or snapped through, in the load step to t = {:.4g} s: it moved by {:.3g} mm, "
       "where its stiffness would let it move by {:.2g} mm, and lost {:.2g} J. What follows is "
-      "another "
-      "equilibrium, and need not be one that the body comes to; results hold until shortly "
+      "another equilibrium, and need not be one that the body comes to; results hold until shortly "
       "before. analysis = \"dynamic\" shows where it goes",
       name_of(model, snap.body), snap.at, 1e3 * snap.motion, 1e3 * snap.expected, snap.loss));
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <random>
 #include <utility>
 
 #include "sim/assembly/line_search.hpp"
@@ -18,6 +17,7 @@
 #include "sim/model/displace.hpp"
 #include "sim/model/held_blocks.hpp"
 #include "sim/model/newton_weights.hpp"
+#include "sim/statics/random_blocks.hpp"
 
 namespace articular::sim {
 namespace {
@@ -527,10 +527,7 @@ bool Equilibrium::Solver::is_stable(double damping) {
   taken_ = {};
   damping_ = damping;
   if (!prepare(fem::Tangent::Consistent)) return false;
-  std::mt19937 random(1);  // its raw numbers are the same everywhere
-  rhs_.resize(view(solution_).size());
-  for (double& force : rhs_)
-    force = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  rhs_ = random_blocks(view(solution_).size());
   keep_free_part(model_, rhs_);
   correction_.setZero(rhs_.size());
   return !linear_->solve(rhs_, correction_).is_indefinite;

@@ -3,12 +3,12 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "sim/assembly/rigid_body_modes.hpp"
 #include "sim/model/held_blocks.hpp"
 #include "sim/model/newton_weights.hpp"
 #include "sim/statics/load_prediction.hpp"
+#include "sim/statics/random_blocks.hpp"
 
 namespace articular::sim {
 namespace {
@@ -118,10 +118,7 @@ std::optional<SoftMotion> find_softest_motion(const Model& model, Dynamics& dyna
   const double shift = kShift * fastest_rate(model, dynamics);
   if (!equilibrium.linearise(shift)) return std::nullopt;
 
-  std::mt19937 random(1);  // its raw numbers are the same everywhere
-  Eigen::VectorXd motion(n), inertia, next;
-  for (double& entry : motion)
-    entry = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  Eigen::VectorXd motion = random_blocks(n), inertia, next;
   double energy = 0;  // φᵀ K φ of the last iterate
   for (int k = 0; k < kIterations; ++k) {
     keep_free_part(model, motion);

@@ -212,8 +212,9 @@ void Stepper::remember_start(const State& state) {
   start_ = dynamics_->now().configuration;
   t_before_ = state.t;
   if (equilibrium_) {
-    stored_before_ = stored_energy().total();
-    loss_before_ = numerical_loss(state, stored_energy());
+    const StoredEnergy stored = stored_energy();
+    stored_before_ = stored.total();
+    loss_before_ = numerical_loss(state, stored);
   }
   depths_before_ = dynamics_->now().contact.point_depths();
   damping_before_ = damping_.power(dynamics_->now());

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fem/material/any_material.hpp"
-#include "sim/build/build_model.hpp"
+#include "tests/sim/support/doubt.hpp"
 #include "tests/sim/support/scene.hpp"
 
 namespace articular::sim::muscle_doubts_test {
@@ -45,18 +45,6 @@ Muscle line(const std::string& name, const Curve& excitation) {
 }
 
 const Curve kNone, kSilent{{0}, {0}}, kPull{{0, 1}, {0, 1}};
-
-/// The only warning; "" without one.
-std::string doubt(const Scenario& s) {
-  const std::vector<std::string> warnings = build_model(s).warnings;
-  EXPECT_LE(warnings.size(), 1U);
-  return warnings.empty() ? "" : warnings.front();
-}
-
-testing::AssertionResult says(const std::string& doubt, const std::string& part) {
-  if (doubt.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "\"" << doubt << "\" does not say " << part;
-}
 
 TEST(MuscleDoubts, AreNoneOfFibresThatPull) {
   Scenario s = fibres(2e5);

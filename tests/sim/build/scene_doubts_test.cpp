@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/build/build_model.hpp"
+#include "tests/sim/support/doubt.hpp"
 #include "tests/sim/support/scene.hpp"
 
 namespace articular::sim::scene_doubts_test {
@@ -27,18 +27,6 @@ Scenario cartilage_on_bone(double gap) {
   ligament.slack_length = 0.025;
   s.ligaments = {ligament};
   return s;
-}
-
-/// The only warning; "" without one.
-std::string doubt(const Scenario& s) {
-  const std::vector<std::string> warnings = build_model(s).warnings;
-  EXPECT_LE(warnings.size(), 1U);
-  return warnings.empty() ? "" : warnings.front();
-}
-
-testing::AssertionResult says(const std::string& doubt, const std::string& part) {
-  if (doubt.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "\"" << doubt << "\" does not say " << part;
 }
 
 TEST(SceneDoubts, AreOfAGapBetweenWhatIsTied) {
