@@ -80,10 +80,12 @@ double medial_wall_height(std::size_t piece, double s) {
   return kMedialWallHeight * std::max(0.0, 1 - s / kMedialWallEnd);
 }
 
-/// Signed distance of p from the medial wall, > 0 in the joint. It hangs from the profile.
-double distance_from_medial_wall(const Vec3& p, const FossaProfile& fossa) {
+/// Signed distance of p from the medial wall, > 0 in the joint, where that is less than `below`;
+/// else that. The wall hangs from the profile, and its plane is nowhere farther than it is.
+double lesser_distance(double below, const Vec3& p, const FossaProfile& fossa) {
   const double forward = -p.y();
   const double to_plane = (p.x() + medial_wall(forward)) * std::cos(kMedialWallDeg * kDeg);
+  if (to_plane >= below) return below;
   for (std::size_t i = 1; i < fossa.size(); ++i) {
     const ProfilePiece& piece = fossa[i];
     if (forward < piece.start.x() || forward > point_on(piece, piece.length).x()) continue;
@@ -94,9 +96,9 @@ double distance_from_medial_wall(const Vec3& p, const FossaProfile& fossa) {
     }
     const double bottom =
         point_on(piece, low).y() - fossa_drop(medial_wall(forward)) - medial_wall_height(i, low);
-    return std::max(to_plane, bottom - p.z());
+    return std::min(below, std::max(to_plane, bottom - p.z()));
   }
-  return std::abs(to_plane) + kMedialWallHeight;  // before and behind there is none
+  return std::min(below, std::abs(to_plane) + kMedialWallHeight);  // before and behind there is none
 }
 
 /// Radius of the disc's lower surface: the head's as far as the disc rests on it, then bending
@@ -162,6 +164,7 @@ std::pair<double, double> disc_radii(const FossaProfile& fossa, double angle, do
   double low = inner, high = inner + 6;
   for (int i = 0; i < 60; ++i) {  // bisection to round-off: the distance falls along the ray
     const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
     const Vec2 q = middle * ray;
     (distance_below_fossa({x, -q.x(), q.y()}, fossa) > kUpperClearance ? low : high) = middle;
   }
@@ -225,7 +228,7 @@ double distance_below_fossa(const Vec3& p, const FossaProfile& fossa) {
     const double d = signed_distance(piece, q);
     if (std::abs(d) < std::abs(nearest)) nearest = d;
   }
-  return std::min(nearest - fossa_drop(p.x()), distance_from_medial_wall(p, fossa));
+  return lesser_distance(nearest - fossa_drop(p.x()), p, fossa);
 }
 
 void stitch(const std::vector<int>& a, const std::vector<int>& b, const std::vector<Vec3>& nodes,

@@ -64,11 +64,15 @@ Covered below_femoral_cartilage(const Side& side, const Vec3& p) {
           std::max(std::abs(u), std::abs(v)) < kBeyond, std::max(std::abs(u), std::abs(v)) < 1};
 }
 
-double condyle_distance(const Side& side, const Vec3& p) {
+std::array<Covered, 2> below_femoral_cartilage(const Sides& sides, const Vec3& p) {
+  return {below_femoral_cartilage(sides[0], p), below_femoral_cartilage(sides[1], p)};
+}
+
+double condyle_distance(const Side& side, const Covered& below, const Vec3& p) {
   const Compartment& c = side.c;
   const double half_width = (c.coronal_radius - 1) * std::sin(c.coronal_angle) + 2.5;
   const double wall = std::abs(p.x() - c.side * kCompartmentX) - half_width;
-  return std::max({below_femoral_cartilage(side, p).distance, wall, p.z() - kCondyleTop});
+  return std::max({below.distance, wall, p.z() - kCondyleTop});
 }
 
 /// The bone that carries the cartilage of the trochlea.
@@ -80,7 +84,7 @@ double trochlea_distance(double thickness, const Vec3& p) {
   return std::max({below, 20 * beyond, -kDeep - place.distance});
 }
 
-double femur_distance(const Sides& sides, const Vec3& p) {
+double femur_distance(const Sides& sides, const std::array<Covered, 2>& below, const Vec3& p) {
   static const std::vector<Section> shaft = {
       {23, 34, 17, -6},    {32, 36, 22, -8},    {42, 32, 21, -10}, {56, 23, 18, -12},
       {75, 16.5, 14, -11}, {100, 13.5, 13, -8}, {119, 13, 13, -5}};
@@ -99,46 +103,49 @@ double femur_distance(const Sides& sides, const Vec3& p) {
     return sheet;
   }();
   double bone = smooth_min(loft_distance(shaft, p), distance(front, p), 6);
-  for (const Side& side : sides) bone = smooth_min(bone, condyle_distance(side, p), 4);
+  for (std::size_t i = 0; i < 2; ++i)
+    bone = smooth_min(bone, condyle_distance(sides[i], below[i], p), 4);
   bone = std::max(bone, -distance(notch, p));
-  for (const Side& side : sides) {
-    const Covered below = below_femoral_cartilage(side, p);
-    const bool beside = p.x() * side.c.side > kNotch && p.z() < kCondyleTop;
-    if (below.covered && beside) bone = std::max(bone, below.distance);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const bool beside = p.x() * sides[i].c.side > kNotch && p.z() < kCondyleTop;
+    if (below[i].covered && beside) bone = std::max(bone, below[i].distance);
   }
   return bone;
 }
 
 /// The same with a trochlea. Nothing rises above what any cartilage grows on.
 double femur_with_trochlea_distance(const Sides& sides, double thickness, const Vec3& p) {
-  double bone = smooth_min(femur_distance(sides, p), trochlea_distance(thickness, p), 6);
-  for (const Side& side : sides) {
-    const Covered below = below_femoral_cartilage(side, p);
-    if (below.on_cartilage) bone = std::max(bone, below.distance);
-  }
+  const std::array<Covered, 2> below = below_femoral_cartilage(sides, p);
+  double bone = smooth_min(femur_distance(sides, below, p), trochlea_distance(thickness, p), 6);
+  for (const Covered& condyle : below)
+    if (condyle.on_cartilage) bone = std::max(bone, condyle.distance);
   const TrochleaPlace place = trochlea_place(p);
   if (std::max(std::abs(place.u), std::abs(place.v)) < 1.05 && p.y() < 0)
     bone = std::max(bone, place.distance + thickness * rim_taper(place.u, place.v));
   return bone;
 }
 
-/// Height of the surface that a plateau's cartilage grows on; it goes on beyond, then levels off.
-double plateau_floor(const Side& side, const Vec3& p) {
+/// What lies below a point of the bone under a plateau.
+struct BelowPlateau {
+  double outward;  // of the outline: 0 in the middle, 1 at the rim
+  double floor;    // height of the surface that the cartilage grows on; beyond, it levels off
+};
+BelowPlateau below_plateau(const Side& side, const Vec3& p) {
   const Compartment& c = side.c;
   const Eigen::Vector2d place = plateau_place(c, p.x(), p.y());
   const Eigen::Vector2d inside = plateau_point(c, std::clamp(place.x(), -kBeyond, kBeyond),
                                                std::clamp(place.y(), -kBeyond, kBeyond));
   const double slope = plateau_normal(c, inside.x(), inside.y()).z();
-  return plateau_height(c, inside.x(), inside.y()) -
-         side.tibial_thickness * rim_taper(place.x(), place.y()) / slope;
+  return {place.cwiseAbs().maxCoeff(),
+          plateau_height(c, inside.x(), inside.y()) -
+              side.tibial_thickness * rim_taper(place.x(), place.y()) / slope};
 }
 
 /// The bone under a plateau, to some depth.
-double plateau_distance(const Side& side, const Vec3& p) {
-  const Compartment& c = side.c;
-  constexpr double kDepth = 12;
-  const double beyond = plateau_place(c, p.x(), p.y()).cwiseAbs().maxCoeff() - 1.15;
-  return std::max({p.z() - plateau_floor(side, p), beyond * c.half_width, -kDepth - p.z()});
+double plateau_distance(const Side& side, const BelowPlateau& below, const Vec3& p) {
+  constexpr double kDepth = 12, kOver = 1.15;
+  return std::max({p.z() - below.floor, (below.outward - kOver) * side.c.half_width,
+                   -kDepth - p.z()});
 }
 
 double tibia_distance(const Sides& sides, const Vec3& p) {
@@ -158,17 +165,16 @@ double tibia_distance(const Sides& sides, const Vec3& p) {
     add_rods(sheet, {{-4.5, 1, -4, 4}, {-4.5, 1, 3, 2}});
     return sheet;
   }();
+  const std::array<BelowPlateau, 2> below = {below_plateau(sides[0], p),
+                                             below_plateau(sides[1], p)};
   const double share = std::clamp(p.x() / kCompartmentX * 2 + 0.5, 0.0, 1.0);
-  const double top =
-      p.z() - (share * plateau_floor(sides[0], p) + (1 - share) * plateau_floor(sides[1], p));
+  const double top = p.z() - (share * below[0].floor + (1 - share) * below[1].floor);
   double trunk = std::max(loft_distance(body, p), top);
-  for (const Side& side : sides) trunk = smooth_min(trunk, plateau_distance(side, p), 3);
+  for (std::size_t i = 0; i < 2; ++i)
+    trunk = smooth_min(trunk, plateau_distance(sides[i], below[i], p), 3);
   double bone = smooth_min(smooth_min(trunk, distance(eminence, p), 4), distance(added, p), 5);
-  for (const Side& side : sides) {
-    const Eigen::Vector2d place = plateau_place(side.c, p.x(), p.y());
-    if (place.cwiseAbs().maxCoeff() < kBeyond && p.z() > -10)
-      bone = std::max(bone, p.z() - plateau_floor(side, p));
-  }
+  for (const BelowPlateau& plateau : below)
+    if (plateau.outward < kBeyond && p.z() > -10) bone = std::max(bone, p.z() - plateau.floor);
   return bone;
 }
 
@@ -176,7 +182,7 @@ double tibia_distance(const Sides& sides, const Vec3& p) {
 
 Distance femur_distance(const Compartment& medial, const Compartment& lateral) {
   return [sides = Sides{Side(medial), Side(lateral)}](const Vec3& p) {
-    return femur_distance(sides, p);
+    return femur_distance(sides, below_femoral_cartilage(sides, p), p);
   };
 }
 
