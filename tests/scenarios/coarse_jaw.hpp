@@ -6,7 +6,7 @@
 
 #include "tests/scenarios/scenario_results.hpp"
 #include "tools/anatomy/anatomy.hpp"
-#include "tools/anatomy/anatomy_mandible.hpp"
+#include "tools/anatomy/anatomy_joint.hpp"
 
 namespace articular {
 
@@ -15,7 +15,10 @@ namespace articular {
 inline ScenarioResults coarse_jaw(const std::string& file,
                                   const std::vector<std::string>& overrides) {
   const TemporaryFolder folder;
-  anatomy::write_anatomy(anatomy::mandible_anatomy(1.8), folder.path() / "anatomy");
+  const anatomy::Mesh left = anatomy::disc(1.8, anatomy::usual_fossa());
+  anatomy::Anatomy discs;
+  discs.meshes = {{"disc_left.vtu", left}, {"disc_right.vtu", anatomy::mirrored(left)}};
+  anatomy::write_anatomy(discs, folder.path() / "anatomy");
   sim::Scenario scenario = shipped_scenario("mandible/" + file, overrides);
   for (sim::Body& body : scenario.bodies)
     if (auto* mesh = std::get_if<sim::MeshFile>(&body.geometry);

@@ -110,7 +110,7 @@ TEST(KneeAxialLoad, ContactAndLigamentsBalanceTheLoad) {
   sim::Scenario scenario = shipped_scenario("knee/axial-load.toml", {"duration=0.2 s"});
   const std::vector<std::string> lines = add_ends_at_tibia(scenario);
   // Elements are those shipped: coarse menisci leave so much room that horns hardly pull at 200 N.
-  const ScenarioResults results = run_with(anatomy::knee_anatomy({2.5, 2}), scenario);
+  const ScenarioResults results = run_scenario(scenario);
   EXPECT_EQ(results.summary().at("outcome"), "finished");
   EXPECT_GT(results.count("reported_pairs"), 0);
   // What holds the femur carries the load, along the tibia and nowhere else.

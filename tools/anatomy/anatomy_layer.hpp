@@ -22,8 +22,9 @@ inline constexpr CellGrid kFine{40, 80, 1};
 template <class Layer>
 double full_thickness(double mean, const Layer& layer) {
   constexpr int kRounds = 20;
-  double full = mean;
-  for (int k = 0; k < kRounds; ++k) {
+  double full = mean, before = 0;
+  for (int k = 0; k < kRounds && full != before; ++k) {  // to round-off
+    before = full;
     const Mesh mesh = layer(kFine, full);
     full *= mean / (volume(mesh) / top_area(kFine, mesh));
   }
