@@ -101,7 +101,7 @@ bool find_values(MultigridLevel<N>& fine, RigidModes& modes, MultigridLevel<6>& 
 }
 
 template <int N>
-Eigen::MatrixXd dense(const BlockRows<N>& A) {
+Eigen::MatrixXd dense_matrix(const BlockRows<N>& A) {
   const Eigen::Index n = Eigen::Index{N} * A.num_rows();
   Eigen::MatrixXd result = Eigen::MatrixXd::Identity(n, n);
   for (int i = 0; i < A.num_rows(); ++i) {
@@ -164,7 +164,7 @@ bool Multigrid::factorize_last() {
   const int size = coarse_.empty() ? 3 * finest_.A.num_rows() : 6 * coarse_.back().A.num_rows();
   direct_ = size <= kMostDirect;
   if (!direct_) return true;
-  dense_.compute(coarse_.empty() ? dense(finest_.A) : dense(coarse_.back().A));
+  dense_.compute(coarse_.empty() ? dense_matrix(finest_.A) : dense_matrix(coarse_.back().A));
   return dense_.info() == Eigen::Success && dense_.matrixLLT().diagonal().allFinite();
 }
 

@@ -149,9 +149,9 @@ double dot(const BodyMotions& body, int k, const Eigen::VectorXd& v) {
 }
 
 /// Sets of bodies, each with its number in a list, that grow together.
-class Sets {
+class BodySets {
  public:
-  explicit Sets(std::size_t count) : parent_(count) {
+  explicit BodySets(std::size_t count) : parent_(count) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
   int root(int i) {
@@ -179,7 +179,7 @@ std::vector<std::vector<int>> coupled_groups(const Model& model, const fem::Bloc
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (const int block : bodies[b].blocks)
       owner[static_cast<std::size_t>(block)] = static_cast<int>(b);
-  Sets sets(bodies.size());
+  BodySets sets(bodies.size());
   for (int i = 0; i < K.num_blocks(); ++i)
     for (int s = K.row_begin()[static_cast<std::size_t>(i)];
          s < K.row_begin()[static_cast<std::size_t>(i) + 1]; ++s) {

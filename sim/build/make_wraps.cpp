@@ -13,9 +13,9 @@ namespace {
 
 /// Points of lines that lie as near to a surface as this part of its size are taken to lie on it:
 /// recorded points lie beside scanned bones.
-constexpr double kOnSurface = 1e-3;
+constexpr double kOnWrap = 1e-3;
 /// Deeper than this part of its size a point is inside of what the line wraps around.
-constexpr double kDeepest = 0.05;
+constexpr double kDeepestInWrap = 0.05;
 
 struct Nearest {
   int face = -1;
@@ -43,17 +43,17 @@ StringEnd end_at(const std::vector<std::string>& names, const Vec3& x, const Wei
     const Vec3 local = x - model.rigid_bodies[static_cast<std::size_t>(body.rigid)].rest.p;
     const Nearest nearest = nearest_face(body, local);
     const bool inside = winding_number(body.X, body.surface.triangles, local) > 0.5;
-    if (inside && nearest.distance > kDeepest * body.size) {
+    if (inside && nearest.distance > kDeepestInWrap * body.size) {
       const Vec3 mm = 1e3 * x;
       throw InputError(
           where, fmt::format("`{}` wraps around `{}`, but its point ({:.3f} {:.3f} {:.3f}) mm lies "
                              "{:.3g} mm inside: expected at most {:.3g} mm",
                              line.name, names[k], mm.x(), mm.y(), mm.z(), 1e3 * nearest.distance,
-                             1e3 * kDeepest * body.size));
+                             1e3 * kDeepestInWrap * body.size));
     }
     const bool moves_along = std::all_of(point.nodes.begin(), point.nodes.end(),
                                          [&](const NodeRef& n) { return n.rigid == body.rigid; });
-    if (moves_along && (inside || nearest.distance < kOnSurface * body.size)) {
+    if (moves_along && (inside || nearest.distance < kOnWrap * body.size)) {
       end.surface = static_cast<int>(k);
       end.face = nearest.face;
     }

@@ -24,12 +24,12 @@ struct Usual {
 // more; the strongest muscle of a man has some thousand newtons, fibres pull with up to 1 MPa.
 // Rubber has a friction coefficient of 1 to 2, and ligaments tear at a strain of 0.1 to 0.3.
 constexpr Usual kExtent{1e-4, 1}, kTissueDensity{100, 4000}, kRigidDensity{100, 25000},
-    kShearModulus{10, 4e8}, kForce{0, 2e4}, kMass{0, 100}, kFibreStress{0, 3e6}, kGravity{0, 100},
-    kSlackLength{0, 1}, kFriction{0, 2}, kToeStrain{0, 0.5};
+    kShearModulus{10, 4e8}, kUsualForce{0, 2e4}, kUsualMass{0, 100}, kFibreStress{0, 3e6},
+    kGravity{0, 100}, kSlackLength{0, 1}, kFriction{0, 2}, kToeStrain{0, 0.5};
 
 constexpr double kFarthest = 2;  // [m] of the end of a muscle or ligament from its body's middle
 
-constexpr double kMostTurn = 2 * std::numbers::pi * (1 + 1e-9);  // [rad]
+constexpr double kWholeTurn = 2 * std::numbers::pi * (1 + 1e-9);  // [rad]
 
 bool is_usual(double value, const Usual& range) {
   return value >= range.least && value <= range.most;
@@ -156,7 +156,7 @@ void doubt_turns(const Scenario& scenario, const Doubt& doubt) {
     if (motion == nullptr) continue;
     double most = 0;  // [rad]
     for (const Vec3& rotation : motion->motion.rotation) most = std::max(most, rotation.norm());
-    if (most > kMostTurn)
+    if (most > kWholeTurn)
       doubt(motion->where, fmt::format("a motion turns `{}` by {:.4g} degrees", motion->body,
                                        most * 180 / std::numbers::pi));
   }
@@ -183,9 +183,9 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
       doubt(body.where,
             fmt::format("`{}` has a density of {:.3g} kg/m^3, {:.2g} times that of water",
                         body.name, *body.density, *body.density / 1000));
-    if (body.mass && !is_usual(*body.mass, kMass))
+    if (body.mass && !is_usual(*body.mass, kUsualMass))
       doubt(body.where, fmt::format("`{}` has a mass of {:.3g} kg, usual is up to {:.0f} kg",
-                                    body.name, *body.mass, kMass.most));
+                                    body.name, *body.mass, kUsualMass.most));
     if (is_tissue && !is_usual(tissue->shear_modulus, kShearModulus))
       doubt(body.material->where,
             fmt::format("`{}` has a shear modulus of {:.3g} Pa, usual is {:g} Pa to {:g} MPa",
@@ -197,7 +197,7 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
                         1e-6 * tissue->active_stress));
   }
   for (const Muscle& muscle : scenario.muscles)
-    if (muscle.tissue.empty() && !is_usual(muscle.max_force, kForce))
+    if (muscle.tissue.empty() && !is_usual(muscle.max_force, kUsualForce))
       doubt(muscle.where, fmt::format("muscle `{}` has a largest force of {:.3g} N", muscle.name,
                                       muscle.max_force));
   for (const Ligament& ligament : scenario.ligaments)

@@ -16,7 +16,7 @@ namespace {
 /// By N_1 and N_2.
 Eigen::Vector2d gradient(const Vec3& level) { return {level[1] - level[0], level[2] - level[0]}; }
 Vec3 barycentric(const Eigen::Vector2d& way) { return {-way[0] - way[1], way[0], way[1]}; }
-double cross(const Eigen::Vector2d& v, const Eigen::Vector2d& w) {
+double cross_product(const Eigen::Vector2d& v, const Eigen::Vector2d& w) {
   return v[0] * w[1] - v[1] * w[0];
 }
 
@@ -32,7 +32,7 @@ struct Corner {
 };
 
 Corner corner_of(const Eigen::Vector2d& line, const Eigen::Vector2d& other) {
-  const double angle = cross(line, other);
+  const double angle = cross_product(line, other);
   if (angle == 0) return {Vec3::Zero(), Vec3::Zero()};
   return {barycentric(Eigen::Vector2d(other[1], -other[0]) / angle),
           barycentric(Eigen::Vector2d(-line[1], line[0]) / angle)};

@@ -11,7 +11,7 @@
 namespace articular::sim {
 namespace {
 
-Extent extent(const Mat3& triangle, const Vec3& direction) {
+Extent extent_along(const Mat3& triangle, const Vec3& direction) {
   const double p = direction.dot(triangle.col(0)), q = direction.dot(triangle.col(1)),
                r = direction.dot(triangle.col(2));
   return {std::min({p, q, r}), std::max({p, q, r})};
@@ -24,12 +24,13 @@ bool apart(const Extent& a, const Extent& b, double distance) {
 /// Seen along the triangle's normal, the face is beside it.
 bool beside(const FaceBounds& s, const FaceBounds& F, double distance) {
   for (int k = 0; k < 3; ++k)
-    if (apart(s.along[static_cast<std::size_t>(k)], extent(F.corners, s.sides.col(k)), distance))
+    if (apart(s.along[static_cast<std::size_t>(k)], extent_along(F.corners, s.sides.col(k)),
+              distance))
       return true;
   for (int k = 0; k < 3; ++k) {
     const Vec3 side =
         (F.corners.col((k + 1) % 3) - F.corners.col(k)).cross(s.normal);  // of any length
-    if (apart(extent(s.corners, side), extent(F.corners, side), distance * side.norm()))
+    if (apart(extent_along(s.corners, side), extent_along(F.corners, side), distance * side.norm()))
       return true;
   }
   return false;
@@ -46,7 +47,7 @@ FaceBounds face_bounds(const Mat3& corners) {
                           (p.col(0) - p.col(2)).squaredNorm()}));
   for (int k = 0; k < 3; ++k) {
     face.sides.col(k) = (p.col((k + 1) % 3) - p.col(k)).cross(face.normal).normalized();
-    face.along[static_cast<std::size_t>(k)] = extent(p, face.sides.col(k));
+    face.along[static_cast<std::size_t>(k)] = extent_along(p, face.sides.col(k));
   }
   return face;
 }
@@ -54,7 +55,7 @@ FaceBounds face_bounds(const Mat3& corners) {
 FaceProximity face_proximity(const FaceBounds& s, const FaceBounds& face, const DepthRange& range,
                              double distance) {
   const double plane = s.normal.dot(s.corners.col(0));
-  const Extent height = extent(face.corners, s.normal);
+  const Extent height = extent_along(face.corners, s.normal);
   if (height.low - plane > range.open + distance || beside(s, face, distance)) return {};
   return {plane - height.high <= range.reach + distance, plane - height.low > range.reach};
 }

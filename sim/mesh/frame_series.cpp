@@ -39,11 +39,11 @@ SeriesEntry entry(const std::string& pvd, const XmlAttributes& attributes) {
   return {*seconds, *index, attribute(attributes, "name"), file};
 }
 
-constexpr const char* kHead =
+constexpr const char* kSeriesHead =
     "<?xml version=\"1.0\"?>\n"
     "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
     "  <Collection>\n";
-constexpr const char* kTail = "  </Collection>\n</VTKFile>\n";
+constexpr const char* kSeriesTail = "  </Collection>\n</VTKFile>\n";
 
 constexpr const char* kContactSurface = ":contact";  // bodies' names have no colon
 
@@ -78,12 +78,12 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& pvd) {
 }
 
 SeriesFile::SeriesFile(const std::filesystem::path& pvd) : file_(pvd) {
-  file_.append(kHead, kTail);
+  file_.append(kSeriesHead, kSeriesTail);
 }
 
 SeriesFile::SeriesFile(const std::filesystem::path& pvd, const FileExtent& extent)
     : file_(pvd, extent) {
-  file_.append("", kTail);
+  file_.append("", kSeriesTail);
   for (const SeriesEntry& entry : read_series(pvd)) {
     part_number_.try_emplace(entry.part, part_number_.size());
     std::error_code gone;
@@ -104,7 +104,7 @@ void SeriesFile::append(const std::vector<SeriesEntry>& entries) {
             std::to_string(number) + "\" name=\"" + xml_text(entry.part) + "\" file=\"" +
             xml_text(entry.file) + "\"/>\n";
   }
-  file_.append(text, kTail);
+  file_.append(text, kSeriesTail);
 }
 
 std::string frame_file_name(const std::string& part, int index, const std::string& ending) {

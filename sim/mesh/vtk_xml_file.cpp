@@ -13,7 +13,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr std::uint64_t kMostNodes = 1ULL << 31;  // nodes have numbers of 32 bits
+constexpr std::uint64_t kMostPoints = 1ULL << 31;  // nodes have numbers of 32 bits
 constexpr std::uint64_t kMostComponents = 1000;
 constexpr std::size_t kMostFields = 1000;  // each is looked for among all
 
@@ -239,7 +239,7 @@ class VtkXmlReader {
 
   void add(const Piece& piece, VtkXmlBudget& budget, VtkXmlContent& content) const {
     const auto first_point = static_cast<std::int64_t>(content.points.size() / 3);
-    if (piece.num_points >= kMostNodes - static_cast<std::uint64_t>(first_point))
+    if (piece.num_points >= kMostPoints - static_cast<std::uint64_t>(first_point))
       fail("it has more points than 32 bits can number");
     if (piece.num_points > 0) {
       const Numbers points = numbers(piece, "Points", "", budget);

@@ -17,7 +17,7 @@ struct FreeParser {
 using Parser = std::unique_ptr<XML_ParserStruct, FreeParser>;
 
 /// What expat's callbacks are given. No exception crosses them: it is kept and thrown behind them.
-struct Reading {
+struct EventReading {
   const XmlEvents& events;
   XML_Parser parser;
   std::exception_ptr thrown{};
@@ -35,10 +35,10 @@ struct Reading {
   }
 };
 
-Reading& reading(void* data) { return *static_cast<Reading*>(data); }
+EventReading& reading(void* data) { return *static_cast<EventReading*>(data); }
 
 void on_start(void* data, const XML_Char* name, const XML_Char** pairs) {
-  Reading& r = reading(data);
+  EventReading& r = reading(data);
   r.run([&] {
     if (!r.events.start) return XmlNext::Continue;
     XmlAttributes attributes;
@@ -49,7 +49,7 @@ void on_start(void* data, const XML_Char* name, const XML_Char** pairs) {
 }
 
 void on_text(void* data, const XML_Char* characters, int count) {
-  Reading& r = reading(data);
+  EventReading& r = reading(data);
   r.run([&] {
     if (r.events.text) r.events.text(std::string_view(characters, static_cast<std::size_t>(count)));
     return XmlNext::Continue;
@@ -57,7 +57,7 @@ void on_text(void* data, const XML_Char* characters, int count) {
 }
 
 void on_end(void* data, const XML_Char* name) {
-  Reading& r = reading(data);
+  EventReading& r = reading(data);
   r.run([&] {
     if (r.events.end) r.events.end(name);
     return XmlNext::Continue;
@@ -65,7 +65,7 @@ void on_end(void* data, const XML_Char* name) {
 }
 
 void on_doctype(void* data, const XML_Char*, const XML_Char*, const XML_Char*, int) {
-  Reading& r = reading(data);
+  EventReading& r = reading(data);
   r.has_doctype = true;
   XML_StopParser(r.parser, XML_FALSE);
 }
@@ -82,7 +82,7 @@ void read_xml(const std::string& file, std::string_view format, std::string_view
               const XmlEvents& events) {
   const Parser parser(XML_ParserCreate(nullptr));
   if (!parser) throw std::bad_alloc();
-  Reading state{events, parser.get()};
+  EventReading state{events, parser.get()};
   XML_SetUserData(parser.get(), &state);
   XML_SetElementHandler(parser.get(), on_start, on_end);
   XML_SetCharacterDataHandler(parser.get(), on_text);

@@ -33,9 +33,9 @@ void put_vector(const Eigen::VectorXd& values, std::string& bytes) {
 struct Torn {};
 
 /// Takes values off the front of a file's bytes.
-class Reader {
+class ByteReader {
  public:
-  explicit Reader(std::string_view bytes) : rest_(bytes) {}
+  explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
   template <class T>
   void get(T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -140,7 +140,7 @@ Checkpoint parsed(const std::string& bytes, const std::string& fingerprint,
   std::uint64_t stored = 0;
   std::memcpy(&stored, bytes.data() + body, sizeof(stored));
   if (stored != hash_bytes(std::string_view(bytes).substr(0, body))) throw Torn{};
-  Reader reader(std::string_view(bytes).substr(0, body));
+  ByteReader reader(std::string_view(bytes).substr(0, body));
   if (reader.take(std::strlen(kMagic)) != kMagic) throw Torn{};
   if (reader.take(fingerprint.size()) != fingerprint)
     throw InputError(

@@ -17,8 +17,8 @@ constexpr double kTissueNode = 3 * kVector + 8;             // place, two vector
 constexpr double kTetrahedron = 4 * 4.0 + 5 + (6 + 3) * 8;  // corners, type and offset; fields
 constexpr double kRigidNode = 2 * kVector;
 constexpr double kSurfaceNode = 2 * kVector + 8;
-constexpr double kTriangle = 3 * 4.0 + 4;
-constexpr double kContactFace = kTriangle + 2 * 8;
+constexpr double kTriangleBytes = 3 * 4.0 + 4;
+constexpr double kContactFaceBytes = kTriangleBytes + 2 * 8;
 constexpr double kLine = 2 * 3 * 8.0 + 4 * 8 + 16;
 constexpr double kFile = 4e3;   // of XML about the arrays
 constexpr double kNumber = 15;  // characters of "-1.23456789e-05,"
@@ -34,12 +34,12 @@ double bytes_of(const BodyModel& body, const Model& model, bool contact_surface)
     const RigidBody& rigid = model.rigid_bodies[static_cast<std::size_t>(body.rigid)];
     if (!rigid.unknown && !rigid.motion) return 0;  // written once
     bytes += (kRigidNode + velocity) * static_cast<double>(body.X.cols()) +
-             kTriangle * static_cast<double>(body.triangles.cols());
+             kTriangleBytes * static_cast<double>(body.triangles.cols());
   }
   if (contact_surface && body.collider) {
     const auto faces = static_cast<double>(body.collider->surface.faces.cols());
     const double nodes = 2 + faces / 2;  // of a closed surface [Euler]
-    bytes += kFile + kSurfaceNode * nodes + kContactFace * faces;
+    bytes += kFile + kSurfaceNode * nodes + kContactFaceBytes * faces;
   }
   return bytes;
 }

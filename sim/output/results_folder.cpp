@@ -25,8 +25,6 @@ namespace fs = std::filesystem;
                     std::system_category().message(error));
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 /// BODY_000123.vtu or .vtp, also half-written.
 bool is_frame(const fs::path& file) {
   std::string name = file.filename().string();
@@ -36,7 +34,7 @@ bool is_frame(const fs::path& file) {
   const std::size_t underscore = stem.rfind('_');
   return underscore != std::string::npos && stem.size() - underscore > 6 &&
          std::all_of(stem.begin() + static_cast<std::ptrdiff_t>(underscore) + 1, stem.end(),
-                     is_digit);
+                     [](char c) { return c >= '0' && c <= '9'; });
 }
 
 /// None where the folder is not there.

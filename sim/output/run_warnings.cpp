@@ -20,7 +20,7 @@ namespace {
 /// wrong, and so is what stands on it.
 constexpr double kMuchLost = 0.05, kMuchMade = 0.01;
 /// Of the depth to which contact is followed: half an element, where it is a tissue's.
-constexpr double kDeep = 0.5;
+constexpr double kDeepOverlap = 0.5;
 /// Of rigid bodies that are both driven or fixed: what meets as drawn overlaps by rounded numbers
 /// [m].
 constexpr double kDrivenDepth = 1e-6;
@@ -28,7 +28,7 @@ constexpr double kDrivenDepth = 1e-6;
 /// at ν = 0.3 (fem/THEORY.md).
 constexpr double kCrushed = 0.1;
 /// Of |F − I|: a beam whose end is turned by 20 degrees is off by some per cent.
-constexpr double kSmallMotion = 0.5;
+constexpr double kSmallGradient = 0.5;
 /// Of the smaller element: points so deep with no force at all lie between the nodes that would
 /// carry it.
 constexpr double kMissedDepth = 0.02;
@@ -36,7 +36,7 @@ constexpr double kMissedDepth = 0.02;
 /// warnings.
 constexpr std::size_t kMostNamed = 4;
 
-const std::string& name_of(const Model& model, int body) {
+const std::string& name_of_body(const Model& model, int body) {
   return model.bodies[static_cast<std::size_t>(body)].name;
 }
 
@@ -108,12 +108,12 @@ void warn_of_small_strain_laws(const Model& model, const Configuration& now,
   for (const Tissue& tissue : model.tissues) {
     if (tissue.bears_turning) continue;
     const double gradient = largest_displacement_gradient(tissue, now);
-    if (gradient > kSmallMotion)
+    if (gradient > kSmallGradient)
       warnings.push_back(fmt::format(
           "tissue `{}` has moved too far for the law \"linear\", which takes a rotation for a "
           "strain: |F - I| is {:.2g} in an element, and the law holds for small motion (less than "
           "{}); take \"corotated\" or \"neo-hookean\"",
-          name_of(model, tissue.body), gradient, kSmallMotion));
+          name_of_body(model, tissue.body), gradient, kSmallGradient));
   }
 }
 
@@ -156,8 +156,8 @@ void warn_of_unresolved_contacts(const Model& model, const Stepper& stepper,
     warnings.push_back(fmt::format(
         "the contact of `{}` and `{}` is not resolved at the end: {} of the nodes of `{}` carry "
         "it, and the force may be far off; expected smaller elements where they touch",
-        name_of(model, pair.a), name_of(model, pair.b), found.num_nodes,
-        name_of(model, pair.reversed ? pair.b : pair.a)));
+        name_of_body(model, pair.a), name_of_body(model, pair.b), found.num_nodes,
+        name_of_body(model, pair.reversed ? pair.b : pair.a)));
   }
   if (count > kMostNamed)
     warnings.push_back(
@@ -167,9 +167,9 @@ void warn_of_unresolved_contacts(const Model& model, const Stepper& stepper,
 void warn_of_squeezed_elements(const Model& model, const RunExtrema& extrema,
                                std::vector<std::string>& warnings) {
   if (extrema.volume_ratio >= kCrushed) return;
-  const std::string element =
-      fmt::format("element {} of tissue `{}`", extrema.element,
-                  name_of(model, model.tissues[static_cast<std::size_t>(extrema.tissue)].body));
+  const std::string element = fmt::format(
+      "element {} of tissue `{}`", extrema.element,
+      name_of_body(model, model.tissues[static_cast<std::size_t>(extrema.tissue)].body));
   if (extrema.volume_ratio <= 0)
     warnings.push_back(
         fmt::format("{} was inside out at t = {:.4g} s (volume ratio {:.3g}): it was "
@@ -192,7 +192,7 @@ void warn_of_deep_contacts(const Model& model, const RunExtrema& extrema,
     return fmt::format("`{}` and `{}`", name_of(model, contact.a), name_of(model, contact.b));
   };
   const auto& [overlap, layer, driven] = std::tie(extrema.overlap, extrema.layer, extrema.driven);
-  if (overlap.value > kDeep)
+  if (overlap.value > kDeepOverlap)
     warnings.push_back(fmt::format(
         "{} lay in each other at t = {:.4g} s, to {:.1f} times the depth to which contact is "
         "followed: one may go through the other",

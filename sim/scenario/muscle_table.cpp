@@ -15,9 +15,10 @@ namespace {
 constexpr std::string_view kOptimalLength = "optimal_length_mm";
 
 /// The columns of the table and the fields of one of its rows.
-class Row {
+class TableRow {
  public:
-  Row(const std::vector<std::string>& columns, const CsvRow& row) : columns_(columns), row_(row) {}
+  TableRow(const std::vector<std::string>& columns, const CsvRow& row)
+      : columns_(columns), row_(row) {}
 
   const std::string& text(std::string_view column) const {
     const auto at = std::find(columns_.begin(), columns_.end(), column) - columns_.begin();
@@ -56,7 +57,7 @@ class Row {
   const CsvRow& row_;
 };
 
-MuscleRow read_row(const Row& row, const Location& where) {
+MuscleRow read_row(const TableRow& row, const Location& where) {
   MuscleRow muscle;
   muscle.where = where;
   muscle.id = row.text("id");
@@ -115,7 +116,7 @@ std::vector<MuscleRow> read_muscle_table(const std::filesystem::path& file,
   const CsvTable table = read_csv(file, "the muscle table", reference, check_columns);
   std::vector<MuscleRow> rows;
   for (const CsvRow& row : table.rows)
-    rows.push_back(read_row(Row(table.columns.fields, row), row.where));
+    rows.push_back(read_row(TableRow(table.columns.fields, row), row.where));
   return rows;
 }
 

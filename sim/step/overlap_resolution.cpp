@@ -17,7 +17,7 @@ namespace {
 /// Of the allowance, in elements at the surface.
 constexpr double kStepOfElement = 0.25;
 constexpr int kMostHalvings = 3;
-constexpr double kRoundOff = 1e-9;
+constexpr double kLastRoundOff = 1e-9;
 /// Of an element: surfaces that lie flush are no deeper in each other.
 constexpr double kFlush = 1e-6;
 /// Solutions in pseudo-time for one step.
@@ -119,7 +119,7 @@ class OverlapResolver {
     const Eigen::VectorXd start = moving;
     double done = 0, step = 1.0 / num_steps();
     for (int halvings = 0; done < 1;) {
-      const double target = done + step > 1 - kRoundOff ? 1 : done + step;
+      const double target = done + step > 1 - kLastRoundOff ? 1 : done + step;
       if (relax(1 - target, moving)) {
         done = target;
       } else if (++halvings > kMostHalvings) {

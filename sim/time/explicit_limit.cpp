@@ -118,7 +118,7 @@ class ScaledRate {
 
 /// Eigenvalues of the projection on a Krylov space, with a vector to begin the next one with.
 struct RitzValues {
-  Rates rates;
+  MotionRates rates;
   VectorXd restart;
 };
 
@@ -178,7 +178,7 @@ class Arnoldi {
   int size_ = 0;
 };
 
-Rates moving_rates(ScaledRate& rate, double accuracy) {
+MotionRates moving_rates(ScaledRate& rate, double accuracy) {
   constexpr int kCheck = 10, kMostProducts = 1000;
   std::mt19937 random(2);  // NOLINT(cert-msc51-cpp): the same each time
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -220,9 +220,9 @@ double stable_length(std::span<const double> c, std::complex<double> direction) 
 
 }  // namespace
 
-Rates fastest_rates(const Model& model, Dynamics& dynamics, const VectorXd& y, double t,
-                    double accuracy) {
-  Rates rates;
+MotionRates fastest_rates(const Model& model, Dynamics& dynamics, const VectorXd& y, double t,
+                          double accuracy) {
+  MotionRates rates;
   if (model.layout.num_unknown_blocks() > 0) {
     ScaledRate rate(model, dynamics, y, t);
     rates = moving_rates(rate, accuracy);

@@ -9,7 +9,7 @@
 /// How long the steps of the explicit scheme can be.
 namespace articular::sim {
 
-using Rates = std::vector<std::complex<double>>;  // λ [1/s]: motion goes as exp(λt)
+using MotionRates = std::vector<std::complex<double>>;  // λ [1/s]: motion goes as exp(λt)
 
 /// The eigenvalues λ of ∂rate/∂y that bound explicit steps, fastest first: ±iω of what swings
 /// undamped, −1/τ of what creeps. Found by Arnoldi's iteration with products by differences of the
@@ -19,8 +19,8 @@ using Rates = std::vector<std::complex<double>>;  // λ [1/s]: motion goes as ex
 /// @param y  the state to linearise at; `dynamics` is left there. At a kink (surfaces that just
 ///           touch, a ligament that is just taut) it gets the mean of both sides
 /// @param accuracy  relative, of the step that follows from them. They come from below
-Rates fastest_rates(const Model& model, Dynamics& dynamics, const Eigen::VectorXd& y, double t,
-                    double accuracy = 1e-3);
+MotionRates fastest_rates(const Model& model, Dynamics& dynamics, const Eigen::VectorXd& y,
+                          double t, double accuracy = 1e-3);
 
 /// What a step of an explicit Runge–Kutta scheme multiplies exp(λt) by: R(z) = Σ c_k zᵏ of z = hλ,
 /// c_k = bᵀ Aᵏ⁻¹ 1 [Hairer 1996, IV.2]. These are its c_k, from the scheme's own Butcher table.

@@ -5,7 +5,7 @@
 namespace articular::sim {
 namespace {
 
-struct Cut {
+struct PlaneCut {
   int edge = -1;
   double t = 0;
   Vec3 x = Vec3::Zero();
@@ -13,7 +13,7 @@ struct Cut {
 
 /// Where the plane cuts a triangle's edges other than `entry`; two of them where there is none.
 int cuts_of(const PlacedSurface& surface, const Vec3& origin, const Vec3& normal, int face,
-            int entry, std::array<Cut, 3>& cuts) {
+            int entry, std::array<PlaneCut, 3>& cuts) {
   int count = 0;
   for (int k = 0; k < 3; ++k) {
     const int e = surface.surface->edge_of_face(k, face);
@@ -40,14 +40,14 @@ WalkResult walk(const PlacedSurface& surface, int surface_index, const ChordPlan
   Vec3 last = start.at;
   const std::size_t most = surface.surface->edges.size();
   while (crossings.size() < most) {
-    std::array<Cut, 3> cuts;
+    std::array<PlaneCut, 3> cuts;
     const int count = cuts_of(surface, plane.from, normal, face, entry, cuts);
     if (count == 0) return result;
-    const auto ahead = [&](const Cut& cut) {
+    const auto ahead = [&](const PlaneCut& cut) {
       return (cut.x - last).dot(plane.up + kForward * plane.along);
     };
     // From an edge that the plane only touches there are two ways too, or none.
-    const Cut cut = count > 1 && ahead(cuts[1]) > ahead(cuts[0]) ? cuts[1] : cuts[0];
+    const PlaneCut cut = count > 1 && ahead(cuts[1]) > ahead(cuts[0]) ? cuts[1] : cuts[0];
     const double height = (cut.x - plane.from).dot(plane.up);
     if (height <= 0) {  // the chord comes out of this face
       const double drop = (last - plane.from).dot(plane.up) - height;

@@ -8,10 +8,10 @@ namespace articular::sim {
 namespace {
 
 constexpr double kLow = kEnd, kHigh = 1 - kEnd;
-constexpr int kMostIterations = 300;
+constexpr int kMostStringIterations = 300;
 /// ∂L/∂t by the length of the edge. Below the first Newton's method converges fast, the second is
 /// round-off.
-constexpr double kNear = 1e-6, kRoundOff = 1e-15;
+constexpr double kNear = 1e-6, kStringRoundOff = 1e-15;
 
 /// Points, directions and length for the parameters t. @return the length
 double lay(const std::vector<double>& t, StringShape& s) {
@@ -172,7 +172,7 @@ void pull_taut(std::span<const PlacedSurface> surfaces, const Vec3& from, const 
   }
   lay(s.t, s);
   double last = find_gradient(s);
-  for (int k = 0; k < kMostIterations && last > kRoundOff; ++k) {
+  for (int k = 0; k < kMostStringIterations && last > kStringRoundOff; ++k) {
     ++s.iterations;
     const bool near = last < kNear;
     find_step(s);

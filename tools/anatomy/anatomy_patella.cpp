@@ -46,10 +46,10 @@ double ridge_back() {
 }
 
 /// From the square [-1, 1]² to the outline of the cartilage, between a rectangle and an ellipse.
-constexpr double kRound = 0.7;
+constexpr double kRoundPatella = 0.7;
 Vec2 outline_point(double u, double v) {
-  return {kHalfWidth * u * std::sqrt(1 - kRound * v * v / 2),
-          kMiddleZ + kHalfHeight * v * std::sqrt(1 - kRound * u * u / 2)};
+  return {kHalfWidth * u * std::sqrt(1 - kRoundPatella * v * v / 2),
+          kMiddleZ + kHalfHeight * v * std::sqrt(1 - kRoundPatella * u * u / 2)};
 }
 
 /// And back; clamped where it would be far outside.
@@ -58,9 +58,9 @@ Vec2 outline_place(double x, double z) {
   double u = a, v = b;
   for (int k = 0; k < 20; ++k) {
     const double bounded_v = std::clamp(v, -1.3, 1.3);
-    u = a / std::sqrt(1 - kRound * bounded_v * bounded_v / 2);
+    u = a / std::sqrt(1 - kRoundPatella * bounded_v * bounded_v / 2);
     const double bounded_u = std::clamp(u, -1.3, 1.3);
-    v = b / std::sqrt(1 - kRound * bounded_u * bounded_u / 2);
+    v = b / std::sqrt(1 - kRoundPatella * bounded_u * bounded_u / 2);
   }
   return {u, v};
 }

@@ -114,7 +114,7 @@ std::string implicit_words(const Bar& bar, double limit) {
 void print_row(const Bar& bar) {
   const Model model = build_model(scenario_of(bar));
   Dynamics dynamics(model);
-  const Rates rates = fastest_rates(model, dynamics, initial_state(model), 0, 1e-4);
+  const MotionRates rates = fastest_rates(model, dynamics, initial_state(model), 0, 1e-4);
   const double limit = longest_explicit_step(rates), found = step_found(model, limit),
                chosen = step_chosen(bar, limit);
   const std::complex<double>& fastest = rates.front();

@@ -37,11 +37,11 @@ class ElasticityTest : public testing::TestWithParam<BasicLaw> {
     return {mesh.X, mesh.tets, material_of(nu)};
   }
 };
-INSTANTIATE_TEST_SUITE_P(All, ElasticityTest, testing::ValuesIn(basic_laws()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, ElasticityTest, testing::ValuesIn(basic_laws()), name_of_law);
 
 class ObjectiveElasticityTest : public ElasticityTest {};
 INSTANTIATE_TEST_SUITE_P(All, ObjectiveElasticityTest, testing::ValuesIn(objective_laws()),
-                         name_of);
+                         name_of_law);
 
 Positions internal_force(const Elasticity& elasticity, const Positions& x) {
   Positions f = Positions::Zero(3, x.cols());

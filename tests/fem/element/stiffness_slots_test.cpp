@@ -27,7 +27,7 @@ class StiffnessSlotsTest : public testing::TestWithParam<BasicLaw> {
  protected:
   static AnyMaterial material() { return GetParam().make(kE, kNu); }
 };
-INSTANTIATE_TEST_SUITE_P(All, StiffnessSlotsTest, testing::ValuesIn(basic_laws()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, StiffnessSlotsTest, testing::ValuesIn(basic_laws()), name_of_law);
 
 Positions shaken(const TetMesh& mesh) {
   const double cell = (mesh.X.col(mesh.tets(1, 0)) - mesh.X.col(mesh.tets(0, 0))).norm();

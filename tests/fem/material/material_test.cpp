@@ -55,11 +55,11 @@ class HyperelasticTest : public testing::TestWithParam<BasicLaw> {
   AnyMaterial material_ = GetParam().make(kE, kNu);
   PointLaw law_{material_, {}, 0, 0};
 };
-INSTANTIATE_TEST_SUITE_P(All, HyperelasticTest, testing::ValuesIn(basic_laws()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, HyperelasticTest, testing::ValuesIn(basic_laws()), name_of_law);
 
 /// Those that hold for finite rotations.
 class ObjectiveTest : public HyperelasticTest {};
-INSTANTIATE_TEST_SUITE_P(All, ObjectiveTest, testing::ValuesIn(objective_laws()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, ObjectiveTest, testing::ValuesIn(objective_laws()), name_of_law);
 
 TEST_P(HyperelasticTest, RestStateHasNoEnergyAndNoStress) {
   EXPECT_LE(std::abs(energy_density(Mat3::Identity())), kIdentity * kE);

@@ -117,7 +117,7 @@ class ElementKernelsTest : public testing::TestWithParam<BasicLaw> {
     return result;
   }
 };
-INSTANTIATE_TEST_SUITE_P(All, ElementKernelsTest, testing::ValuesIn(batched_laws()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, ElementKernelsTest, testing::ValuesIn(batched_laws()), name_of_law);
 
 void expect_scalar_results(const Soup& soup, const AnyMaterial& material, InstructionSet set,
                            double tolerance) {

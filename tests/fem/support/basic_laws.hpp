@@ -30,6 +30,8 @@ inline std::vector<BasicLaw> basic_laws() {
   return laws;
 }
 
-inline std::string name_of(const testing::TestParamInfo<BasicLaw>& info) { return info.param.name; }
+inline std::string name_of_law(const testing::TestParamInfo<BasicLaw>& info) {
+  return info.param.name;
+}
 
 }  // namespace articular::fem

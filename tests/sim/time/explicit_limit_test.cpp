@@ -22,10 +22,10 @@ TEST(ExplicitLimit, TheBoundaryIsThatOfBogackiAndShampinesMethod) {
   const std::vector<double> expected = {1, 1, 1.0 / 2, 1.0 / 6, 0};
   ASSERT_EQ(c.size(), expected.size());
   for (std::size_t k = 0; k < c.size(); ++k) EXPECT_NEAR(c[k], expected[k], 1e-15) << k;
-  EXPECT_NEAR(longest_explicit_step(Rates{{0, 50}}), kRoot3 / 50, 1e-9);
-  const double real = 10 * longest_explicit_step(Rates{{-10, 0}});
+  EXPECT_NEAR(longest_explicit_step(MotionRates{{0, 50}}), kRoot3 / 50, 1e-9);
+  const double real = 10 * longest_explicit_step(MotionRates{{-10, 0}});
   EXPECT_NEAR(1 - real + real * real / 2 - real * real * real / 6, -1, 1e-9);
-  EXPECT_TRUE(std::isinf(longest_explicit_step(Rates{{3, 0}, {0, 0}})));
+  EXPECT_TRUE(std::isinf(longest_explicit_step(MotionRates{{3, 0}, {0, 0}})));
 }
 
 /// A mass that hangs on a taut band: ω² = k/m along it.
@@ -41,7 +41,7 @@ Scenario hanging_mass() {
   return s;
 }
 
-Rates rates_of(const Scenario& s) {
+MotionRates rates_of(const Scenario& s) {
   const Model model = build_model(s);
   Dynamics dynamics(model);
   return fastest_rates(model, dynamics, initial_state(model), 0, 1e-6);
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(ExplicitLimit, EachElement,
 
 TEST_P(EachElement, TheHighestFrequencyIsThatOfTheAssembledMatrices) {
   const double omega = largest_frequency(build_model(bar(GetParam())));
-  const Rates rates = rates_of(bar(GetParam()));
+  const MotionRates rates = rates_of(bar(GetParam()));
   EXPECT_NEAR(std::abs(rates[0]), omega, 1e-4 * omega);
   EXPECT_LT(std::abs(rates[0].real()), 1e-4 * omega);
 }
@@ -116,7 +116,7 @@ TEST_P(EachElement, StepsGrowEnergyBeyondTheLimitAndNotBelow) {
 TEST(ExplicitLimit, DampersBoundTheStepToo) {
   const Scenario damped = bar(TissueMaterial::Element::Plain, 5e-3);
   const Model model = build_model(damped);
-  const Rates rates = rates_of(damped);
+  const MotionRates rates = rates_of(damped);
   EXPECT_LT(rates[0].real(), -0.99 * std::abs(rates[0]));
   const double limit = longest_explicit_step(rates);
   EXPECT_LT(limit, 0.5 * longest_explicit_step(rates_of(bar(TissueMaterial::Element::Plain))));
