@@ -23,9 +23,14 @@ Vec6 driven_part(const RigidBody& rigid, const Pose& pose, const RigidVelocity& 
   return part;
 }
 
+/// Of bounded size: they need no memory of the heap, and none of the code for large matrices.
+using Axes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
+using FreeVelocities = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+using FreeMass = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+
 /// One unit vector a free freedom of translation (k = 0) or rotation (k = 1).
-Eigen::Matrix3Xd free_axes(const Hold& hold, std::size_t k) {
-  Eigen::Matrix3Xd axes(3, 0);
+Axes free_axes(const Hold& hold, std::size_t k) {
+  Axes axes(3, 0);
   for (std::size_t i = 0; i < 3; ++i) {
     if (hold.held[3 * k + i]) continue;
     axes.conservativeResize(Eigen::NoChange, axes.cols() + 1);
@@ -37,7 +42,7 @@ Eigen::Matrix3Xd free_axes(const Hold& hold, std::size_t k) {
 }  // namespace
 
 Mat3 free_projection(const Hold& hold, std::size_t k) {
-  const Eigen::Matrix3Xd axes = free_axes(hold, k);
+  const Axes axes = free_axes(hold, k);
   return axes * axes.transpose();
 }
 
@@ -71,13 +76,13 @@ Vec6 rigid_acceleration(const RigidBody& rigid, const Pose& pose, const RigidVel
   const Vec6 drive = force - gyroscopic_force(rigid, pose, velocity.angular) -
                      mass * driven_part(rigid, pose, velocity, at);
   if (!rigid.hold) return mass.llt().solve(drive);
-  const Eigen::Matrix3Xd shift = free_axes(*rigid.hold, 0), turn = free_axes(*rigid.hold, 1);
+  const Axes shift = free_axes(*rigid.hold, 0), turn = free_axes(*rigid.hold, 1);
   const Eigen::Index num_free = shift.cols() + turn.cols();
   if (num_free == 0) return Vec6::Zero();
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(6, num_free);
+  FreeVelocities basis = FreeVelocities::Zero(6, num_free);
   basis.topLeftCorner(3, shift.cols()) = shift;
   basis.bottomRightCorner(3, turn.cols()) = turn;
-  const Eigen::MatrixXd free_mass = basis.transpose() * mass * basis;
+  const FreeMass free_mass = basis.transpose() * mass * basis;
   return basis * free_mass.llt().solve(basis.transpose() * drive);
 }
 
