@@ -1,9 +1,10 @@
 // Rigid bodies with a layer between them that stiffens as it is pressed flat.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <vector>
 
+#include "sim/build/build_model.hpp"
 #include "sim/contact/contact_summary.hpp"
 #include "sim/model/tissue.hpp"
 #include "sim/output/run_warnings.hpp"
