@@ -134,6 +134,7 @@ Collider rigid_collider(const Body& body, const BodyGeometry& geometry, std::siz
     collider.layer_compliance =
         body.layer->thickness /
         constrained_modulus(body.layer->young_modulus, body.layer->poisson_ratio);
+    collider.layer_stiffens = body.layer->law == Layer::Law::Logarithmic;
   }
   collider.compliance.setConstant(collider.X.cols(), collider.mean_compliance);
   return collider;

@@ -40,11 +40,12 @@ struct Side {
   bool is_tissue = false, is_fixed = false;
   double softening = 1;   // what the compliance is to be multiplied by for that: 1 of rigid bodies
   double compliance = 0;  // mean one of the surface, softened [m/Pa]
-  double layer = 0;       // compliance of the layer on it [m/Pa]
-  double size = 0;        // mean height of the elements at the surface [m]
-  double mean_face_area = 0;  // [m²]
-  bool is_fine = false;       // tissue whose surface can tell where within a face it is pressed
-  double modulus = 0;         // of a punch, of tissue [Pa]
+  double layer = 0;       // compliance of the layer on it, at no depth [m/Pa]
+  LogarithmicLayer logarithmic;  // of that layer, where it stiffens
+  double size = 0;               // mean height of the elements at the surface [m]
+  double mean_face_area = 0;     // [m²]
+  bool is_fine = false;          // tissue whose surface can tell where within a face it is pressed
+  double modulus = 0;            // of a punch, of tissue [Pa]
 };
 
 /// Of the elements at the surface: what friction at 0.7 of its limit creeps in a second, or in a
@@ -102,6 +103,9 @@ Side side_of(const Model& model, const BodyModel& body) {
   }
   side.compliance = side.softening * body.collider->mean_compliance;
   side.layer = body.collider->layer_compliance;
+  if (body.collider->layer_stiffens)
+    side.logarithmic = {body.collider->layer_thickness / side.layer,
+                        body.collider->layer_thickness};
   side.size = body.collider->size;
   side.mean_face_area = mean_face_area(*body.collider);
   side.is_fine = side.is_tissue && has_nodes_between_creases(*body.collider);
@@ -146,9 +150,12 @@ struct PairMaker {
     const Side& nonmortar = contact.reversed ? B : A;
     // In time two rigid bodies count depths point by point: there is no tissue whose facets
     // averages let give way, and where edges slip off each other stiff contact would make energy.
-    const bool is_firm =
-        is_static || (nonmortar.is_tissue && response == Scenario::Response::Averaged);
-    contact.averaged = is_static || (is_firm && nonmortar.is_fine);
+    // A layer that stiffens has averages always: as soft as it is at its edges it makes none, and
+    // there is no polynomial of the depth to be integrated exactly over a patch.
+    contact.logarithmic = {A.logarithmic, B.logarithmic};
+    const bool is_firm = is_static || contact.stiffens() ||
+                         (nonmortar.is_tissue && response == Scenario::Response::Averaged);
+    contact.averaged = is_static || contact.stiffens() || (is_firm && nonmortar.is_fine);
     contact.share = a == b ? 0.5 : 1;
     contact.factor = is_firm ? factor_of_averages : factor_of_points;
     contact.soft_factor = kSoftFactor;

@@ -73,8 +73,8 @@ const GroupChanges& ContactForecast::foresee(ContactResponse& response,
       double way = 0;  // A δg
       for (const int block : gradient_.blocks())
         way += gradient_.at(block).dot(correction.segment<3>(3 * block));
-      const double measure = pair_state->measure[a], k = pair_state->stiffness(a);
-      const bool presses = pair_state->linear_pressure(a) + k * way / measure > 0;
+      const double measure = pair_state->measure[a], k = pair_state->slope(a);
+      const bool presses = pair_state->presses_after(a, way / measure);
       if (presses != pair_state->presses_in_matrix(a)) note(presses ? k : -k, measure);
       pair_state->foreseen[static_cast<std::size_t>(a)] =
           presses ? Foreseen::Presses : Foreseen::IsOpen;
@@ -100,7 +100,7 @@ void ContactForecast::add_force(const ContactResponse& response, const Configura
     for (const int a : pair_state->groups) {
       if (!is_taken_otherwise(*pair_state, a)) continue;
       gather(*pair_state, a, configuration);
-      const double p = pair_state->linear_pressure(a);
+      const double p = pair_state->signed_pressure(a);
       for (const int block : gradient_.blocks())
         f.segment<3>(3 * block) +=
             (pair_state->presses_in_matrix(a) ? -p : p) * gradient_.at(block);

@@ -5,6 +5,8 @@
 namespace articular::sim {
 
 double group_energy(const ContactPairState& pair_state, int group) {
+  if (!pair_state.on_layers.empty())
+    return pair_state.energy_density(group) * pair_state.measure[group];
   if (!(pair_state.pressure[group] > 0)) return 0;
   const double damping =
       pair_state.drag.empty() ? 0 : pair_state.drag[static_cast<std::size_t>(group)].pressure;
@@ -65,7 +67,7 @@ PatchSum energy_sum(const ContactPairState& pair_state, const ContactPairState::
   PatchSum sum = mean_depths(pair_state, entry, groups, p);
   for (int i = 0; i < 3; ++i) {
     const int group = groups(i, entry.triangle);
-    sum.m[i] -= p[i] * p[i] / (2 * pair_state.stiffness(group)) * pair_state.measure_slope(group);
+    sum.m[i] -= pair_state.energy_density(group) * pair_state.measure_slope(group);
   }
   return sum;
 }

@@ -33,20 +33,38 @@ struct ContactPairState {
   std::vector<int> groups;                         // that have an area
   Eigen::VectorXd firm_stiffness, soft_stiffness;  // of the groups [Pa/m]
   bool is_soft = false;                            // which of them counts now
-  double stiffness(int group) const {              // k [Pa/m]
+  double stiffness(int group) const {              // k [Pa/m], at no depth
     return (is_soft ? soft_stiffness : firm_stiffness)[group];
   }
   /// ∂A/∂W where depths are averaged; 0 where a group meets nothing.
   double measure_slope(int group) const {
     return pair.averaged && area[group] > 0 ? 0.5 * measure[group] / area[group] : 0;
   }
-  /// λ + k g [Pa]: negative where surfaces are apart.
-  double linear_pressure(int group) const {
+  /// By group, of a pair with a layer that stiffens; else empty, and p = λ + k g.
+  std::vector<PressedLayers> on_layers;
+  /// λ + k g [Pa], or p(g) of layers: negative where surfaces are apart, k g.
+  double signed_pressure(int group) const {
+    if (!on_layers.empty()) return on_layers[static_cast<std::size_t>(group)].pressure;
     const double lambda = multiplier.size() > 0 ? multiplier[group] : 0;
     return lambda + stiffness(group) * depth[group];
   }
-  /// <λ + k g> [Pa]: the pressure without that of damping.
-  double penalty(int group) const { return std::max(0.0, linear_pressure(group)); }
+  /// dp/dg [Pa/m], where surfaces are apart that at no depth.
+  double slope(int group) const {
+    return on_layers.empty() ? stiffness(group) : on_layers[static_cast<std::size_t>(group)].slope;
+  }
+  /// Whether a group presses after a change of its depth [m].
+  bool presses_after(int group, double change) const {
+    return on_layers.empty() ? signed_pressure(group) + stiffness(group) * change > 0
+                             : depth[group] + change > 0;
+  }
+  /// The signed pressure where it presses, else 0 [Pa]: p without that of damping.
+  double penalty(int group) const { return std::max(0.0, signed_pressure(group)); }
+  /// e with p = de/dg: p²/2k, or that of layers [J/m²].
+  double energy_density(int group) const {
+    if (!on_layers.empty()) return on_layers[static_cast<std::size_t>(group)].energy;
+    const double p = penalty(group);
+    return p * p / (2 * stiffness(group));
+  }
   /// What Newton's matrix takes groups to do: what they do now, or what was foreseen of them.
   enum class Foreseen : char { AsNow, Presses, IsOpen };
   std::vector<Foreseen> foreseen;  // by group, see contact_forecast.hpp; empty: all as now
@@ -89,7 +107,8 @@ Mat3 corners_of(const Configuration& configuration, const Collider& collider, in
 /// triangle.
 PatchSum mean_depths(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
                      const Eigen::Matrix3Xi& groups, const Vec3& p);
-/// That of the energy's change; an average's is E_a = A_a p_a²/2k_a with p_a = λ_a + k_a g_a.
+/// That of the energy's change; an average's is E_a = A_a e_a, e_a = p_a²/2k_a with p_a = λ_a + k_a
+/// g_a.
 PatchSum energy_sum(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
                     const Eigen::Matrix3Xi& groups);
 /// The same with the pressure of damping.

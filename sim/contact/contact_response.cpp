@@ -29,6 +29,7 @@ ContactPairState& ContactResponse::pair_state_of(const CandidateList& list) {
   for (Eigen::VectorXd* values :
        {&pair_state.area, &pair_state.measure, &pair_state.depth, &pair_state.pressure})
     values->setZero(num_groups);
+  if (pair_state.pair.stiffens()) pair_state.on_layers.resize(static_cast<std::size_t>(num_groups));
   known = &pair_state;
   return pair_state;
 }
@@ -37,6 +38,9 @@ void ContactResponse::clear(ContactPairState& pair_state) const {
   for (Eigen::VectorXd* values :
        {&pair_state.area, &pair_state.measure, &pair_state.depth, &pair_state.pressure})
     for (const int group : pair_state.groups) (*values)[group] = 0;
+  if (!pair_state.on_layers.empty())
+    for (const int group : pair_state.groups)
+      pair_state.on_layers[static_cast<std::size_t>(group)] = {};
   pair_state.groups.clear();
   pair_state.drag.clear();
   pair_state.num_patches = 0;
@@ -191,6 +195,9 @@ void ContactResponse::find_pressures(const Configuration& configuration, bool so
     double& measure = pair_state.measure[group];
     measure = contact.averaged ? std::sqrt(area * side.triangles.group_area[group]) : area;
     pair_state.depth[group] /= measure;
+    if (!pair_state.on_layers.empty())
+      pair_state.on_layers[static_cast<std::size_t>(group)] =
+          pressed(layers_of(contact, pair_state.stiffness(group)), pair_state.depth[group]);
     pair_state.pressure[group] = pair_state.penalty(group);
   }
   if (contact.law.acts())

@@ -67,7 +67,7 @@ void ContactStiffness::add_coupling(const ContactPairState& pair_state,
   coupling.add_group(coupled_);
 }
 
-/// (p_a²/2k_a − p_a g_a) ∂²A_a/∂W² ∇W ∇Wᵀ; with A = √(W T) and ∂A/∂W the `measure_slope`, ∂²A/∂W²
+/// (e_a − p_a g_a) ∂²A_a/∂W² ∇W ∇Wᵀ; with A = √(W T) and ∂A/∂W the `measure_slope`, ∂²A/∂W²
 /// is −slope/2W. ∇W is not zero where patches end, turn or fade.
 void ContactStiffness::add_measure_stiffness(const ContactPairState& pair_state,
                                              std::span<const int> patches, int group,
@@ -80,7 +80,7 @@ void ContactStiffness::add_measure_stiffness(const ContactPairState& pair_state,
       }))
     return;
   const auto& groups = sides_of(model_, pair_state).triangles.groups;
-  const double energy = p * p / (2 * pair_state.stiffness(group)) - p * pair_state.depth[group];
+  const double energy = pair_state.energy_density(group) - p * pair_state.depth[group];
   add_rank_one(
       pair_state, patches, configuration,
       -scale * energy * pair_state.measure_slope(group) / (2 * pair_state.area[group]),
@@ -91,8 +91,8 @@ void ContactStiffness::add_measure_stiffness(const ContactPairState& pair_state,
       A);
 }
 
-/// Σ k_a/A_a (A_a ∇g_a) (A_a ∇g_a)ᵀ, the same with the damping, and what friction resists with; how
-/// it grows with the pressure, −∂t_a/∂p_a ∇p_aᵀ, is coupling.
+/// Σ k_a/A_a (A_a ∇g_a) (A_a ∇g_a)ᵀ with k_a = dp_a/dg_a, the same with the damping, and what
+/// friction resists with; how it grows with the pressure, −∂t_a/∂p_a ∇p_aᵀ, is coupling.
 void ContactStiffness::add_node_stiffness(const ContactPairState& pair_state,
                                           const Configuration& configuration, fem::Tangent tangent,
                                           const SystemScale& scale, fem::BlockMatrix& A,
@@ -110,7 +110,7 @@ void ContactStiffness::add_node_stiffness(const ContactPairState& pair_state,
     };
     if (averaged && tangent == fem::Tangent::Consistent)
       add_measure_stiffness(pair_state, around, a, configuration, scale.stiffness, A);
-    const double penalty = scale.stiffness * pair_state.stiffness(a) / pair_state.measure[a];
+    const double penalty = scale.stiffness * pair_state.slope(a) / pair_state.measure[a];
     if (pair_state.drag.empty()) {
       add_rank_one(pair_state, around, configuration, penalty, of_depth, A);
       continue;

@@ -20,6 +20,13 @@ Eigen::VectorXd stiffness_at_groups(const ContactModel& contact, const Collider&
   return (contact.share / ((compliance + contact.opposite) / factor + contact.layers)).matrix();
 }
 
+LayersInSeries layers_of(const ContactModel& contact, double stiffness) {
+  LayersInSeries series{1 / stiffness, contact.logarithmic};
+  for (const LogarithmicLayer& layer : series.layer) series.linear -= layer.compliance();
+  series.linear = std::max(0.0, series.linear);  // by round-off
+  return series;
+}
+
 ContactPairs::ContactPairs(std::vector<Named> named, std::vector<Member> members, Makers makers)
     : named_(std::move(named)), members_(std::move(members)), makers_(std::move(makers)) {
   for (std::size_t i = 0; i < named_.size(); ++i)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/model/layer_law.hpp"
 #include "sim/model/surface_law.hpp"
 
 /// Which bodies may touch which, and how. Of n bodies that may all touch there are n(n−1)/2 pairs,
@@ -30,17 +32,24 @@ struct ContactModel {
   double factor = 1, soft_factor = 1;
   double softening = 1;  // of the non-mortar side's compliance
   double opposite = 0;   // mean compliance of the other side [m/Pa]
-  double layers = 0;     // that of the layers on both [m/Pa]
+  double layers = 0;     // that of the layers on both, at no depth [m/Pa]
+  // Those of `layers` that stiffen; of such a pair depths are averaged.
+  std::array<LogarithmicLayer, 2> logarithmic;
+  bool stiffens() const { return logarithmic[0].thickness > 0 || logarithmic[1].thickness > 0; }
 
   /// An iteration that comes from afar starts with another stiffness.
   bool starts_soft() const { return averaged && factor != soft_factor && softening + opposite > 0; }
 };
 
-/// share · k_a [Pa/m] at the smoothing groups a of the non-mortar side: of averaged depths
-/// 1/k_a = (s h_a/M + c)/f + l, of the elements h_a/M there, softened by s, the other side's c and
-/// the layers' l. @param soft  with the soft factor for f
+/// share · k_a [Pa/m] at the smoothing groups a of the non-mortar side, at no depth: of averaged
+/// depths 1/k_a = (s h_a/M + c)/f + l, of the elements h_a/M there, softened by s, the other side's
+/// c and the layers' l. @param soft  with the soft factor for f
 Eigen::VectorXd stiffness_at_groups(const ContactModel& contact, const Collider& nonmortar,
                                     bool soft);
+
+/// What gives way of a pair that stiffens, with all that is linear taken together.
+/// @param stiffness  k_a [Pa/m], of all of it at no depth
+LayersInSeries layers_of(const ContactModel& contact, double stiffness);
 
 /// Names a pair, and orders pairs: first those that the scenario names one by one, in its order,
 /// then all others by their bodies. No number of things to be stored by.

@@ -97,6 +97,7 @@ struct Collider {
   double mean_compliance = 0;             // the same of the whole surface [m/Pa]
   double layer_compliance = 0;            // of the layer on it [m/Pa]
   double layer_thickness = 0;             // [m]; 0: there is none
+  bool layer_stiffens = false;            // by the logarithmic law, see layer_law.hpp
   double reach = 0;                       // [m] depth up to which a crossed face is found
   double open_depth = 0;   // [m] how far in front of a face this side's surface counts
   double size = 0;         // [m] mean height of the elements at the surface

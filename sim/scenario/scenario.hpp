@@ -121,11 +121,14 @@ struct TissueMaterial {
 };
 
 /// A compliant layer on a rigid surface (cartilage, periodontal ligament): an elastic foundation of
-/// stiffness (1-nu)E / ((1+nu)(1-2nu)h) per area, in series with the contact stiffness [EFM].
+/// stiffness (1-nu)E / ((1+nu)(1-2nu)h) per area, in series with the contact stiffness [EFM]. Or,
+/// Logarithmic, one that begins so and stiffens as it is pressed flat, see layer_law.hpp.
 struct Layer {
+  enum class Law { Linear, Logarithmic };
   double thickness = 0;      // [m]
   double young_modulus = 0;  // [Pa]
   double poisson_ratio = 0;
+  Law law = Law::Linear;
 };
 
 /// A rigid change of frame of everything a body reads from files: x -> scale * R (x - about) +

@@ -20,14 +20,21 @@ const KeyTable& layer_keys() {
       "layer",
       {{"thickness", {form::Quantity{kLength, kPositive}}, kRequired, "of the cartilage"},
        {"young_modulus", {form::Quantity{kStress, kPositive}}, kRequired, "its Young's modulus"},
-       {"poisson_ratio", {form::Number{kPoissonRange}}, kRequired, "its Poisson's ratio"}}};
+       {"poisson_ratio", {form::Number{kPoissonRange}}, kRequired, "its Poisson's ratio"},
+       {"law",
+        {form::Choice{{{"linear", Layer::Law::Linear}, {"logarithmic", Layer::Law::Logarithmic}}}},
+        standard("linear"),
+        "p = M d/t, however deep; or p = −M ln(1 − d/t), which no force presses flat: depths are "
+        "then averaged at nodes"}}};
   return kTable;
 }
 
 Layer read_layer(const Node& node) {
   const TableReader table(node, layer_keys(), "layer");
-  return {table.get<double>("thickness"), table.get<double>("young_modulus"),
-          table.get<double>("poisson_ratio")};
+  Layer layer{table.get<double>("thickness"), table.get<double>("young_modulus"),
+              table.get<double>("poisson_ratio")};
+  table.read("law", layer.law);
+  return layer;
 }
 
 /// "xx yy zz unit" and, if given, "xy xz yz unit". The tensor must be that of a body: its principal

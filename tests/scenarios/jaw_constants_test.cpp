@@ -61,7 +61,8 @@ TEST(JawConstants, DiscsAreOfOneMaterialInAllScenarios) {
 TEST(JawConstants, TeethHavePeriodontalLigamentsInAllScenarios) {
   EXPECT_EQ(
       values("body", {"upper_teeth", "upper_molars", "bar"}, "layer"),
-      Names{value(R"({ thickness = "0.4 mm", young_modulus = "1.2 MPa", poisson_ratio = 0.45 })")});
+      Names{value(R"({ thickness = "0.4 mm", young_modulus = "1.2 MPa", poisson_ratio = 0.45, )"
+                  R"(law = "logarithmic" })")});
 }
 
 TEST(JawConstants, BonesMusclesAndLigamentsAreTheSame) {

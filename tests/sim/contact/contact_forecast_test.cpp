@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "tests/sim/support/contact_scene.hpp"
@@ -20,8 +21,9 @@ constexpr double kSide = 0.02;  // [m]
 /// A block on a wider one, all nodes displaced at random: around some nodes they touch, around
 /// others they are apart.
 struct UnevenBlocks {
-  UnevenBlocks()
-      : model(build_model(scenario())), search(model, {}), dynamics(model), forecast(model) {
+  /// @param stiffens  between them is a layer that does
+  explicit UnevenBlocks(bool stiffens = false)
+      : model(model_of(stiffens)), search(model, {}), dynamics(model), forecast(model) {
     Random random(1);
     const int n = 3 * model.layout.num_free_nodes;
     y = initial_state(model);
@@ -42,6 +44,17 @@ struct UnevenBlocks {
                 box_body("upper", Body::Kind::Tissue, Vec3::Constant(kSide),
                          Vec3(0.1, 0.07, 1.01) * kSide, {6, 6, 2})};
     return s;
+  }
+
+  static Model model_of(bool stiffens) {
+    Model model = build_model(scenario());
+    const LogarithmicLayer layer{20e3, 0.05 * kSide};
+    if (stiffens)
+      model.contacts.change([layer](ContactModel& contact) {
+        contact.logarithmic[0] = layer;
+        contact.layers = layer.compliance();
+      });
+    return model;
   }
 
   const ContactPairState& pair_state() { return *dynamics.contact().pair_states()[0]; }
@@ -81,6 +94,10 @@ struct UnevenBlocks {
   Eigen::VectorXd y;
 };
 
+/// Of the upper block down, and whether a layer stiffens.
+const std::vector<std::pair<double, bool>> kWays{
+    {0.01 * kSide, false}, {-0.02 * kSide, false}, {0.01 * kSide, true}, {-0.02 * kSide, true}};
+
 std::vector<bool> pressing(const ContactPairState& pair_state) {
   std::vector<bool> result;
   for (const double p : pair_state.pressure) result.push_back(p > 0);
@@ -89,8 +106,8 @@ std::vector<bool> pressing(const ContactPairState& pair_state) {
 
 // Nearly all as foreseen: weights of what fades in are not linear.
 TEST(ContactForecast, GroupsOpenAndCloseAsForeseen) {
-  UnevenBlocks blocks;
-  for (const double way : {0.01 * kSide, -0.02 * kSide}) {
+  for (const auto& [way, stiffens] : kWays) {
+    UnevenBlocks blocks(stiffens);
     blocks.move(blocks.y, 0);
     const std::vector<bool> before = pressing(blocks.pair_state());
     const std::vector<int> near = blocks.pair_state().groups;
@@ -106,7 +123,6 @@ TEST(ContactForecast, GroupsOpenAndCloseAsForeseen) {
     }
     EXPECT_GT(changed, way > 0 ? 10 : 4) << way;
     EXPECT_LE(10 * wrong, changed) << way;
-    blocks.dynamics.contact().forget_foreseen();
   }
 }
 
@@ -120,10 +136,10 @@ TEST(ContactForecast, WhatIsForeseenAgainIsNoChange) {
   EXPECT_FALSE(ContactForecast::is_made(blocks.dynamics.contact()));
 }
 
-// Against depths by differences: wᵀ ΔA w = Σ ± k A (∂g/∂w)².
+// Against depths by differences: wᵀ ΔA w = Σ ± k A (∂g/∂w)², k the slope of the pressure.
 TEST(ContactForecast, MatrixGainsTheStiffnessOfWhatClosesAndLosesThatOfWhatOpens) {
-  for (const double way : {0.01 * kSide, -0.02 * kSide}) {
-    UnevenBlocks blocks;
+  for (const auto& [way, stiffens] : kWays) {
+    UnevenBlocks blocks(stiffens);
     const Eigen::VectorXd w = blocks.random_way(), rates = blocks.depth_rates(w);
     const auto quadratic = [&](const fem::BlockMatrix& A) {
       Eigen::VectorXd product(w.size());
@@ -138,8 +154,7 @@ TEST(ContactForecast, MatrixGainsTheStiffnessOfWhatClosesAndLosesThatOfWhatOpens
     for (const int a : state.groups) {
       const bool takes = state.presses_in_matrix(a), acts = state.pressure[a] > 0;
       if (takes != acts)
-        expected +=
-            (takes ? 1 : -1) * state.stiffness(a) * state.measure[a] * std::pow(rates[a], 2);
+        expected += (takes ? 1 : -1) * state.slope(a) * state.measure[a] * std::pow(rates[a], 2);
     }
     const double after =
         quadratic(blocks.dynamics.assemble_again(changes, scale, fem::Tangent::Consistent).A);
@@ -164,8 +179,8 @@ TEST(ContactForecast, MatrixMadeAnewHasWhatIsForeseen) {
 
 // A closed gap pulls, as its line goes on beyond the kink, and what opens does no longer push.
 TEST(ContactForecast, ForcesAreThoseOfTheLinesBeyondTheKinks) {
-  for (const double way : {0.01 * kSide, -0.02 * kSide}) {
-    UnevenBlocks blocks;
+  for (const auto& [way, stiffens] : kWays) {
+    UnevenBlocks blocks(stiffens);
     const Eigen::VectorXd w = blocks.random_way(), rates = blocks.depth_rates(w);
     blocks.foresee(blocks.down(way));
     Eigen::VectorXd f = Eigen::VectorXd::Zero(w.size());
@@ -175,8 +190,7 @@ TEST(ContactForecast, ForcesAreThoseOfTheLinesBeyondTheKinks) {
     for (const int a : state.groups) {
       const bool takes = state.presses_in_matrix(a), acts = state.pressure[a] > 0;
       if (takes != acts)
-        expected -=
-            (takes ? 1 : -1) * state.stiffness(a) * state.depth[a] * state.measure[a] * rates[a];
+        expected -= (takes ? 1 : -1) * state.signed_pressure(a) * state.measure[a] * rates[a];
     }
     EXPECT_NEAR(f.dot(w), expected, 1e-5 * std::abs(expected)) << way;
     EXPECT_NE(expected, 0);

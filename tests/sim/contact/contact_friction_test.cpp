@@ -183,9 +183,20 @@ Model stiff_model(const Scenario& s) {
   return model;
 }
 
+/// The same with layers that stiffen, and are pressed in by a third of their thickness.
+Model stiffening_model(const Scenario& s) {
+  Model model = stiff_model(s);
+  model.contacts.change([](ContactModel& contact) {
+    constexpr double kThickness = 0.3e-3;  // [m]
+    contact.logarithmic[0] = {kThickness * contact.mean_stiffness, kThickness};
+    contact.averaged = true;
+  });
+  return model;
+}
+
 /// A block of tissue, tilted and spinning, pressed into a softer one; it also has a rigid one on
 /// it.
-Model stack(double friction, double damping) {
+Model stack(double friction, double damping, bool stiffens = false) {
   Scenario s = contact_scene(1e-4);
   s.bodies = {box_body("lower", Body::Kind::Tissue, {0.03, 0.03, 0.01}, {0, 0, -0.005}, {3, 3, 1}),
               box_body("upper", Body::Kind::Tissue, {kWidth, kWidth, kHeight}, {1e-3, 0, 0.0049},
@@ -200,7 +211,7 @@ Model stack(double friction, double damping) {
     pair.slip_velocity = 0.03;
     pair.damping = damping;
   }
-  return stiff_model(s);
+  return stiffens ? stiffening_model(s) : stiff_model(s);
 }
 
 /// Forces of a scene at its start, with contacts found there.
@@ -259,13 +270,16 @@ double contact_power(const Model& model, const Forces& now) {
 
 // What the forces take besides those of the depths, which have an energy.
 TEST(ContactDrag, TakesThePowerOfItsForces) {
-  const Model smooth = stack(0, 0), rough = stack(0.5, 0), damped = stack(0.5, 1e3);
-  const double elastic = contact_power(smooth, Forces(smooth));
-  for (const Model* model : {&rough, &damped}) {
-    const Forces now(*model);
-    const double taken = elastic - contact_power(*model, now);
-    EXPECT_GT(taken, 0);
-    EXPECT_NEAR(now.dynamics.now().contact.damping_power(), taken, 1e-9 * taken);
+  for (const bool stiffens : {false, true}) {
+    const Model smooth = stack(0, 0, stiffens), rough = stack(0.5, 0, stiffens),
+                damped = stack(0.5, 1e3, stiffens);
+    const double elastic = contact_power(smooth, Forces(smooth));
+    for (const Model* model : {&rough, &damped}) {
+      const Forces now(*model);
+      const double taken = elastic - contact_power(*model, now);
+      EXPECT_GT(taken, 0);
+      EXPECT_NEAR(now.dynamics.now().contact.damping_power(), taken, 1e-9 * taken);
+    }
   }
 }
 
@@ -303,24 +317,27 @@ Eigen::VectorXd minus_derivative(Forces& now, int first, const Eigen::VectorXd& 
 
 // With both, friction also follows the damped pressure.
 TEST(ContactDrag, MatrixAndCouplingAreTheDerivativeOfTheForcesByVelocity) {
-  const Model model = stack(0.5, 1e3);
-  Forces now(model);
-  const int n = 3 * model.layout.num_unknown_blocks();
-  Random random(3);
-  const Eigen::VectorXd w = random.vector(n);
-  const Eigen::VectorXd by_matrix =
-      times(now.dynamics.assemble({0, 1, 0}, fem::Tangent::Consistent).A, w);
-  const Eigen::VectorXd by_both = by_matrix + coupled(now.dynamics, w);
-  const Eigen::VectorXd change = minus_derivative(now, model.layout.velocities(), w, 1e-5);
-  EXPECT_LT((change - by_both).norm(), 1e-6 * by_both.norm());
-  EXPECT_GT((change - by_matrix).norm(), 1e-3 * by_matrix.norm());
+  for (const bool stiffens : {false, true}) {
+    const Model model = stack(0.5, 1e3, stiffens);
+    Forces now(model);
+    const int n = 3 * model.layout.num_unknown_blocks();
+    Random random(3);
+    const Eigen::VectorXd w = random.vector(n);
+    const Eigen::VectorXd by_matrix =
+        times(now.dynamics.assemble({0, 1, 0}, fem::Tangent::Consistent).A, w);
+    const Eigen::VectorXd by_both = by_matrix + coupled(now.dynamics, w);
+    const Eigen::VectorXd change = minus_derivative(now, model.layout.velocities(), w, 1e-5);
+    EXPECT_LT((change - by_both).norm(), 1e-6 * by_both.norm());
+    EXPECT_GT((change - by_matrix).norm(), 1e-3 * by_matrix.norm());
+  }
 }
 
 // A block that slides is pressed down as a whole: nothing turns, and all that friction does is to
 // follow the pressure.
 TEST(ContactDrag, CouplingIsTheDerivativeOfFrictionByTheDepth) {
-  for (const Scenario::Response response :
-       {Scenario::Response::Pointwise, Scenario::Response::Averaged}) {
+  for (const auto& [response, stiffens] : {std::pair(Scenario::Response::Pointwise, false),
+                                           std::pair(Scenario::Response::Averaged, false),
+                                           std::pair(Scenario::Response::Averaged, true)}) {
     Scenario s = contact_scene(1e-4);
     s.contact_response = response;
     s.bodies = {box_body("lower", Body::Kind::Fixed, {0.03, 0.03, 0.01}, {0, 0, -0.005}, {3, 3, 1}),
@@ -330,7 +347,7 @@ TEST(ContactDrag, CouplingIsTheDerivativeOfFrictionByTheDepth) {
     s.contacts = {{"lower", "upper", {}}};
     s.contacts[0].friction = 0.5;
     s.contacts[0].slip_velocity = 0.03;
-    const Model model = stiff_model(s);
+    const Model model = stiffens ? stiffening_model(s) : stiff_model(s);
     Forces now(model, 0);
     const int n = 3 * model.layout.num_unknown_blocks();
     const Eigen::VectorXd down = Vec3(0, 0, -1).replicate(n / 3, 1);

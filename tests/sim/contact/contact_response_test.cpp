@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "tests/sim/support/contact_scene.hpp"
 
@@ -84,7 +85,8 @@ constexpr double kMove = 2e-5 * kSide;
 /// The upper block's underside is folded into ridges of 45 degrees, so that each of its triangles
 /// there stands oblique to what it meets.
 /// @param lower  its kind: a fixed one is flat
-SunkBlock ridged_block(Body::Kind lower) {
+/// @param layer  on a fixed one
+SunkBlock ridged_block(Body::Kind lower, const std::optional<Layer>& layer = {}) {
   constexpr int kCells = 12;
   constexpr double kCell = kSide / kCells;
   const TemporaryFolder folder;
@@ -97,6 +99,7 @@ SunkBlock ridged_block(Body::Kind lower) {
     return X;
   };
   s.bodies[0].kind = lower;
+  s.bodies[0].layer = layer;
   const Body upper = mesh_body("upper", Body::Kind::Tissue, bent(box, fold), folder);
   s.bodies[1].geometry = upper.geometry;
   return SunkBlock(s, 0.001);
@@ -196,6 +199,33 @@ TEST(AveragedContact, TheTangentIsTheDerivativeOfTheForces) {
   EXPECT_LT(error_of_tangent(block), 1e-5);
 }
 
+/// On bone with a layer that stiffens, pressed in by half of its thickness, more or less.
+Scenario block_on_a_layer(Scenario::Analysis analysis) {
+  Scenario s = SunkBlock::scenario({0.1, 0.07, 0.98});
+  s.analysis = analysis;
+  s.bodies[0].kind = Body::Kind::Fixed;
+  s.bodies[0].layer = Layer{0.035 * kSide, 20e3, 0.3, Layer::Law::Logarithmic};
+  return s;
+}
+
+// The layer and the elements of the block give way in series.
+TEST(AveragedContact, OnALayerThatStiffensForcesAndTangentAreDerivatives) {
+  for (const auto analysis : {Scenario::Analysis::Static, Scenario::Analysis::Dynamic}) {
+    SunkBlock block(block_on_a_layer(analysis), 0.005);
+    const double energy = block.energy(block.y);
+    const ContactPairState& pair_state = *block.response.pair_states()[0];
+    double stiffest = 0;
+    for (const int group : pair_state.groups)
+      stiffest = std::max(stiffest, pair_state.slope(group) / pair_state.stiffness(group));
+    EXPECT_GT(stiffest, 1.5);
+    const ContactSummary sum =
+        contact_summaries(block.model, block.response, block.configuration)[0];
+    EXPECT_NEAR(energy, sum.energy, 1e-12 * energy);
+    EXPECT_LT(error_of_forces(block), 1e-6);
+    EXPECT_LT(error_of_tangent(block), 1e-5);
+  }
+}
+
 // Just those pairs of blocks are needed that the tangent has a stiffness between.
 TEST(ContactStencils, AreLackedWhereAForceCouplesWhatThePatternDoesNot) {
   for (const auto response : {Scenario::Response::Averaged, Scenario::Response::Pointwise}) {
@@ -246,6 +276,10 @@ TEST(AveragedContact, ForcesAreTheDerivativeOfTheEnergyWhereFacesStandOblique) {
 TEST(AveragedContact, TheTangentIsTheDerivativeOfTheForcesWhereFacesStandOblique) {
   SunkBlock block = ridged_block(Body::Kind::Fixed);
   EXPECT_LT(error_of_tangent(block), 1e-5);
+  SunkBlock on_layer =
+      ridged_block(Body::Kind::Fixed, Layer{0.1 * kSide, 20e3, 0.3, Layer::Law::Logarithmic});
+  EXPECT_LT(error_of_forces(on_layer), 1e-6);
+  EXPECT_LT(error_of_tangent(on_layer), 1e-5);
 }
 
 /// Beyond x = 0 the lower block's top rises by 58 degrees. What has sunk in there falls off by 20:

@@ -35,7 +35,7 @@ name = "skull"
 kind = "fixed"
 when = { disc = ["tissue", "none"] }
 mesh = { file = "skull.vtp", unit = "cm", part = ["left", "right"], made_by = "cp a b", place = { rotation = "0 0 1 deg", about = "1 0 0 mm", translation = "0 1 0 mm", scale = 2 } }
-layer = { thickness = "1 mm", young_modulus = "1 MPa", poisson_ratio = 0.3 }
+layer = { thickness = "1 mm", young_modulus = "1 MPa", poisson_ratio = 0.3, law = "logarithmic" }
 collides = true
 [[body.contact_meshes]]
 file = "fossa.vtp"

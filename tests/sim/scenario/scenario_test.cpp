@@ -40,7 +40,7 @@ contact_meshes = [
   { file = "anatomy/fossa_left.vtp", facing = [0, 0, -2], faces = 500, continued = { at = "0 24 80 mm", direction = [0, -2, 0], length = "14 mm", easing = "3 mm" } },
   { file = "anatomy/fossa_right.vtp", unit = "m", place = { scale = 2 } },
 ]
-layer = { thickness = "0.4 mm", young_modulus = "2.7 MPa", poisson_ratio = 0.49 }
+layer = { thickness = "0.4 mm", young_modulus = "2.7 MPa", poisson_ratio = 0.49, law = "logarithmic" }
 collides = false
 
 [[body]]
@@ -268,6 +268,7 @@ TEST_F(CompleteScenario, HasItsBones) {
   EXPECT_EQ(skull.layer->thickness, 0.4e-3);
   EXPECT_EQ(skull.layer->young_modulus, 2.7e6);
   EXPECT_EQ(skull.layer->poisson_ratio, 0.49);
+  EXPECT_EQ(skull.layer->law, Layer::Law::Logarithmic);
   EXPECT_FALSE(skull.collides);
 
   const Body& mandible = scenario_.bodies[1];
