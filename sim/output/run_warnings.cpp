@@ -189,7 +189,7 @@ void warn_of_deep_contacts(const Model& model, const RunExtrema& extrema,
                            std::vector<std::string>& warnings) {
   const auto names = [&](const WorstContact& worst) {
     const ContactModel contact = model.contacts[worst.contact];
-    return fmt::format("`{}` and `{}`", name_of(model, contact.a), name_of(model, contact.b));
+    return fmt::format("`{}` and `{}`", name_of_body(model, contact.a), name_of_body(model, contact.b));
   };
   const auto& [overlap, layer, driven] = std::tie(extrema.overlap, extrema.layer, extrema.driven);
   if (overlap.value > kDeepOverlap)
@@ -218,7 +218,7 @@ void warn_of_snap(const Model& model, const Snap& snap, std::vector<std::string>
       "where its stiffness would let it move by {:.2g} mm, and lost {:.2g} J. What follows is "
       "another equilibrium, and need not be one that the body comes to; results hold until shortly "
       "before. analysis = \"dynamic\" shows where it goes",
-      name_of(model, snap.body), snap.at, 1e3 * snap.motion, 1e3 * snap.expected, snap.loss));
+      name_of_body(model, snap.body), snap.at, 1e3 * snap.motion, 1e3 * snap.expected, snap.loss));
 }
 
 }  // namespace
