@@ -120,7 +120,11 @@ const KeyTable& measurement_keys() {
        {"held_out",
         {form::Boolean{}},
         sim::standard(false),
-        "`true`: not fitted, but compared with what comes out"}}};
+        "`true`: not fitted, but compared with what comes out"},
+       {"group",
+        {form::Text{"name"}},
+        sim::kNone,
+        "with `--cross-validate`: what is left out together"}}};
   return kTable;
 }
 
@@ -141,6 +145,7 @@ FitMeasurement read_measurement(const Node& node, const std::vector<FitRun>& run
   if (&target == table.find("at_least")) measurement.target = FitTarget::AtLeast;
   table.read("spread", measurement.spread);
   table.read("held_out", measurement.held_out);
+  table.read("group", measurement.group);
   return measurement;
 }
 

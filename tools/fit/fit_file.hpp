@@ -44,6 +44,7 @@ struct FitMeasurement {
   double value = 0;       // in the columns' unit
   double spread = 1;      // standard deviation, in the same unit, > 0
   bool held_out = false;  // compared at the end, but not fitted
+  std::string group;      // left out together in a cross-validation; "": never
 };
 
 struct Fit {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "sim/output/history_column.hpp"
 #include "tools/fit/fit_values.hpp"
 #include "tools/fit/missed_target.hpp"
@@ -16,6 +14,9 @@ namespace {
 using Eigen::Index;
 
 constexpr double kToldCorrelation = 0.9;
+
+bool is_held_out(const FitMeasurement& m) { return m.held_out; }
+bool is_fitted(const FitMeasurement& m) { return !m.held_out; }
 
 std::string with_unit(double value, const std::string& unit) {
   return unit.empty() || unit == "-" ? fmt::format("{:.4g}", value)
@@ -41,19 +42,6 @@ std::string measurement_table(const Fit& fit, const FitResult& result, bool held
                         result.before[i], result.after[i], misfit(m, result.after[i]));
   }
   return text;
-}
-
-/// Root of the mean square of misfits, in spreads.
-double mean_misfit(const Fit& fit, const Eigen::VectorXd& values, bool held_out) {
-  double sum = 0;
-  int count = 0;
-  for (std::size_t k = 0; k < fit.measurements.size(); ++k) {
-    if (fit.measurements[k].held_out != held_out) continue;
-    const double off = misfit(fit.measurements[k], values[static_cast<Index>(k)]);
-    sum += off * off;
-    ++count;
-  }
-  return count == 0 ? 0 : std::sqrt(sum / count);
 }
 
 std::string bound_text(const FitParameter& p, double value) {
@@ -118,17 +106,17 @@ std::string fit_text(const Fit& fit, const FitResult& result) {
   const Determination& d = result.determination;
   std::string text = fmt::format("# {}\n\n{}\n\n## Measurements\n\n", fit.title, ending(result));
   text += measurement_table(fit, result, false);
-  text +=
-      fmt::format("\nMean misfit: {:.2f} spreads, {:.2f} at the start.\n",
-                  mean_misfit(fit, result.after, false), mean_misfit(fit, result.before, false));
+  text += fmt::format("\nMean misfit: {:.2f} spreads, {:.2f} at the start.\n",
+                      mean_misfit(fit, result.after, is_fitted),
+                      mean_misfit(fit, result.before, is_fitted));
   text += missed_paragraph(missed_measurements(fit, result));
-  const bool any_held_out = mean_misfit(fit, result.after, true) > 0;
+  const bool any_held_out = mean_misfit(fit, result.after, is_held_out) > 0;
   if (any_held_out) {
     text += "\n## Held out\n\nNot fitted; they say what the fit is worth elsewhere.\n\n" +
             measurement_table(fit, result, true);
-    text +=
-        fmt::format("\nMean misfit: {:.2f} spreads, {:.2f} at the start.\n",
-                    mean_misfit(fit, result.after, true), mean_misfit(fit, result.before, true));
+    text += fmt::format("\nMean misfit: {:.2f} spreads, {:.2f} at the start.\n",
+                        mean_misfit(fit, result.after, is_held_out),
+                        mean_misfit(fit, result.before, is_held_out));
   }
   text += "\n## Parameters\n\n" + parameter_table(fit, result);
   text += fmt::format(

@@ -100,4 +100,17 @@ double misfit(const FitMeasurement& measurement, double value) {
   return difference;
 }
 
+double mean_misfit(const Fit& fit, const Eigen::VectorXd& values,
+                   const std::function<bool(const FitMeasurement&)>& counts) {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t k = 0; k < fit.measurements.size(); ++k) {
+    if (!counts(fit.measurements[k])) continue;
+    const double off = misfit(fit.measurements[k], values[static_cast<Eigen::Index>(k)]);
+    sum += off * off;
+    ++count;
+  }
+  return count == 0 ? 0 : std::sqrt(sum / count);
+}
+
 }  // namespace articular::tools

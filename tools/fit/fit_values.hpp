@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
 #include <string>
 
 #include "sim/scenario/scenario.hpp"
@@ -19,5 +21,10 @@ double measured_value(const FitMeasurement& measurement, const RunHistory& histo
 /// How far a value is from what was measured, in standard deviations; 0 on the allowed side of a
 /// limit.
 double misfit(const FitMeasurement& measurement, double value);
+
+/// Root of the mean square of the misfits of those measurements that count; 0 where none does.
+/// @param values  of all measurements
+double mean_misfit(const Fit& fit, const Eigen::VectorXd& values,
+                   const std::function<bool(const FitMeasurement&)>& counts);
 
 }  // namespace articular::tools
