@@ -189,7 +189,8 @@ void warn_of_deep_contacts(const Model& model, const RunExtrema& extrema,
                            std::vector<std::string>& warnings) {
   const auto names = [&](const WorstContact& worst) {
     const ContactModel contact = model.contacts[worst.contact];
-    return fmt::format("`{}` and `{}`", name_of_body(model, contact.a), name_of_body(model, contact.b));
+    return fmt::format("`{}` and `{}`", name_of_body(model, contact.a),
+                       name_of_body(model, contact.b));
   };
   const auto& [overlap, layer, driven] = std::tie(extrema.overlap, extrema.layer, extrema.driven);
   if (overlap.value > kDeepOverlap)

@@ -98,7 +98,8 @@ double lesser_distance(double below, const Vec3& p, const FossaProfile& fossa) {
         point_on(piece, low).y() - fossa_drop(medial_wall(forward)) - medial_wall_height(i, low);
     return std::min(below, std::max(to_plane, bottom - p.z()));
   }
-  return std::min(below, std::abs(to_plane) + kMedialWallHeight);  // before and behind there is none
+  return std::min(below,
+                  std::abs(to_plane) + kMedialWallHeight);  // before and behind there is none
 }
 
 /// Radius of the disc's lower surface: the head's as far as the disc rests on it, then bending

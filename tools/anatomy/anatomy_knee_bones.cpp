@@ -144,8 +144,8 @@ BelowPlateau below_plateau(const Side& side, const Vec3& p) {
 /// The bone under a plateau, to some depth.
 double plateau_distance(const Side& side, const BelowPlateau& below, const Vec3& p) {
   constexpr double kDepth = 12, kOver = 1.15;
-  return std::max({p.z() - below.floor, (below.outward - kOver) * side.c.half_width,
-                   -kDepth - p.z()});
+  return std::max(
+      {p.z() - below.floor, (below.outward - kOver) * side.c.half_width, -kDepth - p.z()});
 }
 
 double tibia_distance(const Sides& sides, const Vec3& p) {
