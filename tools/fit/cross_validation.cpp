@@ -62,11 +62,11 @@ void check_groups(const Fit& fit) {
 
 std::vector<LeftOut> cross_validate(const Fit& fit, const FitResult& whole, int most_iterations,
                                     const StudyRunOptions& options) {
-  check_groups(fit);
   std::vector<LeftOut> results;
   for (const std::string& group : groups_of(fit)) {
     if (!options.quiet) fmt::print(stderr, "articular: without group `{}`\n", group);
-    const FitResult others = fit_parameters(without(fit, group), most_iterations, options);
+    const FitResult others =
+        fit_parameters(without(fit, group), most_iterations, options, FitWidths::LeftOut);
     const auto counts = [&](const FitMeasurement& m) { return is_in_group(m) && m.group == group; };
     LeftOut& result = results.emplace_back();
     result.group = group;

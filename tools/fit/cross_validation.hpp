@@ -19,15 +19,16 @@ struct LeftOut {
   bool converged = false;
 };
 
-/// One fit a group. What they have in common with the fit to all is not run again.
-/// @param whole  the fit to all
+/// Before any work.
 /// @throws sim::InputError  where no measurement that is fitted has a group, or one group has all
+void check_groups(const Fit& fit);
+
+/// One fit a group. What they have in common with the fit to all is not run again.
+/// @param fit    with groups that are checked
+/// @param whole  the fit to all
 /// @throws what fit_parameters throws
 std::vector<LeftOut> cross_validate(const Fit& fit, const FitResult& whole, int most_iterations,
                                     const StudyRunOptions& options);
-
-/// The same errors, before any work.
-void check_groups(const Fit& fit);
 
 /// A table in Markdown, with its heading.
 std::string cross_validation_text(const std::vector<LeftOut>& groups);

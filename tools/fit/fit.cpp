@@ -178,8 +178,21 @@ class FitProblem {
   MatrixXd jacobian_;
 };
 
-Determination in_parameters(Determination determination, const VectorXd& units) {
-  determination.widths = determination.widths.cwiseProduct(units);
+/// What the measurements determine near the unknowns x, in the parameters' units.
+Determination determination_near(const VectorXd& x, const Fit& fit,
+                                 const LeastSquaresProblem& least_squares,
+                                 const FitProblem& problem) {
+  VectorXd residuals;
+  MatrixXd jacobian;
+  if (!least_squares.evaluate(x, residuals) || !least_squares.differentiate(x, jacobian))
+    throw sim::SimulationError("the scenario does not run near the fitted parameters");
+  VectorXd spreads(x.size());
+  for (Index i = 0; i < spreads.size(); ++i)
+    spreads[i] = fit.parameters[static_cast<std::size_t>(i)].spread
+                     ? 1
+                     : std::numeric_limits<double>::infinity();
+  Determination determination = determine(problem.jacobian(), spreads, problem.misfits());
+  determination.widths = determination.widths.cwiseProduct(problem.units());
   return determination;
 }
 
@@ -194,7 +207,8 @@ VectorXd all_values(const Fit& fit, const FitTrial& trial, const StudyRunOptions
 
 }  // namespace
 
-FitResult fit_parameters(const Fit& fit, int most_iterations, const StudyRunOptions& options) {
+FitResult fit_parameters(const Fit& fit, int most_iterations, const StudyRunOptions& options,
+                         FitWidths widths) {
   FitProblem problem(fit, options);
   FitResult result;
   // First, so that a mistake in what is held out is found before the work.
@@ -206,20 +220,8 @@ FitResult fit_parameters(const Fit& fit, int most_iterations, const StudyRunOpti
   result.iterations = solution.iterations;
   result.converged = solution.converged;
   result.message = solution.message;
-
-  VectorXd residuals;
-  MatrixXd jacobian;
-  if (!least_squares.evaluate(solution.x, residuals) ||
-      !least_squares.differentiate(solution.x, jacobian))
-    throw sim::SimulationError("the scenario does not run near the fitted parameters");
-  VectorXd spreads(solution.x.size());
-  for (Index i = 0; i < spreads.size(); ++i)
-    spreads[i] = fit.parameters[static_cast<std::size_t>(i)].spread
-                     ? 1
-                     : std::numeric_limits<double>::infinity();
-  result.determination =
-      in_parameters(determine(problem.jacobian(), spreads, problem.misfits()), problem.units());
-
+  if (widths == FitWidths::Found)
+    result.determination = determination_near(solution.x, fit, least_squares, problem);
   result.after = all_values(fit, {"fitted", result.parameters}, options);
   return result;
 }

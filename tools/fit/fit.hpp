@@ -10,10 +10,13 @@
 /// Parameters of a scenario from measurements.
 namespace articular::tools {
 
+/// Whether what the measurements determine is asked for: it takes a run more for each parameter.
+enum class FitWidths { Found, LeftOut };
+
 struct FitResult {
   Eigen::VectorXd parameters;     // fitted, in their units
   Eigen::VectorXd before, after;  // of every measurement, also those held out, in its unit
-  Determination determination;    // of the parameters, in their units
+  Determination determination;    // of the parameters, in their units; where widths are found
   int iterations = 0;
   bool converged = false;
   std::string message;  // why it ended
@@ -24,6 +27,7 @@ struct FitResult {
 /// same arguments it takes up where it was interrupted, from what has run.
 /// @throws StudyInterrupted, sim::InputError, sim::SystemError
 /// @throws sim::SimulationError  where the scenario does not run with the parameters' start
-FitResult fit_parameters(const Fit& fit, int most_iterations, const StudyRunOptions& options);
+FitResult fit_parameters(const Fit& fit, int most_iterations, const StudyRunOptions& options,
+                         FitWidths widths = FitWidths::Found);
 
 }  // namespace articular::tools
