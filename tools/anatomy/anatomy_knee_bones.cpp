@@ -76,9 +76,8 @@ double condyle_distance(const Side& side, const Covered& below, const Vec3& p) {
 }
 
 /// The bone that carries the cartilage of the trochlea.
-double trochlea_distance(double thickness, const Vec3& p) {
+double trochlea_distance(double thickness, const TrochleaPlace& place) {
   constexpr double kDeep = 14, kOver = 1.1;
-  const TrochleaPlace place = trochlea_place(p);
   const double beyond = std::max(std::abs(place.u), std::abs(place.v)) - kOver;
   const double below = place.distance + thickness * rim_taper(place.u, place.v);
   return std::max({below, 20 * beyond, -kDeep - place.distance});
@@ -116,10 +115,10 @@ double femur_distance(const Sides& sides, const std::array<Covered, 2>& below, c
 /// The same with a trochlea. Nothing rises above what any cartilage grows on.
 double femur_with_trochlea_distance(const Sides& sides, double thickness, const Vec3& p) {
   const std::array<Covered, 2> below = below_femoral_cartilage(sides, p);
-  double bone = smooth_min(femur_distance(sides, below, p), trochlea_distance(thickness, p), 6);
+  const TrochleaPlace place = trochlea_place(p);
+  double bone = smooth_min(femur_distance(sides, below, p), trochlea_distance(thickness, place), 6);
   for (const Covered& condyle : below)
     if (condyle.on_cartilage) bone = std::max(bone, condyle.distance);
-  const TrochleaPlace place = trochlea_place(p);
   if (std::max(std::abs(place.u), std::abs(place.v)) < 1.05 && p.y() < 0)
     bone = std::max(bone, place.distance + thickness * rim_taper(place.u, place.v));
   return bone;
