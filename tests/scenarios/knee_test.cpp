@@ -37,6 +37,8 @@ const std::vector<std::string> kLigaments{"acl_anterior.force [N]",
                                           "capsule_medial_outer.force [N]",
                                           "capsule_lateral_inner.force [N]",
                                           "capsule_lateral_outer.force [N]"};
+/// [N] The limit of easy flexion and three times its spread in laxity-strains-fit.toml.
+constexpr double kEasy = 100 + 3 * 5;
 /// The recorded knee has no capsule.
 const std::vector<std::string> kRecordedLigaments(kLigaments.begin(), kLigaments.end() - 4);
 
@@ -258,7 +260,7 @@ TEST(KneeLaxity, TheKneeBendsEasilyAndItsDrawerIsNearlyAsMeasured) {
     double rest, drawer, spread;  // [s], [mm]
   } angles[] = {{1, 4.0, 1.4}, {16, 6.0, 2.5}, {31, 4.7, 2.4}, {46, 3.8, 2.5}};
   for (const auto& [rest, drawer, spread] : angles) {
-    EXPECT_LT(sum_at(results, kLigaments, rest), 130) << rest;
+    EXPECT_LT(sum_at(results, kLigaments, rest), kEasy) << rest;
     EXPECT_LT(std::abs(results.at("femur.moment.x [N m]", rest)), 1) << rest;
     const double forwards =
         results.at("knee.anterior [mm]", rest + 1) - results.at("knee.anterior [mm]", rest);
@@ -267,7 +269,7 @@ TEST(KneeLaxity, TheKneeBendsEasilyAndItsDrawerIsNearlyAsMeasured) {
   EXPECT_EQ(results.count("rejected_motion"), 0);
   // On to 100 degrees, as easily.
   EXPECT_NEAR(results.last("knee.flexion [deg]"), 100, 1e-6);
-  EXPECT_LT(sum_of(results, kLigaments), 130);
+  EXPECT_LT(sum_of(results, kLigaments), kEasy);
   EXPECT_LT(std::abs(results.last("femur.moment.x [N m]")), 1);
 }
 
@@ -326,7 +328,7 @@ TEST(KneeLaxity, LigamentsOfTissueAreTurnedOutwardsInFlexion) {
   EXPECT_EQ(results.summary().at("outcome"), "finished");
   const double outwards =
       results.at("knee.internal_rotation [deg]", 4) - results.at("knee.internal_rotation [deg]", 5);
-  EXPECT_NEAR(outwards, 19, 6);  // of lines
+  EXPECT_NEAR(outwards, 13, 6);  // of lines
   EXPECT_LT(results.count("newton_iterations"), 400);
 }
 
@@ -370,8 +372,9 @@ TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
   EXPECT_LT(results.summary().at("max_penetration_m").get<double>(), 0.02e-3);
 }
 
-// Ligaments were fitted on the shipped knee. On the recorded one they are as easy along flexion,
-// and let it be drawn as far as the twelve knees of the fit.
+// Ligaments were fitted on the shipped knee. On the recorded one they are as easy to 30 degrees of
+// flexion (not beyond: scenarios/knee/RESULTS.md), and let it be drawn as far as one of the knees
+// of the fit: nineteen of twenty lie within two standard deviations.
 TEST(KneeLaxity, OnARecordedKneeTheFittedLigamentsHoldTrue) {
   if (std::getenv("ARTICULAR_DATA") == nullptr)
     GTEST_SKIP() << "ARTICULAR_DATA does not name the folder with the real anatomy";
@@ -390,10 +393,10 @@ TEST(KneeLaxity, OnARecordedKneeTheFittedLigamentsHoldTrue) {
     double rest, drawer, spread;  // [s], [mm]
   } angles[] = {{1, 4.0, 1.4}, {16, 6.0, 2.5}};
   for (const auto& [rest, drawer, spread] : angles) {
-    EXPECT_LT(sum_at(results, kRecordedLigaments, rest), 110) << rest;
+    EXPECT_LT(sum_at(results, kRecordedLigaments, rest), kEasy) << rest;
     EXPECT_LT(std::abs(results.at("femur.moment.x [N m]", rest)), 1) << rest;
     EXPECT_NEAR(results.at("knee.anterior [mm]", rest + 1) - results.at("knee.anterior [mm]", rest),
-                drawer, 1.4 * spread)
+                drawer, 2 * spread)
         << rest;
   }
 }
