@@ -20,11 +20,17 @@ using Eigen::VectorXd;
 /// unknowns are of one size.
 constexpr double kStepsPerUnit = 20;
 
+/// So that a limit is positive where it is broken.
+double sign(const FitMeasurement& measurement) {
+  return measurement.target == FitTarget::AtLeast ? -1 : 1;
+}
+
 Index count(const std::vector<FitParameter>& parameters) {
   return static_cast<Index>(parameters.size());
 }
 
-/// The problem in unknowns x = (parameter - start) / unit.
+/// The problem in unknowns x = (parameter - start) / unit. Limits are residuals that are positive
+/// where they are broken.
 class FitProblem {
  public:
   FitProblem(const Fit& fit, const StudyRunOptions& options)
@@ -38,6 +44,7 @@ class FitProblem {
       lowest_[i] = (p.lowest - p.start) / units_[i];
       highest_[i] = (p.highest - p.start) / units_[i];
       if (p.spread) known_.push_back(i);
+      start_off_.push_back(p.known ? (p.start - *p.known) / units_[i] : 0);
     }
   }
 
@@ -47,6 +54,9 @@ class FitProblem {
     problem.lowest = lowest_;
     problem.highest = highest_;
     problem.residuals = static_cast<int>(measured_.size() + known_.size());
+    problem.limits.resize(measured_.size() + known_.size());
+    for (std::size_t k = 0; k < measured_.size(); ++k)
+      problem.limits[k] = measured_[k].target != FitTarget::Value;
     problem.most_iterations = most_iterations;
     problem.evaluate = [this](const VectorXd& x, VectorXd& r) { return evaluate(x, r); };
     problem.differentiate = [this](const VectorXd& x, MatrixXd& j) { return differentiate(x, j); };
@@ -55,7 +65,8 @@ class FitProblem {
 
   VectorXd parameters(const VectorXd& x) const { return start_ + units_.cwiseProduct(x); }
 
-  /// d(misfit)/d(unknown) of the measurements where it was last asked for.
+  /// d(misfit)/d(unknown) of the measurements where it was last asked for; none of limits that
+  /// hold.
   const MatrixXd& jacobian() const { return jacobian_; }
   const VectorXd& units() const { return units_; }
   const VectorXd& misfits() const { return misfits_; }
@@ -106,15 +117,20 @@ class FitProblem {
     if (!trial.failure.empty()) return false;
     const Index m = static_cast<Index>(measured_.size());
     r.resize(m + static_cast<Index>(known_.size()));
-    for (Index k = 0; k < m; ++k)
-      r[k] = misfit(measured_[static_cast<std::size_t>(k)], trial.values[k]);
-    for (std::size_t k = 0; k < known_.size(); ++k) r[m + static_cast<Index>(k)] = x[known_[k]];
+    misfits_.resize(m);
+    for (Index k = 0; k < m; ++k) {
+      const FitMeasurement& measurement = measured_[static_cast<std::size_t>(k)];
+      r[k] = sign(measurement) * (trial.values[k] - measurement.value) / measurement.spread;
+      misfits_[k] = misfit(measurement, trial.values[k]);
+    }
+    for (std::size_t k = 0; k < known_.size(); ++k)
+      r[m + static_cast<Index>(k)] = x[known_[k]] + start_off_[static_cast<std::size_t>(known_[k])];
     at_ = x;
     values_ = trial.values;
     residuals_ = r;
-    misfits_ = r.head(m);
     if (!options_.quiet)
-      fmt::print(stderr, "articular: {}: sum of squares {:.4g}\n", name, r.squaredNorm());
+      fmt::print(stderr, "articular: {}: sum of squares {:.4g}\n", name,
+                 misfits_.squaredNorm() + r.tail(static_cast<Index>(known_.size())).squaredNorm());
     return true;
   }
 
@@ -138,11 +154,13 @@ class FitProblem {
     }
     if (!left.empty()) return false;
     jacobian_ = MatrixXd::Zero(m, n);
-    for (Index k = 0; k < m; ++k)
-      if (misfits_[k] != 0 || measured_[static_cast<std::size_t>(k)].target == FitTarget::Value)
-        jacobian_.row(k) = slopes.row(k) / measured_[static_cast<std::size_t>(k)].spread;
     jacobian.setZero(m + static_cast<Index>(known_.size()), n);
-    jacobian.topRows(m) = jacobian_;
+    for (Index k = 0; k < m; ++k) {
+      const FitMeasurement& measurement = measured_[static_cast<std::size_t>(k)];
+      jacobian.row(k) = sign(measurement) * slopes.row(k) / measurement.spread;
+      if (misfits_[k] != 0 || measurement.target == FitTarget::Value)
+        jacobian_.row(k) = slopes.row(k) / measurement.spread;
+    }
     for (std::size_t k = 0; k < known_.size(); ++k)
       jacobian(m + static_cast<Index>(k), known_[k]) = 1;
     return true;
@@ -171,7 +189,8 @@ class FitProblem {
   const Fit& fit_;
   const StudyRunOptions& options_;
   std::vector<FitMeasurement> measured_;
-  std::vector<Index> known_;  // parameters with a spread
+  std::vector<Index> known_;       // parameters with a spread
+  std::vector<double> start_off_;  // (start - what is known before) / unit
   VectorXd start_, units_, lowest_, highest_;
   int trials_ = 0;
   VectorXd at_, values_, residuals_, misfits_;  // of the last evaluation

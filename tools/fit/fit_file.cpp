@@ -26,8 +26,10 @@ const KeyTable& parameter_keys() {
         sim::otherwise("or `{name}` in a `set`"),
         "the value that it is"},
        {"start", number_with_unit(), sim::kRequired, "where the fit starts"},
+       {"known", number_with_unit(), sim::otherwise("as `start`"),
+        "what is known of it without the measurements, with `spread`"},
        {"spread", number_with_unit(), sim::otherwise("or `difference_step`"),
-        "standard deviation of what is known of it without the measurements"},
+        "standard deviation of what is known of it"},
        {"lowest", number_with_unit(), sim::kNone, "lower bound"},
        {"highest", number_with_unit(), sim::kNone, "upper bound"},
        {"difference_step", number_with_unit(), sim::otherwise("a twentieth of `spread`"),
@@ -52,6 +54,9 @@ FitParameter read_parameter(const Node& node) {
     return value;
   };
   table.read("spread", parameter.spread, read_positive);
+  table.read("known", parameter.known, read);
+  if (parameter.known && !parameter.spread)
+    sim::fail(table.at("known"), "expected `spread` with it: how well it is known");
   table.read("lowest", parameter.lowest, read);
   table.read("highest", parameter.highest, read);
   if (parameter.spread) parameter.step = kStepPerSpread * *parameter.spread;

@@ -15,10 +15,11 @@ namespace articular::tools {
 /// A number of the scenario that the fit may change. All values are in `unit`.
 struct FitParameter {
   std::string name;
-  std::string path;  // of `run --set`; "": it stands in {braces} in a `set` alone
-  std::string unit;  // "mm"; "": a bare number
-  double start = 0;
-  std::optional<double> spread;  // standard deviation of what is known without measurements
+  std::string path;              // of `run --set`; "": it stands in {braces} in a `set` alone
+  std::string unit;              // "mm"; "": a bare number
+  double start = 0;              // where the search begins
+  std::optional<double> known;   // without measurements; none: as `start`
+  std::optional<double> spread;  // standard deviation of what is known
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
   double step = 0;  // of the difference quotients, > 0

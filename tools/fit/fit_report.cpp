@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sim/output/history_column.hpp"
 #include "tools/fit/fit_values.hpp"
 #include "tools/fit/missed_target.hpp"
 #include "tools/fit/parameter_text.hpp"
+#include "tools/study/braces.hpp"
 #include "tools/study/csv_cell.hpp"
 
 namespace articular::tools {
@@ -59,9 +62,9 @@ std::string parameter_table(const Fit& fit, const FitResult& result) {
     const FitParameter& p = fit.parameters[k];
     const auto i = static_cast<Index>(k);
     const double value = result.parameters[i], width = result.determination.widths[i];
-    const std::string before =
-        p.spread ? fmt::format("{:.4g} ± {}", p.start, with_unit(*p.spread, p.unit))
-                 : with_unit(p.start, p.unit) + " to begin with";
+    const std::string before = p.spread ? fmt::format("{:.4g} ± {}", p.known.value_or(p.start),
+                                                      with_unit(*p.spread, p.unit))
+                                        : with_unit(p.start, p.unit) + " to begin with";
     const std::string after = std::isfinite(width)
                                   ? fmt::format("{:.4g} ± {}", value, with_unit(width, p.unit))
                                   : with_unit(value, p.unit) + ", not determined";
@@ -81,6 +84,13 @@ std::string correlations(const Fit& fit, const FitResult& result) {
                             fit.parameters[static_cast<std::size_t>(j)].name,
                             fit.parameters[static_cast<std::size_t>(i)].name, c(i, j));
   return text;
+}
+
+bool all_runs_have(const Fit& fit, const std::string& setting) {
+  return std::all_of(fit.runs.begin(), fit.runs.end(), [&](const FitRun& run) {
+    const std::vector<std::string>& all = run.settings.overrides;
+    return std::find(all.begin(), all.end(), setting) != all.end();
+  });
 }
 
 std::string ending(const FitResult& result) {
@@ -146,23 +156,28 @@ std::string measurements_csv(const Fit& fit, const FitResult& result) {
 }
 
 std::string parameters_csv(const Fit& fit, const FitResult& result) {
-  std::string text = "parameter,unit,start,spread,lowest,highest,fitted,width,from measurements\n";
+  std::string text =
+      "parameter,unit,start,known,spread,lowest,highest,fitted,width,from measurements\n";
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
     const FitParameter& p = fit.parameters[k];
     const auto i = static_cast<Index>(k);
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{}\n", p.name, csv_cell(p.unit), csv_cell(p.start),
-                    p.spread ? csv_cell(*p.spread) : "", csv_cell(p.lowest), csv_cell(p.highest),
-                    csv_cell(result.parameters[i]), csv_cell(result.determination.widths[i]),
-                    csv_cell(result.determination.from_data[i]));
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{}\n", p.name, csv_cell(p.unit), csv_cell(p.start),
+        p.spread ? csv_cell(p.known.value_or(p.start)) : "", p.spread ? csv_cell(*p.spread) : "",
+        csv_cell(p.lowest), csv_cell(p.highest), csv_cell(result.parameters[i]),
+        csv_cell(result.determination.widths[i]), csv_cell(result.determination.from_data[i]));
   }
   return text;
 }
 
 std::string fitted_overrides(const Fit& fit, const FitResult& result) {
+  const std::vector<std::string> first = overrides_of(fit, fit.runs.front(), result.parameters);
+  const std::vector<std::string>& written = fit.runs.front().settings.overrides;
   std::string text;
-  for (const std::string& line : overrides_of(fit, fit.runs.front(), result.parameters))
-    text += line + "\n";
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const bool has_parameter = i >= written.size() || !names_in_braces(written[i]).empty();
+    if (has_parameter || all_runs_have(fit, first[i])) text += first[i] + "\n";
+  }
   return text;
 }
 

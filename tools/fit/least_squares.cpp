@@ -3,121 +3,182 @@
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <cmath>
-#include <exception>
-#include <vector>
 
 namespace articular::tools {
 namespace {
 
-/// The problem as Ceres asks for it. Ceres does not expect exceptions: the first one is kept, and
-/// everything after it fails.
-class Residuals : public ceres::CostFunction {
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+bool is_limit(const LeastSquaresProblem& problem, Index i) {
+  return !problem.limits.empty() && problem.limits[static_cast<std::size_t>(i)];
+}
+
+/// What counts of residuals.
+VectorXd counted(const LeastSquaresProblem& problem, VectorXd r) {
+  for (Index i = 0; i < r.size(); ++i)
+    if (is_limit(problem, i)) r[i] = std::max(r[i], 0.0);
+  return r;
+}
+
+/// r and J at x; the model of a step d from there is r + J d, and `damping` holds it back by
+/// damping_i d_i^2 / 2.
+struct Model {
+  VectorXd x, r;
+  MatrixXd jacobian;
+  VectorXd damping;
+};
+
+/// Residuals of the model as Ceres asks for them: those of the problem, then of the damping.
+class ModelResiduals : public ceres::CostFunction {
  public:
-  explicit Residuals(const LeastSquaresProblem& problem) : problem_(problem) {
-    set_num_residuals(problem.residuals);
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.start.size()));
+  ModelResiduals(const LeastSquaresProblem& problem, const Model& model)
+      : problem_(problem), model_(model) {
+    set_num_residuals(static_cast<int>(model.r.size() + model.x.size()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(model.x.size()));
   }
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
-    if (error_) return false;
-    try {
-      return evaluate(parameters[0], residuals, jacobians != nullptr ? jacobians[0] : nullptr);
-    } catch (...) {
-      error_ = std::current_exception();
-      return false;
-    }
-  }
-
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
-
- private:
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-  bool evaluate(const double* unknowns, double* residuals, double* jacobian) const {
-    const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(unknowns, problem_.start.size());
-    Eigen::VectorXd r;
-    if (!problem_.evaluate(x, r)) return false;
-    Eigen::Map<Eigen::VectorXd>(residuals, problem_.residuals) = r;
-    if (jacobian == nullptr) return true;
-    Eigen::MatrixXd derivative;
-    if (!problem_.differentiate(x, derivative)) return false;
-    Eigen::Map<RowMajor>(jacobian, derivative.rows(), derivative.cols()) = derivative;
+    const Index m = model_.r.size(), n = model_.x.size();
+    const Eigen::Map<const VectorXd> d(parameters[0], n);
+    const VectorXd r = counted(problem_, model_.r + model_.jacobian * d);
+    Eigen::Map<VectorXd>(residuals, m) = r;
+    Eigen::Map<VectorXd>(residuals + m, n) = model_.damping.cwiseSqrt().cwiseProduct(d);
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(
+        jacobians[0], m + n, n);
+    jacobian.topRows(m) = model_.jacobian;
+    for (Index i = 0; i < m; ++i)
+      if (is_limit(problem_, i) && r[i] == 0) jacobian.row(i).setZero();
+    jacobian.bottomRows(n) = model_.damping.cwiseSqrt().asDiagonal();
     return true;
   }
 
+ private:
   const LeastSquaresProblem& problem_;
-  mutable std::exception_ptr error_;
+  const Model& model_;
 };
 
-ceres::Solver::Options options_of(const LeastSquaresProblem& problem, int most_iterations) {
+VectorXd slope_of(const LeastSquaresProblem& problem, const Model& model, const VectorXd& d) {
+  return model.jacobian.transpose() * counted(problem, model.r + model.jacobian * d) +
+         model.damping.cwiseProduct(d);
+}
+
+/// The components of d at a bound beyond which the model would fall.
+std::vector<int> held_by_bounds(const LeastSquaresProblem& problem, const Model& model,
+                                const VectorXd& d) {
+  const VectorXd slope = slope_of(problem, model, d), x = model.x + d;
+  std::vector<int> held;
+  for (Index i = 0; i < x.size(); ++i)
+    if ((x[i] <= problem.lowest[i] && slope[i] > 0) || (x[i] >= problem.highest[i] && slope[i] < 0))
+      held.push_back(static_cast<int>(i));
+  return held;
+}
+
+/// Minimises the model from d on, with some components as they are. Ceres cuts a correction at
+/// bounds but does not know which of them hold: with one that holds it would creep.
+void improve(const LeastSquaresProblem& problem, const Model& model, const std::vector<int>& kept,
+             VectorXd& d) {
+  const int n = static_cast<int>(d.size());
+  if (kept.size() == static_cast<std::size_t>(n)) return;
+  ceres::Problem ceres_problem;
+  ceres_problem.AddResidualBlock(new ModelResiduals(problem, model), nullptr, d.data());
+  for (int i = 0; i < n; ++i) {
+    if (std::isfinite(problem.lowest[i]))
+      ceres_problem.SetParameterLowerBound(d.data(), i, problem.lowest[i] - model.x[i]);
+    if (std::isfinite(problem.highest[i]))
+      ceres_problem.SetParameterUpperBound(d.data(), i, problem.highest[i] - model.x[i]);
+  }
+  if (!kept.empty()) ceres_problem.SetManifold(d.data(), new ceres::SubsetManifold(n, kept));
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = most_iterations;
-  options.function_tolerance = options.parameter_tolerance = problem.tolerance;
-  options.initial_trust_region_radius = 10;
-  return options;
-}
-
-/// Solves from solution.x on, with these unknowns as they are. Ceres cuts a correction at bounds
-/// but does not know which of them hold: with one that holds it would creep.
-void solve(const LeastSquaresProblem& problem, const std::vector<int>& kept,
-           LeastSquaresSolution& solution) {
-  const int n = static_cast<int>(solution.x.size());
-  if (kept.size() == static_cast<std::size_t>(n)) return;
-  ceres::Problem ceres_problem;
-  auto* residuals = new Residuals(problem);  // Ceres takes it over
-  double* const x = solution.x.data();
-  ceres_problem.AddResidualBlock(residuals, nullptr, x);
-  for (int i = 0; i < n; ++i) {
-    if (std::isfinite(problem.lowest[i]))
-      ceres_problem.SetParameterLowerBound(x, i, problem.lowest[i]);
-    if (std::isfinite(problem.highest[i]))
-      ceres_problem.SetParameterUpperBound(x, i, problem.highest[i]);
-  }
-  if (!kept.empty()) ceres_problem.SetManifold(x, new ceres::SubsetManifold(n, kept));
+  options.max_num_iterations = 200;
+  options.function_tolerance = options.parameter_tolerance = 1e-14;
   ceres::Solver::Summary summary;
-  ceres::Solve(options_of(problem, problem.most_iterations - solution.iterations), &ceres_problem,
-               &summary);
-  residuals->rethrow();
-  solution.iterations += static_cast<int>(summary.iterations.size()) - 1;
-  solution.converged = summary.termination_type == ceres::CONVERGENCE;
-  solution.message = summary.message;
+  ceres::Solve(options, &ceres_problem, &summary);
 }
 
-/// The unknowns at a bound beyond which the sum of squares would fall.
-std::vector<int> held_by_bounds(const LeastSquaresProblem& problem, const Eigen::VectorXd& x) {
-  const bool any =
-      (x.array() <= problem.lowest.array()).any() || (x.array() >= problem.highest.array()).any();
-  Eigen::VectorXd r;
-  Eigen::MatrixXd jacobian;
-  if (!any || !problem.evaluate(x, r) || !problem.differentiate(x, jacobian)) return {};
-  const Eigen::VectorXd slope = jacobian.transpose() * r;
-  std::vector<int> held;
-  for (int i = 0; i < static_cast<int>(x.size()); ++i)
-    if ((x[i] <= problem.lowest[i] && slope[i] > 0) || (x[i] >= problem.highest[i] && slope[i] < 0))
-      held.push_back(i);
-  return held;
+/// The step to the least of the model within bounds.
+VectorXd step_of(const LeastSquaresProblem& problem, const Model& model) {
+  VectorXd d = VectorXd::Zero(model.x.size());
+  std::vector<int> kept = held_by_bounds(problem, model, d);
+  for (Index i = 0; i <= d.size(); ++i) {  // each time one more is kept at least
+    improve(problem, model, kept, d);
+    const std::vector<int> held = held_by_bounds(problem, model, d);
+    if (held == kept) break;
+    kept = held;
+  }
+  // A difference and a sum later it may have left a bound by a rounding.
+  return (model.x + d).cwiseMax(problem.lowest).cwiseMin(problem.highest) - model.x;
+}
+
+/// Marquardt's scales: how much each unknown moves the residuals that count.
+VectorXd scales_of(const LeastSquaresProblem& problem, const Model& model) {
+  const VectorXd r = counted(problem, model.r);
+  VectorXd scales = VectorXd::Constant(model.x.size(), 1e-6);
+  for (Index i = 0; i < r.size(); ++i)
+    if (!is_limit(problem, i) || r[i] > 0) scales += model.jacobian.row(i).transpose().cwiseAbs2();
+  return scales;
+}
+
+double half_sum(const LeastSquaresProblem& problem, const VectorXd& r) {
+  return counted(problem, r).squaredNorm() / 2;
 }
 
 }  // namespace
 
 LeastSquaresSolution minimise(const LeastSquaresProblem& problem) {
-  FLAGS_minloglevel = google::GLOG_FATAL;  // a step that fails is no news for the terminal
+  FLAGS_minloglevel =
+      google::GLOG_FATAL;  // what Ceres thinks of a step is no news for the terminal
   LeastSquaresSolution solution;
   solution.x = problem.start;
-  std::vector<int> kept;
-  while (solution.iterations < problem.most_iterations) {
-    const int before = solution.iterations;
-    solve(problem, kept, solution);
-    const std::vector<int> held = held_by_bounds(problem, solution.x);
-    if (held == kept || (solution.iterations == before && !kept.empty())) break;
-    kept = held;
+  Model model;
+  model.x = problem.start;
+  if (!problem.evaluate(model.x, model.r) || !problem.differentiate(model.x, model.jacobian)) {
+    solution.message = "there are no residuals at the start";
+    return solution;
   }
+  double damping = 0.1, growth = 2;
+  for (; solution.iterations < problem.most_iterations; ++solution.iterations) {
+    model.damping = damping * scales_of(problem, model);
+    const VectorXd d = step_of(problem, model);
+    if (d.norm() <= problem.tolerance * (model.x.norm() + problem.tolerance)) {
+      solution.converged = true;
+      solution.message = "the next step is short";
+      return solution;
+    }
+    const double before = half_sum(problem, model.r);
+    const double predicted = before - half_sum(problem, model.r + model.jacobian * d);
+    const VectorXd x = model.x + d;
+    VectorXd r;
+    const double fall = problem.evaluate(x, r) ? before - half_sum(problem, r) : -1;
+    if (!(fall > 0)) {
+      damping *= growth;
+      growth *= 2;
+      continue;
+    }
+    const double ratio = predicted > 0 ? fall / predicted : 1;
+    damping *= std::max(1.0 / 3, 1 - std::pow(2 * ratio - 1, 3));
+    growth = 2;
+    solution.x = model.x = x;
+    model.r = r;
+    if (fall < problem.tolerance * before) {
+      ++solution.iterations;
+      solution.converged = true;
+      solution.message = "the last step hardly lowered the sum";
+      return solution;
+    }
+    if (!problem.differentiate(model.x, model.jacobian)) {
+      solution.message = "there are no slopes where it arrived";
+      return solution;
+    }
+  }
+  solution.message = "the most iterations are made";
   return solution;
 }
 

@@ -3,15 +3,18 @@
 #include <Eigen/Core>
 #include <functional>
 #include <string>
+#include <vector>
 
-/// Nonlinear least squares within bounds, by the trust region of Ceres Solver.
+/// Nonlinear least squares within bounds, of residuals some of which are limits.
 namespace articular::tools {
 
-/// Minimises half the sum of the squares of residuals r(x).
+/// Minimises half the sum of the squares of residuals r(x), limits where they are positive alone.
 struct LeastSquaresProblem {
   Eigen::VectorXd start, lowest, highest;  // of the unknowns; infinite where there is no bound
   int residuals = 0;
-  /// r(x). False where there is none: the step is made shorter.
+  std::vector<bool> limits;  // of each residual: it counts only where it is positive; empty: none
+  /// r(x), of limits what is left too (negative). False where there is none: the step is made
+  /// shorter.
   std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd& r)> evaluate;
   /// dr/dx, residuals x unknowns. False as above.
   std::function<bool(const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian)> differentiate;
@@ -28,8 +31,11 @@ struct LeastSquaresSolution {
   std::string message;  // why it ended
 };
 
-/// Unknowns that arrive at a bound are kept there while the sum would fall beyond it. Exceptions of
-/// the functions end it and are thrown on. Unknowns should be of the size of 1.
+/// By Marquardt's damped steps, damped as in [Nielsen. Damping parameter in Marquardt's method.
+/// IMM-REP-1999-05]. A limit that holds at x has no slope there, and a step
+/// that does not see it breaks it: so a step is the least of the model with limits and bounds in
+/// it, sum of max(0, r_i + J_i d)^2 over limits and of (r_i + J_i d)^2 over the others, by Ceres
+/// Solver. Exceptions of the functions are thrown on. Unknowns should be of the size of 1.
 LeastSquaresSolution minimise(const LeastSquaresProblem& problem);
 
 }  // namespace articular::tools

@@ -50,6 +50,13 @@ TEST(FitFile, NumbersAreInTheUnitOfTheStart) {
   EXPECT_FALSE(drawer.held_out);
 }
 
+TEST(FitFile, WhatIsKnownIsTheStartUnlessItIsGiven) {
+  EXPECT_FALSE(read(kParameter + kMeasurement).parameters.at(0).known);
+  EXPECT_NEAR(
+      read(kParameter + "known = '31000 um'\n" + kMeasurement).parameters.at(0).known.value(), 31,
+      1e-12);
+}
+
 TEST(FitFile, RunsHaveWhatIsSetForAllAndTheirOwn) {
   const Fit fit = read(
       "set = { duration = '1 s' }\n[[run]]\nname = 'cut'\nset = { 'choice.acl' = "
@@ -79,6 +86,9 @@ TEST(FitFile, MistakesAreNamedWithTheirPlace) {
       {"[[parameter]]\nname = 'a'\nstart = 1\nspread = 1\n" + kMeasurement,
        "parameter `a` changes nothing"},
       {"[[parameter]]\nname = 'a'\npath = 'x'\nstart = 1\n" + kMeasurement, "expected `spread`"},
+      {"[[parameter]]\nname = 'a'\npath = 'x'\nstart = 1\nknown = 2\ndifference_step = 1\n" +
+           kMeasurement,
+       "expected `spread` with it"},
       {"[[parameter]]\nname = 'a b'\npath = 'x'\nstart = 1\nspread = 1\n" + kMeasurement,
        "expected a name of letters"},
       {"[[parameter]]\nname = 'a'\npath = 'x'\nstart = 'mm'\nspread = 1\n" + kMeasurement,

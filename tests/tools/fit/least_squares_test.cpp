@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -47,6 +48,71 @@ TEST(LeastSquares, StaysWithinBounds) {
   const LeastSquaresSolution solution = minimise(problem);
   EXPECT_TRUE(solution.converged) << solution.message;
   EXPECT_LT((solution.x - Eigen::Vector2d(0.5, 0.25)).norm(), 1e-5);
+}
+
+/// r = (x - 3, 10 (x² + y² - 4), y), the second a limit: least on the circle of radius 2, near (2,
+/// 0).
+LeastSquaresProblem outside_a_circle(double start) {
+  LeastSquaresProblem problem = valley();
+  problem.start = Eigen::Vector2d(start, 0.5);
+  problem.residuals = 3;
+  problem.limits = {false, true, false};
+  problem.evaluate = [](const VectorXd& x, VectorXd& r) {
+    r = Eigen::Vector3d(x[0] - 3, 10 * (x.squaredNorm() - 4), x[1]);
+    return true;
+  };
+  problem.differentiate = [](const VectorXd& x, MatrixXd& j) {
+    j.resize(3, 2);
+    j << 1, 0, 20 * x[0], 20 * x[1], 0, 1;
+    return true;
+  };
+  return problem;
+}
+
+// There x - 3 + 200 x (x² - 4) is 0: x = 2 + e with e = (1 - e) / (200 (2 + e)(4 + e)), so e =
+// 1/1600 up to its square.
+TEST(LeastSquares, EndsWhereALimitBeginsToBreak) {
+  for (const double start : {-1.0, 0.5, 2.5}) {
+    const LeastSquaresSolution solution = minimise(outside_a_circle(start));
+    EXPECT_TRUE(solution.converged) << solution.message;
+    EXPECT_NEAR(solution.x[0], 2 + 1.0 / 1600, 1e-5) << start;
+    EXPECT_NEAR(solution.x[1], 0, 1e-5) << start;
+  }
+}
+
+// From inside of the circle a step that does not see the limit goes to x = 3, where it is broken by
+// fifty.
+TEST(LeastSquares, AStepSeesALimitThatHolds) {
+  LeastSquaresProblem problem = outside_a_circle(1.9);
+  double farthest = 0;
+  problem.evaluate = [&, inner = problem.evaluate](const VectorXd& x, VectorXd& r) {
+    farthest = std::max(farthest, x[0]);
+    return inner(x, r);
+  };
+  EXPECT_TRUE(minimise(problem).converged);
+  EXPECT_LT(farthest, 2.05);
+}
+
+// The limit does not count where it holds: without anything that pulls at it nothing moves.
+TEST(LeastSquares, ALimitThatHoldsDoesNotPull) {
+  LeastSquaresProblem problem = outside_a_circle(1);
+  problem.evaluate = [](const VectorXd& x, VectorXd& r) {
+    r = Eigen::Vector3d(x[0] - 1, 10 * (x.squaredNorm() - 4), x[1]);
+    return true;
+  };
+  const LeastSquaresSolution solution = minimise(problem);
+  EXPECT_TRUE(solution.converged);
+  EXPECT_LT((solution.x - Eigen::Vector2d(1, 0)).norm(), 1e-6);
+}
+
+// A bound and a limit at once: x <= 1 holds it back from the circle.
+TEST(LeastSquares, ABoundHoldsBeforeALimit) {
+  LeastSquaresProblem problem = outside_a_circle(0.2);
+  problem.highest[0] = 1;
+  const LeastSquaresSolution solution = minimise(problem);
+  EXPECT_TRUE(solution.converged);
+  EXPECT_EQ(solution.x[0], 1);
+  EXPECT_NEAR(solution.x[1], 0, 1e-6);
 }
 
 // What lies farther than 0.3 from where it is can't be computed: steps are made shorter.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tools/fit/fit_report.hpp"
+
 namespace articular::tools::parameter_text_test {
 
 FitParameter parameter(const std::string& name, const std::string& path, const std::string& unit) {
@@ -29,6 +31,20 @@ TEST(ParameterText, StandsInBracesWithASum) {
                                       "body.x={ \"mesh\" = 1 }", "load.0.force=\"1.5 0 0 N\"",
                                       "ligament.a.reference_strain=0.02",
                                       "ligament.b.slack_length=\"30.25 mm\""}));
+}
+
+// The others would change what is run beside the parameters.
+TEST(ParameterText, OfAFitIsWhatHasAParameterAndWhatAllRunsHave) {
+  Fit fit;
+  fit.parameters = {parameter("up", "", "mm"), parameter("strain", "ligament.a.strain", "")};
+  const auto run = [](const char* name, const char* own) {
+    return FitRun{name, {{"body.a.mass=\"1 kg\"", own, "body.b.at=\"{up} mm\""}, {}, {}, false}};
+  };
+  fit.runs = {run("long", "duration=\"9 s\""), run("short", "duration=\"1 s\"")};
+  FitResult result;
+  result.parameters = Eigen::Vector2d(2, 0.5);
+  EXPECT_EQ(fitted_overrides(fit, result),
+            "body.a.mass=\"1 kg\"\nbody.b.at=\"2 mm\"\nligament.a.strain=0.5\n");
 }
 
 }  // namespace articular::tools::parameter_text_test
