@@ -37,8 +37,8 @@ const std::vector<std::string> kLigaments{"acl_anterior.force [N]",
                                           "capsule_medial_outer.force [N]",
                                           "capsule_lateral_inner.force [N]",
                                           "capsule_lateral_outer.force [N]"};
-/// [N] The limit of easy flexion and three times its spread in laxity-strains-fit.toml.
-constexpr double kEasy = 100 + 3 * 5;
+/// [N] The limit of easy flexion.
+constexpr double kEasy = 100;
 /// The recorded knee has no capsule.
 const std::vector<std::string> kRecordedLigaments(kLigaments.begin(), kLigaments.end() - 4);
 
@@ -267,6 +267,10 @@ TEST(KneeLaxity, TheKneeBendsEasilyAndItsDrawerIsNearlyAsMeasured) {
     EXPECT_NEAR(forwards, drawer, 1.4 * spread) << rest;
   }
   EXPECT_EQ(results.count("rejected_motion"), 0);
+  // Every five degrees on the way.
+  for (const double begin : {13, 28, 43})
+    for (double time = begin; time <= begin + 3; time += 0.5)
+      EXPECT_LT(sum_at(results, kLigaments, time), kEasy) << time;
   // On to 100 degrees, as easily.
   EXPECT_NEAR(results.last("knee.flexion [deg]"), 100, 1e-6);
   EXPECT_LT(sum_of(results, kLigaments), kEasy);
@@ -373,8 +377,8 @@ TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
 }
 
 // Ligaments were fitted on the shipped knee. On the recorded one they are as easy to 30 degrees of
-// flexion (not beyond: scenarios/knee/RESULTS.md), and let it be drawn as far as one of the knees
-// of the fit: nineteen of twenty lie within two standard deviations.
+// flexion (not beyond 55: scenarios/knee/RESULTS.md), and let it be drawn as far as the knees of
+// the fit.
 TEST(KneeLaxity, OnARecordedKneeTheFittedLigamentsHoldTrue) {
   if (std::getenv("ARTICULAR_DATA") == nullptr)
     GTEST_SKIP() << "ARTICULAR_DATA does not name the folder with the real anatomy";
@@ -396,7 +400,7 @@ TEST(KneeLaxity, OnARecordedKneeTheFittedLigamentsHoldTrue) {
     EXPECT_LT(sum_at(results, kRecordedLigaments, rest), kEasy) << rest;
     EXPECT_LT(std::abs(results.at("femur.moment.x [N m]", rest)), 1) << rest;
     EXPECT_NEAR(results.at("knee.anterior [mm]", rest + 1) - results.at("knee.anterior [mm]", rest),
-                drawer, 2 * spread)
+                drawer, 1.4 * spread)
         << rest;
   }
 }
