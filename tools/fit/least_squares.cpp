@@ -130,56 +130,56 @@ double half_sum(const LeastSquaresProblem& problem, const VectorXd& r) {
   return counted(problem, r).squaredNorm() / 2;
 }
 
+/// How far steps are held back, by how well the model foresaw the last ones.
+struct Damping {
+  double factor = 0.1, growth = 2;
+
+  void after_a_fall(double fall, double predicted) {
+    const double ratio = predicted > 0 ? fall / predicted : 1;
+    factor *= std::max(1.0 / 3, 1 - std::pow(2 * ratio - 1, 3));
+    growth = 2;
+  }
+  void after_a_rise() {
+    factor *= growth;
+    growth *= 2;
+  }
+};
+
 }  // namespace
 
 LeastSquaresSolution minimise(const LeastSquaresProblem& problem) {
-  FLAGS_minloglevel =
-      google::GLOG_FATAL;  // what Ceres thinks of a step is no news for the terminal
-  LeastSquaresSolution solution;
-  solution.x = problem.start;
+  FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres' opinions are no news for the terminal
   Model model;
   model.x = problem.start;
-  if (!problem.evaluate(model.x, model.r) || !problem.differentiate(model.x, model.jacobian)) {
-    solution.message = "there are no residuals at the start";
-    return solution;
-  }
-  double damping = 0.1, growth = 2;
-  for (; solution.iterations < problem.most_iterations; ++solution.iterations) {
-    model.damping = damping * scales_of(problem, model);
+  int iterations = 0;
+  const auto end = [&](bool converged, const char* why) {
+    return LeastSquaresSolution{model.x, iterations, converged, why};
+  };
+  if (!problem.evaluate(model.x, model.r) || !problem.differentiate(model.x, model.jacobian))
+    return end(false, "there are no residuals at the start");
+  Damping damping;
+  while (iterations < problem.most_iterations) {
+    model.damping = damping.factor * scales_of(problem, model);
     const VectorXd d = step_of(problem, model);
-    if (d.norm() <= problem.tolerance * (model.x.norm() + problem.tolerance)) {
-      solution.converged = true;
-      solution.message = "the next step is short";
-      return solution;
-    }
+    if (d.norm() <= problem.tolerance * (model.x.norm() + problem.tolerance))
+      return end(true, "the next step is short");
+    ++iterations;
     const double before = half_sum(problem, model.r);
-    const double predicted = before - half_sum(problem, model.r + model.jacobian * d);
     const VectorXd x = model.x + d;
     VectorXd r;
     const double fall = problem.evaluate(x, r) ? before - half_sum(problem, r) : -1;
     if (!(fall > 0)) {
-      damping *= growth;
-      growth *= 2;
+      damping.after_a_rise();
       continue;
     }
-    const double ratio = predicted > 0 ? fall / predicted : 1;
-    damping *= std::max(1.0 / 3, 1 - std::pow(2 * ratio - 1, 3));
-    growth = 2;
-    solution.x = model.x = x;
+    damping.after_a_fall(fall, before - half_sum(problem, model.r + model.jacobian * d));
+    model.x = x;
     model.r = r;
-    if (fall < problem.tolerance * before) {
-      ++solution.iterations;
-      solution.converged = true;
-      solution.message = "the last step hardly lowered the sum";
-      return solution;
-    }
-    if (!problem.differentiate(model.x, model.jacobian)) {
-      solution.message = "there are no slopes where it arrived";
-      return solution;
-    }
+    if (fall < problem.tolerance * before) return end(true, "the last step hardly lowered the sum");
+    if (!problem.differentiate(model.x, model.jacobian))
+      return end(false, "there are no slopes where it arrived");
   }
-  solution.message = "the most iterations are made";
-  return solution;
+  return end(false, "the most iterations are made");
 }
 
 }  // namespace articular::tools
