@@ -120,7 +120,7 @@ class FitProblem {
     misfits_.resize(m);
     for (Index k = 0; k < m; ++k) {
       const FitMeasurement& measurement = measured_[static_cast<std::size_t>(k)];
-      r[k] = sign(measurement) * (trial.values[k] - measurement.value) / measurement.spread;
+      r[k] = sign(measurement) * difference_in_spreads(measurement, trial.values[k]);
       misfits_[k] = misfit(measurement, trial.values[k]);
     }
     for (std::size_t k = 0; k < known_.size(); ++k)

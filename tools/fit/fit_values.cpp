@@ -93,8 +93,12 @@ double measured_value(const FitMeasurement& measurement, const RunHistory& histo
   return value - sum_at(measurement, *measurement.minus, history, analysis, what);
 }
 
+double difference_in_spreads(const FitMeasurement& measurement, double value) {
+  return (value - measurement.value) / measurement.spread;
+}
+
 double misfit(const FitMeasurement& measurement, double value) {
-  const double difference = (value - measurement.value) / measurement.spread;
+  const double difference = difference_in_spreads(measurement, value);
   if (measurement.target == FitTarget::AtMost) return std::max(0.0, difference);
   if (measurement.target == FitTarget::AtLeast) return std::min(0.0, difference);
   return difference;

@@ -18,8 +18,10 @@ namespace articular::tools {
 double measured_value(const FitMeasurement& measurement, const RunHistory& history,
                       sim::Scenario::Analysis analysis, const std::string& fit_file);
 
-/// How far a value is from what was measured, in standard deviations; 0 on the allowed side of a
-/// limit.
+/// How far a value is from what was measured, in standard deviations.
+double difference_in_spreads(const FitMeasurement& measurement, double value);
+
+/// The same, but 0 on the allowed side of a limit.
 double misfit(const FitMeasurement& measurement, double value);
 
 /// Root of the mean square of the misfits of those measurements that count; 0 where none does.
