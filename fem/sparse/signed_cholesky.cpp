@@ -37,9 +37,18 @@ Pivots judge(Real pivot) {
   return pivot > 0 && std::isfinite(pivot) ? Pivots::Right : Pivots::Wrong;
 }
 
+/// task(begin, end) for pieces of [0, size), which all threads of a pool share, if one is given.
+template <class Task>
+void in_pieces(int size, ThreadPool* pool, const Task& task) {
+  const auto of_worker = [&](int begin, int end, int) { task(begin, end); };
+  if (pool != nullptr) return pool->run_pieces(size, kPiece, of_worker);
+  for (int begin = 0; begin < size; begin += kPiece) task(begin, std::min(begin + kPiece, size));
+}
+
 /// The dense block A = L S Lᵀ in place (lower half, column-major, n columns of stride ld).
+/// @param pool  or nullptr
 template <class Real>
-Pivots factorize_dense(int n, Real* A, int ld, const Real* sign, Real* work) {
+Pivots factorize_dense(int n, Real* A, int ld, const Real* sign, Real* work, ThreadPool* pool) {
   if (n <= kSmallBlock) {
     for (int j = 0; j < n; ++j) {
       Real* column = A + std::ptrdiff_t{j} * ld;
@@ -59,18 +68,23 @@ Pivots factorize_dense(int n, Real* A, int ld, const Real* sign, Real* work) {
   // [A11 ·; A21 A22] with A21 = L21 S1 L11ᵀ and A22 − L21 S1 L21ᵀ = L22 S2 L22ᵀ.
   const int n1 = n / 2, n2 = n - n1;
   Real *A21 = A + n1, *A22 = A21 + std::ptrdiff_t{n1} * ld;
-  const Pivots verdict = factorize_dense(n1, A, ld, sign, work);
+  const Pivots verdict = factorize_dense(n1, A, ld, sign, work, pool);
   if (verdict != Pivots::Right) return verdict;
-  dense::solve_from_right(n2, n1, A, ld, A21, ld);
-  for (int j = 0; j < n1; ++j) {
-    for (int i = 0; i < n2; ++i) {
-      Real& entry = A21[std::ptrdiff_t{j} * ld + i];
-      work[std::ptrdiff_t{j} * n2 + i] = entry;  // L21 S1
-      entry *= sign[j];
+  in_pieces(n2, pool, [&](int begin, int end) {
+    dense::solve_from_right(end - begin, n1, A, ld, A21 + begin, ld);
+    for (int j = 0; j < n1; ++j) {
+      for (int i = begin; i < end; ++i) {
+        Real& entry = A21[std::ptrdiff_t{j} * ld + i];
+        work[std::ptrdiff_t{j} * n2 + i] = entry;  // L21 S1
+        entry *= sign[j];
+      }
     }
-  }
-  dense::add_product(n2, n2, n1, -1, A21, ld, work, n2, 1, A22, ld);
-  return factorize_dense(n2, A22, ld, sign + n1, work);
+  });
+  in_pieces(n2, pool, [&](int begin, int end) {  // of columns, from the diagonal down
+    dense::add_product(n2 - begin, end - begin, n1, -1, A21 + begin, ld, work + begin, n2, 1,
+                       A22 + std::ptrdiff_t{begin} * ld + begin, ld);
+  });
+  return factorize_dense(n2, A22, ld, sign + n1, work, pool);
 }
 
 /// The rows of L below its dense block L11, from those of A: A21 = L21 S1 L11ᵀ.
@@ -107,8 +121,6 @@ struct Scratch {
   std::vector<Run> runs;
   Vector<Real> below;
 };
-
-int pieces_of(int size) { return (size + kPiece - 1) / kPiece; }
 
 }  // namespace
 
@@ -313,7 +325,7 @@ Pivots SignedCholesky<Real>::Factor::factorize_subtree(const SymmetricMatrix& A,
     }
     Real* block = value.data() + nodes.value_begin[s];
     const Real* signs = sign.data() + nodes.first_column[s];
-    const Pivots verdict = factorize_dense(n, block, ld, signs, work.scaled.data());
+    const Pivots verdict = factorize_dense(n, block, ld, signs, work.scaled.data(), nullptr);
     if (verdict != Pivots::Right) return verdict;
     if (ld > n) factorize_below(n, ld - n, block, block + n, ld, signs);
     progress[s] = n;
@@ -329,9 +341,8 @@ Pivots SignedCholesky<Real>::Factor::factorize_top(const SymmetricMatrix& A, int
   const int n = nodes.num_columns(s), ld = nodes.num_rows(s), column = nodes.first_column[s];
   Real* block = value.data() + nodes.value_begin[s];
   const Real* signs = sign.data() + column;
-  pool.run(pieces_of(n), [&](int piece, int worker) {
+  pool.run_pieces(n, kPiece, [&](int from, int to, int worker) {
     Work& work = scratch[static_cast<std::size_t>(worker)];
-    const int from = piece * kPiece, to = std::min(from + kPiece, n);
     start(A, s, from, to);
     locate_rows(s, work);
     for (int d = head[s]; d >= 0; d = next[d])
@@ -343,11 +354,10 @@ Pivots SignedCholesky<Real>::Factor::factorize_top(const SymmetricMatrix& A, int
     progress[d] = rows_before(d, progress[d], nodes.first_column[s + 1]);
     enqueue(d, nodes.count());
   }
-  const Pivots verdict = factorize_dense(n, block, ld, signs, scratch[0].scaled.data());
+  const Pivots verdict = factorize_dense(n, block, ld, signs, scratch[0].scaled.data(), &pool);
   if (verdict != Pivots::Right) return verdict;
-  pool.run(pieces_of(ld - n), [&](int piece, int) {
-    const int from = n + piece * kPiece;
-    factorize_below(n, std::min(kPiece, ld - from), block, block + from, ld, signs);
+  in_pieces(ld - n, &pool, [&](int begin, int end) {
+    factorize_below(n, end - begin, block, block + n + begin, ld, signs);
   });
   progress[s] = n;
   enqueue(s, nodes.count());

@@ -83,12 +83,28 @@ double force_within(const PressedTriangle& triangle, const Vec3& c, double r) {
   return part.area * triangle.p.dot(N) / N.sum();
 }
 
-/// Whether anything of the triangle may lie nearer to c than r.
-bool is_near(const Mat3& x, const Vec3& c, double r) {
-  const Vec3 middle = x.rowwise().mean();
-  const double reach = std::sqrt((x.colwise() - middle).colwise().squaredNorm().maxCoeff());
-  return (middle - c).squaredNorm() < (r + reach) * (r + reach);
-}
+/// A sphere around a triangle, which knows at a glance that a spot takes nothing or all of it.
+struct Enclosed {
+  Vec3 middle;
+  double reach;  // [m]
+  double force;  // ∫ p dA [N]
+
+  explicit Enclosed(const PressedTriangle& triangle)
+      : middle(triangle.x.rowwise().mean()),
+        reach(std::sqrt((triangle.x.colwise() - middle).colwise().squaredNorm().maxCoeff())),
+        force(0.5 * triangle.p.mean() *
+              (triangle.x.col(1) - triangle.x.col(0))
+                  .cross(triangle.x.col(2) - triangle.x.col(0))
+                  .norm()) {}
+
+  /// Whether anything of the triangle may lie nearer to c than r.
+  bool is_near(const Vec3& c, double r) const {
+    return (middle - c).squaredNorm() < (r + reach) * (r + reach);
+  }
+  bool is_within(const Vec3& c, double r) const {
+    return reach < r && (middle - c).squaredNorm() < (r - reach) * (r - reach);
+  }
+};
 
 /// Points of surfaces, at most one in each cube of a grid.
 class Sampling {
@@ -97,7 +113,7 @@ class Sampling {
 
   /// Of the triangle, as long as it has parts within a distance of the centre.
   void add(const Mat3& x, const Vec3& center, double within) {
-    if (!is_near(x, center, within)) return;
+    if (!Enclosed({x, Vec3::Zero()}).is_near(center, within)) return;
     int longest = 0;  // edge, opposite that corner
     double length = 0;
     for (int k = 0; k < 3; ++k)
@@ -152,6 +168,37 @@ void add_patch(const ContactPatch& patch, const Mat3& corners, const Vec3& p, do
   for (std::size_t k = begin; k < triangles.size(); ++k) triangles[k].p *= sum > 0 ? q / sum : 0;
 }
 
+/// Forces through spots of one size.
+class Spots {
+ public:
+  Spots(const std::vector<PressedTriangle>& triangles, double r)
+      : triangles_(triangles), enclosed_(triangles.begin(), triangles.end()), r_(r) {}
+
+  /// ∫ p dA within r of c [N]; 0 where all triangles near it have no more than `enough` together:
+  /// most of them need not be cut then.
+  double force(const Vec3& c, double enough) {
+    near_.clear();
+    double all = 0;
+    for (std::size_t k = 0; k < enclosed_.size(); ++k)
+      if (enclosed_[k].is_near(c, r_)) {
+        near_.push_back(k);
+        all += enclosed_[k].force;
+      }
+    if (!(all > enough)) return 0;
+    double sum = 0;
+    for (const std::size_t k : near_)
+      sum +=
+          enclosed_[k].is_within(c, r_) ? enclosed_[k].force : force_within(triangles_[k], c, r_);
+    return sum;
+  }
+
+ private:
+  const std::vector<PressedTriangle>& triangles_;
+  std::vector<Enclosed> enclosed_;
+  double r_;
+  std::vector<std::size_t> near_;
+};
+
 }  // namespace
 
 void add_pressed_triangles(const Model& model, const ContactResponse& response,
@@ -179,11 +226,12 @@ void add_pressed_triangles(const Model& model, const ContactResponse& response,
 double force_within(const std::vector<PressedTriangle>& triangles, const Vec3& c, double r) {
   double sum = 0;
   for (const PressedTriangle& triangle : triangles)
-    if (is_near(triangle.x, c, r)) sum += force_within(triangle, c, r);
+    if (Enclosed(triangle).is_near(c, r)) sum += force_within(triangle, c, r);
   return sum;
 }
 
 double largest_spot_pressure(const std::vector<PressedTriangle>& triangles, double r) {
+  Spots spots(triangles, r);
   Vec3 best = Vec3::Zero();
   double largest = 0, within = std::numeric_limits<double>::infinity();
   for (const double spacing : {r / 2, r / 8, r / 32}) {
@@ -191,7 +239,7 @@ double largest_spot_pressure(const std::vector<PressedTriangle>& triangles, doub
     Sampling sampling(spacing);
     for (const PressedTriangle& triangle : triangles) sampling.add(triangle.x, center, within);
     for (const Vec3& c : sampling.points())
-      if (const double force = force_within(triangles, c, r); force > largest) {
+      if (const double force = spots.force(c, largest); force > largest) {
         largest = force;
         best = c;
       }

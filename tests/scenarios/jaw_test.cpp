@@ -117,10 +117,10 @@ TEST(JawOpening, TheRealJawOpensOnItsRealDiscsAndClosesAgain) {
   // Coarser than in the scenario, which takes minutes.
   const ScenarioResults results = run_scenario(
       "mandible/subject.toml",
-      {"accuracy=fast", "integrator.step=3 ms", "integrator.position_tolerance=5 um",
+      {"accuracy=fast", "integrator.step=5 ms", "integrator.position_tolerance=5 um",
        "duration=0.78 s", "output.interval=100 ms", "body.fossa_left.contact_meshes.0.faces=500",
        "body.fossa_right.contact_meshes.0.faces=500", "body.mandible.contact_meshes.0.faces=500",
-       "body.disc_left.material.element=plain", "body.disc_right.material.element=plain"});
+       plain_disc("left"), plain_disc("right")});
   expect_opens(results, 0.5, 25, 4, 0.12e-3);
   expect_energy_is_kept_while_opening(results, 0.5);
   EXPECT_LT(std::abs(opening(results, 0.78)), 1);

@@ -16,6 +16,17 @@ if(ARTICULAR_SANITIZED AND ARTICULAR_MOLD)
   add_link_options($<$<CXX_COMPILER_ID:GNU>:-fuse-ld=mold>)
 endif()
 
+# clang compiles sanitized code in two thirds of the time that g++ takes. Where both are there it stands in for g++ by a
+# launcher, to which CMake hands its own compiler, which is dropped, and all arguments.
+find_program(ARTICULAR_CLANG NAMES clang++-14 clang++)
+mark_as_advanced(ARTICULAR_CLANG)
+if(ARTICULAR_SANITIZED AND ARTICULAR_CLANG AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(sanitizing_launcher ${CMAKE_BINARY_DIR}/clang-for-another)
+  list(JOIN CMAKE_CXX_COMPILER_LAUNCHER " " launcher)
+  file(CONFIGURE OUTPUT ${sanitizing_launcher} CONTENT "#!/bin/sh\nshift\nexec @launcher@ '@ARTICULAR_CLANG@' \"$@\"\n" @ONLY)
+  file(CHMOD ${sanitizing_launcher} PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
+endif()
+
 # Null pointers and what lies beyond an object are seen by the address sanitizer too. Checks of alignment at every access
 # are a third of the time that sanitized code takes to compile, those of sizes and virtual tables a sixth of the rest, and
 # those of sums with pointers a sixth of what is left then. Fuzzers, which clang compiles, have them all (CMakePresets.json).
@@ -62,8 +73,17 @@ endfunction()
 # what it allocates by itself, and matrices pass between these objects and those of the tests.
 function(articular_sanitize target)
   target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
-  target_compile_options(${target} PRIVATE -O1 -g1 -UNDEBUG ${sanitizer_options}
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # sees it where there is none
+  # Warnings are for the twin without sanitizers, with the compiler that is asked for.
+  target_compile_options(${target} PRIVATE -O1 -g1 -UNDEBUG ${sanitizer_options} -w)
+  articular_launch_sanitizing(${target})
+endfunction()
+
+# The launcher compiles and links the target.
+function(articular_launch_sanitizing target)
+  if(sanitizing_launcher)
+    set_target_properties(${target} PROPERTIES
+      CXX_COMPILER_LAUNCHER ${sanitizing_launcher} CXX_LINKER_LAUNCHER ${sanitizing_launcher})
+  endif()
 endfunction()
 
 # The names of libraries with those of ours replaced by their sanitized twins.
@@ -139,6 +159,7 @@ function(articular_test name)
   if(ARTICULAR_SANITIZED AND NOT arg_LABELS MATCHES "${not_sanitized}")
     articular_sanitized_names(libraries ${arg_LIBRARIES})
     add_executable(${name}_sanitized $<TARGET_OBJECTS:${name}_objects>)
+    articular_launch_sanitizing(${name}_sanitized)
     target_link_libraries(${name}_sanitized PRIVATE ${libraries} GTest::gtest_main)
     # Of functions in headers, which both the tests and the libraries hold, the linker takes the first: the sanitized.
     articular_own_libraries(own ${libraries})
