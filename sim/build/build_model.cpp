@@ -69,6 +69,7 @@ class Builder {
     model_.position_tolerance = position_tolerance(scenario_.integrator, model_);
     model_.detection_margin = detection_margin(model_);
     model_.trusted_motion = trusted_motion(model_);
+    model_.warnings.insert(model_.warnings.end(), scenario_.doubts.begin(), scenario_.doubts.end());
     for (std::string& doubt : unit_doubts(scenario_, model_))
       model_.warnings.push_back(std::move(doubt));
     for (std::string& doubt : scene_doubts(scenario_, model_, geometry_))

@@ -1,9 +1,13 @@
 #include "sim/scenario/scenario.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
+#include "sim/base/message_text.hpp"
+#include "sim/scenario/curve_doubts.hpp"
 #include "sim/scenario/data_path.hpp"
 #include "sim/scenario/excitation_table.hpp"
 #include "sim/scenario/scenario_choices.hpp"
@@ -93,6 +97,10 @@ std::vector<std::filesystem::path> files_of(const Node& root, const std::filesys
   return files;
 }
 
+bool sets_the_duration(std::string_view override_text) {
+  return trimmed(override_text.substr(0, override_text.find('='))) == "duration";
+}
+
 }  // namespace
 
 const KeyTable& scenario_keys() {
@@ -139,6 +147,7 @@ Scenario read_scenario(const std::filesystem::path& file,
   Node root = read_toml(file);
   for (const std::string& text : overrides)
     if (sets_a_choice(text)) apply_override(root, text);
+  std::set<std::string> named = named_curves(root);  // by entries that do not hold, too
   const ChosenWords choices = apply_choices(root);
   for (const std::string& text : overrides)
     if (!sets_a_choice(text)) apply_override(root, text);
@@ -180,6 +189,11 @@ Scenario read_scenario(const std::filesystem::path& file,
   scenario.files = files_of(root, file);
   scenario.settings_json = settings_as_json(scenario);
   scenario.content = plain_text(root);
+  named.merge(named_curves(root));
+  scenario.doubts = unnamed_curve_doubts(root, named);
+  if (std::ranges::none_of(overrides, sets_the_duration))  // who shortens a run knows it
+    for (std::string& doubt : cut_off_doubts(root, scenario.duration))
+      scenario.doubts.push_back(std::move(doubt));
   return scenario;
 }
 

@@ -536,6 +536,8 @@ struct Scenario {
   std::vector<std::filesystem::path> files;
   /// What the file says after overrides, without comments and layout: checkpoints belong to it.
   std::string content;
+  /// What it says and hardly means, one line each, with the place: see curve_doubts.hpp.
+  std::vector<std::string> doubts;
 };
 
 /// Index into its bodies. @throws InputError when there is none of that name
