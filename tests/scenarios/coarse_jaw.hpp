@@ -17,9 +17,9 @@ inline std::string plain_disc(const std::string& side) {
          R"(element = "plain", stiffness_damping = "5 ms" })";
 }
 
-/// Runs a scenario of scenarios/mandible/ with discs of 1.8 mm in place of 1.2 mm, of plain elements
-/// and without fibres: where a jaw goes hardly depends on them. Without the latter two a chew takes
-/// three times as long.
+/// Runs a scenario of scenarios/mandible/ with discs of 1.8 mm in place of 1.2 mm, of plain
+/// elements and without fibres: where a jaw goes hardly depends on them. Without the latter two a
+/// chew takes three times as long.
 inline ScenarioResults coarse_jaw(const std::string& file,
                                   const std::vector<std::string>& overrides) {
   const TemporaryFolder folder;
