@@ -37,18 +37,9 @@ Pivots judge(Real pivot) {
   return pivot > 0 && std::isfinite(pivot) ? Pivots::Right : Pivots::Wrong;
 }
 
-/// task(begin, end) for pieces of [0, size), which all threads of a pool share, if one is given.
-template <class Task>
-void in_pieces(int size, ThreadPool* pool, const Task& task) {
-  const auto of_worker = [&](int begin, int end, int) { task(begin, end); };
-  if (pool != nullptr) return pool->run_pieces(size, kPiece, of_worker);
-  for (int begin = 0; begin < size; begin += kPiece) task(begin, std::min(begin + kPiece, size));
-}
-
 /// The dense block A = L S Lᵀ in place (lower half, column-major, n columns of stride ld).
-/// @param pool  or nullptr
 template <class Real>
-Pivots factorize_dense(int n, Real* A, int ld, const Real* sign, Real* work, ThreadPool* pool) {
+Pivots factorize_dense(int n, Real* A, int ld, const Real* sign, Real* work, ThreadPool& pool) {
   if (n <= kSmallBlock) {
     for (int j = 0; j < n; ++j) {
       Real* column = A + std::ptrdiff_t{j} * ld;
@@ -70,7 +61,7 @@ Pivots factorize_dense(int n, Real* A, int ld, const Real* sign, Real* work, Thr
   Real *A21 = A + n1, *A22 = A21 + std::ptrdiff_t{n1} * ld;
   const Pivots verdict = factorize_dense(n1, A, ld, sign, work, pool);
   if (verdict != Pivots::Right) return verdict;
-  in_pieces(n2, pool, [&](int begin, int end) {
+  pool.run_pieces(n2, kPiece, [&](int begin, int end, int) {
     dense::solve_from_right(end - begin, n1, A, ld, A21 + begin, ld);
     for (int j = 0; j < n1; ++j) {
       for (int i = begin; i < end; ++i) {
@@ -80,7 +71,7 @@ Pivots factorize_dense(int n, Real* A, int ld, const Real* sign, Real* work, Thr
       }
     }
   });
-  in_pieces(n2, pool, [&](int begin, int end) {  // of columns, from the diagonal down
+  pool.run_pieces(n2, kPiece, [&](int begin, int end, int) {  // of columns, from the diagonal down
     dense::add_product(n2 - begin, end - begin, n1, -1, A21 + begin, ld, work + begin, n2, 1,
                        A22 + std::ptrdiff_t{begin} * ld + begin, ld);
   });
@@ -134,6 +125,7 @@ struct SignedCholesky<Real>::Factor {
   std::vector<char> is_positive;          // all signs of a supernode are +
   std::vector<int> head, next, progress;  // descendants that wait for their next supernode
   mutable std::vector<Work> scratch;      // by worker
+  ThreadPool alone{1};                    // of whoever factors a subtree
   mutable Vector<Real> ordered;           // work of solve(): the unknowns, the rows above subtrees
 
   void allocate_work(int num_threads);
@@ -325,7 +317,7 @@ Pivots SignedCholesky<Real>::Factor::factorize_subtree(const SymmetricMatrix& A,
     }
     Real* block = value.data() + nodes.value_begin[s];
     const Real* signs = sign.data() + nodes.first_column[s];
-    const Pivots verdict = factorize_dense(n, block, ld, signs, work.scaled.data(), nullptr);
+    const Pivots verdict = factorize_dense(n, block, ld, signs, work.scaled.data(), alone);
     if (verdict != Pivots::Right) return verdict;
     if (ld > n) factorize_below(n, ld - n, block, block + n, ld, signs);
     progress[s] = n;
@@ -354,9 +346,9 @@ Pivots SignedCholesky<Real>::Factor::factorize_top(const SymmetricMatrix& A, int
     progress[d] = rows_before(d, progress[d], nodes.first_column[s + 1]);
     enqueue(d, nodes.count());
   }
-  const Pivots verdict = factorize_dense(n, block, ld, signs, scratch[0].scaled.data(), &pool);
+  const Pivots verdict = factorize_dense(n, block, ld, signs, scratch[0].scaled.data(), pool);
   if (verdict != Pivots::Right) return verdict;
-  in_pieces(ld - n, &pool, [&](int begin, int end) {
+  pool.run_pieces(ld - n, kPiece, [&](int begin, int end, int) {
     factorize_below(n, end - begin, block, block + n + begin, ld, signs);
   });
   progress[s] = n;

@@ -224,10 +224,7 @@ void add_pressed_triangles(const Model& model, const ContactResponse& response,
 }
 
 double force_within(const std::vector<PressedTriangle>& triangles, const Vec3& c, double r) {
-  double sum = 0;
-  for (const PressedTriangle& triangle : triangles)
-    if (Enclosed(triangle).is_near(c, r)) sum += force_within(triangle, c, r);
-  return sum;
+  return Spots(triangles, r).force(c, 0);
 }
 
 double largest_spot_pressure(const std::vector<PressedTriangle>& triangles, double r) {

@@ -41,9 +41,9 @@ void doubt_later_changes(const Node& node, double duration, std::vector<std::str
   const std::vector<double> times = read_times(*time);
   if (times.back() <= duration || !changes_later(*node.table(), times, duration)) return;
   doubts.push_back(prefix(time->where) +
-                   fmt::format("`{}` changes until {:.6g} s, and the run ends at {:.6g} s: what "
+                   fmt::format("{} changes until {:.6g} s, and the run ends at {:.6g} s: what "
                                "comes later is not computed",
-                               one_line(node.name), times.back(), duration));
+                               in_ticks(node.name), times.back(), duration));
 }
 
 }  // namespace
@@ -67,8 +67,8 @@ std::vector<std::string> unnamed_curve_doubts(const Node& root,
       if (!named.contains(curve.key))
         doubts.push_back(
             prefix(curve.key_where) +
-            fmt::format("no `excitation` or `profile` names the curve `{}`: it has no effect",
-                        one_line(curve.key)));
+            fmt::format("no `excitation` or `profile` names the curve {}: it has no effect",
+                        in_ticks(curve.key)));
   return doubts;
 }
 
