@@ -1,6 +1,7 @@
 #include "sim/scenario/scenario.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <string>
 #include <string_view>
@@ -97,8 +98,8 @@ std::vector<std::filesystem::path> files_of(const Node& root, const std::filesys
   return files;
 }
 
-bool sets_the_duration(std::string_view override_text) {
-  return trimmed(override_text.substr(0, override_text.find('='))) == "duration";
+bool sets_the_duration(const Override& change) {
+  return change.path == std::vector<std::string>{"duration"};
 }
 
 }  // namespace
@@ -145,12 +146,14 @@ const KeyTable& scenario_keys() {
 Scenario read_scenario(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides) {
   Node root = read_toml(file);
-  for (const std::string& text : overrides)
-    if (sets_a_choice(text)) apply_override(root, text);
+  std::vector<Override> changes;
+  std::ranges::transform(overrides, std::back_inserter(changes), read_override);
+  for (const Override& change : changes)
+    if (sets_a_choice(change)) apply_override(root, change);
   std::set<std::string> named = named_curves(root);  // by entries that do not hold, too
   const ChosenWords choices = apply_choices(root);
-  for (const std::string& text : overrides)
-    if (!sets_a_choice(text)) apply_override(root, text);
+  for (const Override& change : changes)
+    if (!sets_a_choice(change)) apply_override(root, change);
   const TableReader document(root, scenario_keys(), "scenario");
   refuse_settings_below_tables(root);
   Scenario scenario;
@@ -191,7 +194,7 @@ Scenario read_scenario(const std::filesystem::path& file,
   scenario.content = plain_text(root);
   named.merge(named_curves(root));
   scenario.doubts = unnamed_curve_doubts(root, named);
-  if (std::ranges::none_of(overrides, sets_the_duration))  // who shortens a run knows it
+  if (std::ranges::none_of(changes, sets_the_duration))  // who shortens a run knows it
     for (std::string& doubt : cut_off_doubts(root, scenario.duration))
       scenario.doubts.push_back(std::move(doubt));
   return scenario;

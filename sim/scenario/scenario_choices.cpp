@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "sim/scenario/toml_override.hpp"
 #include "sim/scenario/toml_reader.hpp"
 
 namespace articular::sim {
@@ -115,11 +114,6 @@ ChosenWords apply_choices(Node& document) {
   return chosen;
 }
 
-bool sets_a_choice(std::string_view override_text) {
-  const std::size_t begin = override_text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return false;
-  const std::string_view path = override_text.substr(begin, override_text.find('=') - begin);
-  return path.starts_with("choice.") || path == "choice";
-}
+bool sets_a_choice(const Override& change) { return change.path.front() == "choice"; }
 
 }  // namespace articular::sim

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/scenario/toml_document.hpp"
+#include "sim/scenario/toml_override.hpp"
 
 namespace articular::sim {
 
@@ -20,8 +21,8 @@ using ChosenWords = std::vector<std::pair<std::string, std::string>>;
 /// @throws InputError  for a choice that does not exist, and a word that no `when` mentions
 ChosenWords apply_choices(Node& document);
 
-/// Whether "PATH=VALUE" sets a choice: that has to be done before they are applied, all others
-/// after it, so that a name means the entry that is there.
-bool sets_a_choice(std::string_view override_text);
+/// Whether it sets a choice: that has to be done before they are applied, all others after it, so
+/// that a name means the entry that is there.
+bool sets_a_choice(const Override& change);
 
 }  // namespace articular::sim

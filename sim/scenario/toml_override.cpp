@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
-#include <vector>
 
 #include "sim/base/message_text.hpp"
 
@@ -75,16 +73,21 @@ Node& child(Node& node, const std::string& key, bool is_root, bool is_last, cons
 
 }  // namespace
 
-void apply_override(Node& document, std::string_view override_text) {
-  const Location where{"--set " + one_line(override_text)};
-  const std::size_t equals = override_text.find('=');
+Override read_override(std::string_view text) {
+  const Location where{"--set " + one_line(text)};
+  const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos)
     throw InputError(where, "expected PATH=VALUE, such as `duration=0.1 s`");
-  const std::vector<std::string> path = split_path(trimmed(override_text.substr(0, equals)), where);
+  return {split_path(trimmed(text.substr(0, equals)), where),
+          std::string(trimmed(text.substr(equals + 1))), where};
+}
+
+void apply_override(Node& document, const Override& change) {
+  const std::vector<std::string>& path = change.path;
   Node* node = &document;
   for (std::size_t i = 0; i < path.size(); ++i)
-    node = &child(*node, path[i], i == 0, i + 1 == path.size(), where);
-  *node = parse_toml_value(trimmed(override_text.substr(equals + 1)), node->name, where);
+    node = &child(*node, path[i], i == 0, i + 1 == path.size(), change.where);
+  *node = parse_toml_value(change.value, node->name, change.where);
 }
 
 }  // namespace articular::sim

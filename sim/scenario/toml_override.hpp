@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/scenario/toml_document.hpp"
 
@@ -13,11 +14,20 @@ inline constexpr std::array<std::string_view, 10> kEntryLists{
     "body",     "attach", "support", "muscle",  "muscle_table",
     "ligament", "bolus",  "load",    "contact", "probe"};
 
-/// Replaces or adds one value of a scenario: "duration=0.1 s", "body.disc_left.density=1 g/cm^3",
-/// "load.0.force=0 0 -2 N". Entries of a list are addressed by their `name` or by their number from
-/// 0; a part of the path that holds dots is put in double quotes. The new values stand at the
-/// location "--set PATH=VALUE", so that later messages about them name the override.
+/// One value that replaces another, or is added: "duration=0.1 s", "body.disc_left.density=1
+/// g/cm^3", "load.0.force=0 0 -2 N".
+struct Override {
+  std::vector<std::string> path;  ///< "body", "disc_left", "density"
+  std::string value;              ///< TOML, or a text without its quotes
+  Location where;                 ///< "--set PATH=VALUE": later messages about the value name it
+};
+
+/// A part of the path that holds dots is put in double quotes.
+/// @throws InputError  if it has no "=", or a part of its path is empty
+Override read_override(std::string_view text);
+
+/// Entries of a list are addressed by their `name`, or by their number from 0.
 /// @throws InputError  if there is no such place
-void apply_override(Node& document, std::string_view override_text);
+void apply_override(Node& document, const Override& change);
 
 }  // namespace articular::sim

@@ -58,6 +58,9 @@ TEST_F(ScenarioChoices, AnEntryIsThereWhereEachChoiceHasOneOfItsWords) {
   EXPECT_EQ(names(), (Names{"skull", "disc tissue"}));
   EXPECT_EQ(names({"choice.disc=rigid"}), (Names{"skull", "disc", "stand"}));
   EXPECT_EQ(names({"choice.disc=coarse"}), (Names{"skull", "disc tissue"}));
+  EXPECT_EQ(names({"\"choice\".disc = rigid"}), (Names{"skull", "disc", "stand"}));
+  EXPECT_EQ(names({"choice = { disc = \"rigid\", side = \"left\" }"}),
+            (Names{"skull", "disc", "stand"}));
   EXPECT_EQ(read(kText).attachments.size(), 1U);
   EXPECT_TRUE(read(kText, {"choice.disc=coarse"}).attachments.empty());
   EXPECT_TRUE(read(kText).loads.empty());
