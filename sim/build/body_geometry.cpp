@@ -64,8 +64,9 @@ void append(const MeshData& part, MeshData& whole) {
   whole.triangles.rightCols(part.triangles.cols()) = part.triangles.array() + nodes;
 }
 
-/// The faces of a surface that face a direction, or all of them, with the nodes that they use.
-MeshData faces_of(const MeshData& mesh, const std::optional<Vec3>& facing) {
+/// The faces of a surface that face the direction and lie in the box that a contact mesh asks for,
+/// with the nodes that they use.
+MeshData faces_of(const MeshData& mesh, const MeshFile& file) {
   std::vector<int> kept, new_index(static_cast<std::size_t>(mesh.X.cols()), -1);
   MeshData part;
   part.triangles.resize(3, mesh.triangles.cols());
@@ -74,7 +75,8 @@ MeshData faces_of(const MeshData& mesh, const std::optional<Vec3>& facing) {
     const Eigen::Vector3i t = mesh.triangles.col(f);
     const Vec3 area =
         (mesh.X.col(t[1]) - mesh.X.col(t[0])).cross(mesh.X.col(t[2]) - mesh.X.col(t[0]));
-    if (facing && area.dot(*facing) <= kFacingLimit * area.norm()) continue;
+    if (file.facing && area.dot(*file.facing) <= kFacingLimit * area.norm()) continue;
+    if (file.box && !lies_in(*file.box, mesh.X(Eigen::all, t).rowwise().mean())) continue;
     for (int k = 0; k < 3; ++k) {
       int& index = new_index[static_cast<std::size_t>(t[k])];
       if (index < 0) {
@@ -128,7 +130,19 @@ void refuse_inside_out(const MeshData& mesh, const MeshFile& file, const std::st
                                file.path.string(), body));
 }
 
+[[noreturn]] void refuse_empty_part(const MeshFile& file, const std::string& body) {
+  throw InputError(file.where, fmt::format("no triangle of contact mesh {} of `{}` is left by {}",
+                                           file.path.string(), body,
+                                           !file.box      ? "`facing`"
+                                           : !file.facing ? "`box`"
+                                                          : "`facing` and `box`"));
+}
+
 }  // namespace
+
+bool lies_in(const std::pair<Vec3, Vec3>& box, const Vec3& x) {
+  return (x.array() >= box.first.array()).all() && (x.array() <= box.second.array()).all();
+}
 
 std::string mesh_name(const Body& body) {
   const auto* file = std::get_if<MeshFile>(&body.geometry);
@@ -155,7 +169,8 @@ BodyGeometry read_geometry(const Body& body) {
     if (part.triangles.cols() == 0)
       throw InputError(file.where, fmt::format("contact mesh {} of `{}` has no triangles",
                                                file.path.string(), body.name));
-    if (file.facing || part.tets.cols() > 0) part = faces_of(part, file.facing);
+    if (file.facing || file.box || part.tets.cols() > 0) part = faces_of(part, file);
+    if (part.triangles.cols() == 0) refuse_empty_part(file, body.name);
     if (file.faces) part = simplified(part, *file.faces);
     if (file.continued) part = continued_part(part, file);
     append(part, geometry.contact);

@@ -65,9 +65,7 @@ bool RegionTest::contains_element(const Eigen::Vector4i& nodes, const Vec3& midd
 
 bool RegionTest::contains(const Vec3& x, bool on_surface) const {
   if (region_.surface_only && !on_surface) return false;
-  if (region_.box &&
-      ((x - region_.box->first).minCoeff() < 0 || (region_.box->second - x).minCoeff() < 0))
-    return false;
+  if (region_.box && !lies_in(*region_.box, x)) return false;
   if (region_.sphere && (x - region_.sphere->first).norm() > region_.sphere->second) return false;
   return !region_.near_body || near_.is_within(x, region_.near_body->second);
 }

@@ -155,8 +155,9 @@ struct MeshFile {
   double unit = 1e-3;              // [m] per unit of the file
   std::vector<std::string> parts;  // only the elements of these sets; empty: all
   Placement placement;
-  std::optional<int> faces;    // contact: simplify to about this many triangles (after `facing`)
-  std::optional<Vec3> facing;  // unit vector, in the placed frame
+  std::optional<Vec3> facing;                // contact: unit vector, in the placed frame
+  std::optional<std::pair<Vec3, Vec3>> box;  // contact: min, max corner [m], in the placed frame
+  std::optional<int> faces;  // contact: simplify to about this many triangles, of what is kept
   std::optional<Continuation> continued;  // contact: after `faces`
   std::string made_by;                    // what makes the file: told when it is missing
   Location where;

@@ -64,6 +64,7 @@ MeshFile read_contact_mesh(const Node& node, const std::filesystem::path& folder
   const TableReader table(node, contact_mesh_keys(), "contact mesh");
   MeshFile mesh = read_file(table, folder);
   table.read("facing", mesh.facing);
+  table.read("box", mesh.box, read_corners);
   table.read("faces", mesh.faces);
   table.read("continued", mesh.continued, read_continuation);
   return mesh;
@@ -216,6 +217,10 @@ const KeyTable& contact_mesh_keys() {
     KeyTable table{"contact mesh", mesh_keys().keys};
     table.keys.push_back(
         {"facing", {form::Direction{}}, kNone, "keeps faces within 80 degrees of this direction"});
+    table.keys.push_back({"box",
+                          {list_of({form::Vector{kLength}}, 2)},
+                          kNone,
+                          "keeps faces whose middles lie in this box, lower corner first"});
     table.keys.push_back({"faces",
                           {form::Integer{kFewestFaces, kMostFaces}},
                           otherwise("all"),

@@ -70,6 +70,10 @@ bool has_surface(const Body& body);
 const Body& read_touching_body(const Node& node, const Context& context);
 
 Placement read_placement(const Node& node);
+
+/// The lower and the upper corner of a box [m].
+std::pair<Vec3, Vec3> read_corners(const Node& node);
+
 Region read_region(const Node& node, const Context& context);
 
 /// `mesh` of a body, its `contact_meshes`, and its `geometry` with `place`.

@@ -105,16 +105,21 @@ Placement read_placement(const Node& node) {
   return placement;
 }
 
-namespace {
-
-std::pair<Vec3, Vec3> read_corners(const Node& node, const Context& context) {
+std::pair<Vec3, Vec3> read_corners(const Node& node) {
   const Node::List& list =
       read_list(node, "the two corners of a box, such as [\"-6 -6 -1 mm\", \"6 6 1 mm\"]", 2);
   const Vec3 first = read_vector(list[0], kLength), second = read_vector(list[1], kLength);
   if ((first.array() > second.array()).any())
     fail(node, "expected the lower corner first: each coordinate of " + found(list[0]) +
                    " must not exceed that of " + found(list[1]));
-  const Vec3 a = context.point(first), b = context.point(second);
+  return {first, second};
+}
+
+namespace {
+
+std::pair<Vec3, Vec3> read_box_region(const Node& node, const Context& context) {
+  const auto [lower, upper] = read_corners(node);
+  const Vec3 a = context.point(lower), b = context.point(upper);
   return {a.cwiseMin(b), a.cwiseMax(b)};
 }
 
@@ -175,7 +180,7 @@ Region read_region(const Node& node, const Context& context) {
   const TableReader table(node, region_keys(), "region");
   Region region;
   region.where = node.where;
-  table.read("box", region.box, [&](const Node& n) { return read_corners(n, context); });
+  table.read("box", region.box, [&](const Node& n) { return read_box_region(n, context); });
   table.read("sphere", region.sphere, [&](const Node& n) { return read_ball(n, context); });
   table.read("near", region.near_body, [&](const Node& n) { return read_near(n, context); });
   table.read("set", region.set);

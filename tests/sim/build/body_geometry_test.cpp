@@ -1,7 +1,11 @@
-// Mass of rigid bodies from their surfaces.
+// Mass of rigid bodies from their surfaces, and the parts of surfaces that touch.
 #include "sim/build/body_geometry.hpp"
 
 #include <gtest/gtest.h>
+
+#include <functional>
+#include <utility>
+#include <variant>
 
 #include "sim/base/error.hpp"
 #include "tests/sim/support/contact_scene.hpp"
@@ -57,6 +61,61 @@ TEST(BodyGeometry, ASurfaceThatIsInsideOutIsRefusedAndAnOpenOneIsNot) {
   EXPECT_NE(refusal(ball).find("of `bone` is inside out"), std::string::npos) << refusal(ball);
   ball.triangles.conservativeResize(3, ball.triangles.cols() - 1);
   EXPECT_EQ(refusal(ball), "");
+}
+
+/// A fixed ball of radius 30 mm that touches with a part of itself.
+class PartOfABall : public testing::Test {
+ protected:
+  MeshData touching(const std::function<void(MeshFile&)>& change) const {
+    Body bone = mesh_body("bone", Body::Kind::Fixed, ball_, folder_);
+    MeshFile part = std::get<MeshFile>(bone.geometry);
+    change(part);
+    bone.contact_meshes = {part};
+    return read_geometry(bone).contact;
+  }
+
+  MeshData ball_ = surface(wrap_test::ellipsoid(16, Vec3::Constant(0.03)));
+  TemporaryFolder folder_;
+};
+
+TEST_F(PartOfABall, IsOfFacesWhoseMiddlesLieInTheBoxAfterItsPlace) {
+  const Vec3 lower(-1, 0.011, -1), upper(0.002, 1, 1);
+  const MeshData part = touching([&](MeshFile& file) {
+    file.placement.translation = Vec3(0, 0.01, 0);
+    file.box = {lower, upper};
+  });
+  Eigen::Index expected = 0;
+  for (const auto& t : ball_.triangles.colwise()) {
+    const Vec3 middle = ball_.X(Eigen::all, t).rowwise().mean() + Vec3(0, 0.01, 0);
+    if (middle.y() >= lower.y() && middle.x() <= upper.x()) ++expected;
+  }
+  EXPECT_EQ(part.triangles.cols(), expected);
+  EXPECT_GT(expected, 0);
+  for (const auto& t : part.triangles.colwise()) {
+    const Vec3 middle = part.X(Eigen::all, t).rowwise().mean();
+    EXPECT_GE(middle.y(), lower.y());
+    EXPECT_LE(middle.x(), upper.x());
+  }
+}
+
+TEST_F(PartOfABall, NeedsAFace) {
+  const auto refusal = [&](const std::function<void(MeshFile&)>& change) -> std::string {
+    try {
+      touching(change);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::pair<Vec3, Vec3> beside(Vec3(0.04, -1, -1), Vec3(1, 1, 1));
+  const std::pair<Vec3, Vec3> below(Vec3(-1, -1, -1), Vec3(1, 1, -0.02));
+  EXPECT_NE(refusal([&](MeshFile& file) { file.box = beside; }).find("is left by `box`"),
+            std::string::npos);
+  const auto up_below = [&](MeshFile& file) {
+    file.box = below;
+    file.facing = Vec3::UnitZ();
+  };
+  EXPECT_NE(refusal(up_below).find("is left by `facing` and `box`"), std::string::npos);
 }
 
 }  // namespace articular::sim::body_geometry_test

@@ -44,6 +44,7 @@ part = "left"
 made_by = "cp a b"
 place = { scale = 1 }
 facing = [0, 0, 1]
+box = ["-1 -1 -1 mm", "1 1 1 mm"]
 faces = 100
 continued = { at = "0 0 0 mm", direction = [1, 0, 0], length = "5 mm", easing = "1 mm" }
 [[body]]
