@@ -1,5 +1,5 @@
 // The knees of scenarios/knee/ with a patella: extension.toml with coarse elements to 30 degrees,
-// squat.toml to 90.
+// on the recorded knee too, squat.toml to 90.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "sim/scenario/curve.hpp"
 #include "tests/scenarios/coarse_knee.hpp"
 #include "tests/scenarios/mirrored_knee.hpp"
+#include "tests/scenarios/recorded_knee.hpp"
 #include "tests/scenarios/scenario_results.hpp"
 
 namespace articular::extension_test {
@@ -26,12 +27,9 @@ const anatomy::Anatomy& coarse_anatomy() {
   return anatomy;
 }
 
-/// To 30 degrees, all contact faces as the meshes have them, with both ends of each line at the
-/// patella as points.
-sim::Scenario short_extension() {
-  sim::Scenario scenario = shipped_scenario("knee/extension.toml", {"duration=7 s"});
-  for (sim::Body& body : scenario.bodies)
-    for (sim::MeshFile& file : body.contact_meshes) file.faces.reset();
+/// To 30 degrees, with both ends of each line at the patella as points.
+sim::Scenario to_30_degrees(const std::string& file) {
+  sim::Scenario scenario = shipped_scenario(file, {"duration=7 s"});
   const auto add_ends = [&](const std::string& name, const std::vector<sim::Anchor>& path) {
     scenario.probes.push_back({name + "_from", sim::PointProbe{path.front()}});
     scenario.probes.push_back({name + "_to", sim::PointProbe{path.back()}});
@@ -39,6 +37,14 @@ sim::Scenario short_extension() {
   for (const sim::Muscle& muscle : scenario.muscles) add_ends(muscle.name, muscle.path);
   for (const sim::Ligament& ligament : scenario.ligaments)
     if (ligament.name.starts_with("patellar_tendon")) add_ends(ligament.name, ligament.path);
+  return scenario;
+}
+
+/// All contact faces as the meshes have them.
+sim::Scenario short_extension() {
+  sim::Scenario scenario = to_30_degrees("knee/extension.toml");
+  for (sim::Body& body : scenario.bodies)
+    for (sim::MeshFile& file : body.contact_meshes) file.faces.reset();
   return scenario;
 }
 
@@ -69,8 +75,7 @@ PulledPoint pull_on_patella(const ScenarioResults& results, const std::string& l
   return begins_there ? PulledPoint{from, along} : PulledPoint{to, -along};
 }
 
-TEST(KneeExtension, ForcesAndMomentsOnThePatellaBalance) {
-  const ScenarioResults& knee = right_knee();
+void expect_balance_of_the_patella(const ScenarioResults& knee) {
   EXPECT_EQ(knee.summary().at("outcome"), "finished");
   for (const double time : {1.0, 4.0, 7.0}) {
     const Vec3 center = vector_at(knee, "patellofemoral.center", "mm", time);
@@ -89,6 +94,10 @@ TEST(KneeExtension, ForcesAndMomentsOnThePatellaBalance) {
     EXPECT_LT(force.norm(), 1e-3 * pull) << time;
     EXPECT_LT(moment.norm(), 1e-3 * pull * 20) << time;  // arms of about 20 mm
   }
+}
+
+TEST(KneeExtension, ForcesAndMomentsOnThePatellaBalance) {
+  expect_balance_of_the_patella(right_knee());
 }
 
 double tendon_ratio(const ScenarioResults& knee, double time) {
@@ -122,8 +131,7 @@ TEST(KneeExtension, ATendonOfTissuePullsAsItsLines) {
   EXPECT_NEAR(tissue.last("tibia.moment.x [N m]"), right_knee().at("tibia.moment.x [N m]", 1), 1);
 }
 
-TEST(KneeExtension, ThePatellaStaysInItsGrooveAndFlexesLessThanTheKnee) {
-  const ScenarioResults& knee = right_knee();
+void expect_patella_in_its_groove(const ScenarioResults& knee) {
   EXPECT_NEAR(knee.last("knee.flexion [deg]"), 30, 1e-6);
   EXPECT_GT(knee.last("patella.flexion [deg]"), 10);
   EXPECT_LT(knee.last("patella.flexion [deg]"), 30);
@@ -131,6 +139,10 @@ TEST(KneeExtension, ThePatellaStaysInItsGrooveAndFlexesLessThanTheKnee) {
     EXPECT_LT(std::abs(knee.at("patella.lateral [mm]", time)), 5) << time;
     EXPECT_LT(std::abs(knee.at("patella.internal_rotation [deg]", time)), 10) << time;
   }
+}
+
+TEST(KneeExtension, ThePatellaStaysInItsGrooveAndFlexesLessThanTheKnee) {
+  expect_patella_in_its_groove(right_knee());
 }
 
 // What the tibia is held with is what the tendon turns it with: 31 to 47 mm times the quadriceps'
@@ -282,5 +294,17 @@ TEST(KneeExtension, ALeftKneeIsTheMirrorImage) {
   EXPECT_NEAR(left.last("patellofemoral.force.x [N]"), -right.last("patellofemoral.force.x [N]"),
               0.01);
 }
+
+#ifdef ARTICULAR_MESHER
+TEST(KneeExtension, OnARecordedKneeThePatellaBalancesInItsGrooveToo) {
+  if (!knee_test::has_recorded_anatomy())
+    GTEST_SKIP() << "ARTICULAR_DATA does not name the real anatomy";
+  const ScenarioResults knee =
+      knee_test::run_recorded_knee(to_30_degrees("knee/subject-extension.toml"));
+  expect_balance_of_the_patella(knee);
+  expect_patella_in_its_groove(knee);
+  EXPECT_NEAR(tendon_ratio(knee, 3), 1 / 0.86, 0.2);
+}
+#endif
 
 }  // namespace articular::extension_test

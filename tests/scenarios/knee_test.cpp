@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -13,8 +12,8 @@
 #include "sim/run/run.hpp"
 #include "tests/scenarios/coarse_knee.hpp"
 #include "tests/scenarios/mirrored_knee.hpp"
+#include "tests/scenarios/recorded_knee.hpp"
 #include "tests/scenarios/scenario_results.hpp"
-#include "tests/tools/support/program.hpp"
 
 namespace articular::knee_test {
 
@@ -337,28 +336,10 @@ TEST(KneeLaxity, LigamentsOfTissueAreTurnedOutwardsInFlexion) {
 }
 
 #ifdef ARTICULAR_MESHER
-/// Makes the tetrahedra of the recorded knee in meshes/ of the folder, of 4 mm.
-void mesh_recorded_knee(const TemporaryFolder& folder) {
-  const ProgramResult made =
-      run_shell(folder, "out=$PWD; SIZE='4 mm' ARTICULAR=\"$articular\" '" ARTICULAR_SOURCE_DIR
-                        "/tools/figures/subject-knee' \"$out/meshes\"");
-  ASSERT_EQ(made.exit_code, 0) << made.err;
-}
-
 TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
-  if (std::getenv("ARTICULAR_DATA") == nullptr)
-    GTEST_SKIP() << "ARTICULAR_DATA does not name the folder with the real anatomy";
-  const TemporaryFolder folder;
-  ASSERT_NO_FATAL_FAILURE(mesh_recorded_knee(folder));
-  std::vector<std::string> settings = {"duration=0.1 s"};
-  for (const auto& [body, mesh] :
-       {std::pair("femoral_cartilage", "femcart"),
-        std::pair("tibial_cartilage_medial", "tibcart_1"),
-        std::pair("tibial_cartilage_lateral", "tibcart_2"),
-        std::pair("meniscus_medial", "meniscus_1"), std::pair("meniscus_lateral", "meniscus_2")})
-    settings.push_back(
-        fmt::format("body.{}.mesh.file={}/meshes/{}.vtu", body, folder.path().string(), mesh));
-  const ScenarioResults results = run_scenario("knee/subject-axial-load.toml", settings);
+  if (!has_recorded_anatomy()) GTEST_SKIP() << "ARTICULAR_DATA does not name the real anatomy";
+  const ScenarioResults results =
+      run_recorded_knee(shipped_scenario("knee/subject-axial-load.toml", {"duration=0.1 s"}));
   EXPECT_EQ(results.summary().at("outcome"), "finished");
   const double load = 100;  // [N]
   EXPECT_NEAR(results.column("femur.force.y [N]").back(), load, 1e-3 * load);
@@ -380,18 +361,9 @@ TEST(KneeAxialLoad, OnARecordedKneeContactAndLigamentsBalanceTheLoad) {
 // flexion (not beyond 55: scenarios/knee/RESULTS.md), and let it be drawn as far as the knees of
 // the fit.
 TEST(KneeLaxity, OnARecordedKneeTheFittedLigamentsHoldTrue) {
-  if (std::getenv("ARTICULAR_DATA") == nullptr)
-    GTEST_SKIP() << "ARTICULAR_DATA does not name the folder with the real anatomy";
-  const TemporaryFolder folder;
-  ASSERT_NO_FATAL_FAILURE(mesh_recorded_knee(folder));
-  const auto surface = [&](const char* body, int number, const char* name) {
-    return fmt::format("body.{}.contact_meshes.{}.file={}/meshes/{}.vtu", body, number,
-                       folder.path().string(), name);
-  };
+  if (!has_recorded_anatomy()) GTEST_SKIP() << "ARTICULAR_DATA does not name the real anatomy";
   const ScenarioResults results =
-      run_scenario("knee/subject-laxity.toml",
-                   {"duration=18 s", surface("femur", 0, "femcart"),
-                    surface("tibia", 0, "tibcart_1"), surface("tibia", 1, "tibcart_2")});
+      run_recorded_knee(shipped_scenario("knee/subject-laxity.toml", {"duration=18 s"}));
   EXPECT_EQ(results.summary().at("outcome"), "finished");
   const struct {
     double rest, drawer, spread;  // [s], [mm]
