@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "sim/build/collider.hpp"
+#include "sim/mesh/winding_number.hpp"
+#include "sim/model/mass_properties.hpp"
 #include "sim/model/tissue.hpp"
 #include "sim/scenario/name_pattern.hpp"
 
@@ -64,8 +66,7 @@ Collider tissue_collider(const Model& model, std::size_t b) {
   return collider;
 }
 
-/// Of a surface's triangles [m]: the depth of the collision elements under it where the scenario
-/// names none.
+/// Of a surface's triangles [m].
 double mean_edge(const MeshData& surface) {
   double sum = 0;
   for (const auto& triangle : surface.triangles.colwise())
@@ -79,6 +80,16 @@ double area_of(const Positions& X, const Triangles& triangles) {
   for (const auto& t : triangles.colwise())
     sum += 0.5 * (X.col(t[1]) - X.col(t[0])).cross(X.col(t[2]) - X.col(t[0])).norm();
   return sum;
+}
+
+/// Of the collision elements under a surface [m]: as deep as faces are long, and not beyond the
+/// middle of a closed surface that is thinner: there the shell would come out on the other side. A
+/// plate's thickness is twice its volume by its area.
+double shell_depth(const MeshData& surface) {
+  const double edge = mean_edge(surface);
+  if (!is_closed(surface.triangles)) return edge;
+  const double volume = solid_mass_properties(surface.X, surface.triangles, 1).mass;
+  return volume > 0 ? std::min(edge, volume / area_of(surface.X, surface.triangles)) : edge;
 }
 
 /// Creases and slivers of a scanned surface that can't take part in contact: many are an error. A
@@ -110,7 +121,7 @@ Collider rigid_collider(const Body& body, const BodyGeometry& geometry, std::siz
   if (shell) {
     const MeshData& surface = geometry.contact.X.cols() > 0 ? geometry.contact : geometry.mesh;
     if (surface.triangles.cols() == 0) throw InputError("its mesh has no triangles");
-    depth = mean_edge(surface);
+    depth = shell_depth(surface);
     collider.X = surface.X;
     Triangles triangles = surface.triangles;
     collider.tets = shell_under(collider.X, triangles, depth);

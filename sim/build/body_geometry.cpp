@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -130,6 +132,36 @@ void refuse_inside_out(const MeshData& mesh, const MeshFile& file, const std::st
                                file.path.string(), body));
 }
 
+/// The corners of a triangle, the least first, in their order.
+std::array<double, 9> turned_corners(const Positions& X, const Eigen::Vector3i& t) {
+  std::array<std::array<double, 3>, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto x = X.col(t[static_cast<Eigen::Index>(k)]);
+    corners[k] = {x[0], x[1], x[2]};
+  }
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  std::array<double, 9> flat{};
+  for (std::size_t k = 0; k < 9; ++k) flat[k] = corners[k / 3][k % 3];
+  return flat;
+}
+
+/// A triangle that is there twice encloses twice as much, weighs twice as much and carries half of
+/// the force. Their nodes may be others, at the same places.
+void refuse_doubled_triangles(const MeshData& surface, const Location& where,
+                              const std::string& what) {
+  std::vector<std::array<double, 9>> triangles;
+  triangles.reserve(static_cast<std::size_t>(surface.triangles.cols()));
+  for (const auto& t : surface.triangles.colwise())
+    triangles.push_back(turned_corners(surface.X, t));
+  std::sort(triangles.begin(), triangles.end());
+  const auto twin = std::adjacent_find(triangles.begin(), triangles.end());
+  if (twin == triangles.end()) return;
+  throw InputError(
+      where, fmt::format("{} has a triangle twice, with a corner at ({:.6g} {:.6g} {:.6g}) mm; "
+                         "expected each face once",
+                         what, 1e3 * (*twin)[0], 1e3 * (*twin)[1], 1e3 * (*twin)[2]));
+}
+
 [[noreturn]] void refuse_empty_part(const MeshFile& file, const std::string& body) {
   throw InputError(file.where, fmt::format("no triangle of contact mesh {} of `{}` is left by {}",
                                            file.path.string(), body,
@@ -161,7 +193,11 @@ BodyGeometry read_geometry(const Body& body) {
   if (tissue && geometry.mesh.tets.cols() == 0) refuse_surface_of_tissue(body);
   if (const auto* file = std::get_if<MeshFile>(&body.geometry))
     refuse_inside_out(geometry.mesh, *file, body.name);
-  if (!tissue && geometry.mesh.X.cols() > 0) take_surface(geometry.mesh);
+  if (!tissue && geometry.mesh.X.cols() > 0) {
+    take_surface(geometry.mesh);
+    refuse_doubled_triangles(geometry.mesh, mesh_place(body),
+                             fmt::format("the surface of `{}`", body.name));
+  }
   for (const MeshFile& file : body.contact_meshes) {
     MeshData part = load(file, body.name);
     refuse_inside_out(part, file, body.name);
@@ -175,6 +211,9 @@ BodyGeometry read_geometry(const Body& body) {
     if (file.continued) part = continued_part(part, file);
     append(part, geometry.contact);
   }
+  refuse_doubled_triangles(
+      geometry.contact, body.where,
+      fmt::format("what touches of `{}`, its contact meshes together,", body.name));
   return geometry;
 }
 

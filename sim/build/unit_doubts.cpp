@@ -21,11 +21,13 @@ struct Usual {
 
 // Of what moves or gives way. Lungs have 200 kg/m³, tungsten has 19300; brain has a shear modulus
 // of about 500 Pa, tendon and plastics have less than 4e8 Pa (Young's modulus 1 GPa), bone has
-// more; the strongest muscle of a man has some thousand newtons, fibres pull with up to 1 MPa.
-// Rubber has a friction coefficient of 1 to 2, and ligaments tear at a strain of 0.1 to 0.3.
+// more; the strongest muscle of a man has some thousand newtons, fibres pull with up to 1 MPa. The
+// whole patellar tendon has 4000 N/mm at most, and 2e5 N per unit of strain. Rubber has a friction
+// coefficient of 1 to 2, and ligaments tear at a strain of 0.1 to 0.3.
 constexpr Usual kExtent{1e-4, 1}, kTissueDensity{100, 4000}, kRigidDensity{100, 25000},
-    kShearModulus{10, 4e8}, kUsualForce{0, 2e4}, kUsualMass{0, 100}, kFibreStress{0, 3e6},
-    kGravity{0, 100}, kSlackLength{0, 1}, kFriction{0, 2}, kToeStrain{0, 0.5};
+    kShearModulus{10, 4e8}, kUsualForce{0, 2e4}, kUsualMoment{0, 2e3}, kUsualMass{0, 100},
+    kFibreStress{0, 3e6}, kGravity{0.1, 50}, kSlackLength{0, 1}, kStiffness{0, 1e7},
+    kStiffnessPerStrain{0, 1e6}, kFriction{0, 2}, kToeStrain{0, 0.5}, kShift{0, 1};
 
 constexpr double kFarthest = 2;  // [m] of the end of a muscle or ligament from its body's middle
 
@@ -136,29 +138,69 @@ void doubt_points(const Scenario& scenario, const Model& model, const Doubt& dou
   };
   look_at(scenario.muscles, "muscle");
   look_at(scenario.ligaments, "ligament");
+  for (std::size_t b = 0; b < scenario.bodies.size(); ++b) {
+    const Body& body = scenario.bodies[b];
+    if (!body.hold || !body.hold->at) continue;
+    const double distance = (*body.hold->at - middles[b]).norm();
+    if (distance > kFarthest)
+      doubt(body.where,
+            fmt::format("`{}` is held at a point {:.3g} m from its middle", body.name, distance));
+  }
 }
 
+/// What loads do at most over time.
 template <class Doubt>
-void doubt_gravity(const Scenario& scenario, const Doubt& doubt) {
-  for (const Load& any : scenario.loads)
-    if (const auto* const load = std::get_if<GravityLoad>(&any)) {
-      const double most = load->acceleration.norm() * largest_factor(load->profile);
-      if (!is_usual(most, kGravity))
-        doubt(load->where, fmt::format("gravity is {:.3g} m/s^2, on earth it is 9.81 m/s^2", most));
-    }
-}
+struct DoubtLoad {
+  const Doubt& doubt;
 
-/// Radians are read as degrees, and degrees as radians.
+  void operator()(const GravityLoad& load) const {
+    const double most = load.acceleration.norm() * largest_factor(load.profile);
+    if (most > 0 && !is_usual(most, kGravity))
+      doubt(load.where, fmt::format("gravity is {:.3g} m/s^2, on earth it is 9.81 m/s^2", most));
+  }
+  void operator()(const ForceLoad& load) const {
+    const double most = load.force.norm() * largest_factor(load.profile);
+    if (!is_usual(most, kUsualForce)) doubt(load.where, fmt::format("a force is {:.3g} N", most));
+  }
+  void operator()(const MomentLoad& load) const {
+    const double most = load.moment.norm() * largest_factor(load.profile);
+    if (!is_usual(most, kUsualMoment))
+      doubt(load.where, fmt::format("a moment is {:.3g} N m", most));
+  }
+  void operator()(const SurfaceLoad& /*load*/) const {}  // by the modulus of the tissue
+  /// Radians are read as degrees, and degrees as radians.
+  void operator()(const MotionLoad& load) const {
+    const std::string& moved = load.body.empty() ? load.support : load.body;
+    const double turn = largest(load.motion.rotation), way = largest(load.motion.translation);
+    if (turn > kWholeTurn)
+      doubt(load.where, fmt::format("a motion turns `{}` by {:.4g} degrees", moved,
+                                    turn * 180 / std::numbers::pi));
+    if (!is_usual(way, kShift))
+      doubt(load.where, fmt::format("a motion shifts `{}` by {:.3g} m", moved, way));
+  }
+
+  static double largest(const std::vector<Vec3>& samples) {
+    double most = 0;
+    for (const Vec3& sample : samples) most = std::max(most, sample.norm());
+    return most;
+  }
+};
+
 template <class Doubt>
-void doubt_turns(const Scenario& scenario, const Doubt& doubt) {
-  for (const Load& load : scenario.loads) {
-    const auto* const motion = std::get_if<MotionLoad>(&load);
-    if (motion == nullptr) continue;
-    double most = 0;  // [rad]
-    for (const Vec3& rotation : motion->motion.rotation) most = std::max(most, rotation.norm());
-    if (most > kWholeTurn)
-      doubt(motion->where, fmt::format("a motion turns `{}` by {:.4g} degrees", motion->body,
-                                       most * 180 / std::numbers::pi));
+void doubt_ligaments(const Scenario& scenario, const Doubt& doubt) {
+  for (const Ligament& ligament : scenario.ligaments) {
+    if (ligament.slack_length && !is_usual(*ligament.slack_length, kSlackLength))
+      doubt(ligament.where, fmt::format("ligament `{}` has a slack length of {:.3g} m, usual is "
+                                        "less than {} m",
+                                        ligament.name, *ligament.slack_length, kSlackLength.most));
+    const bool by_length = ligament.law == Ligament::Law::Linear;
+    const Usual& usual = by_length ? kStiffness : kStiffnessPerStrain;
+    if (!is_usual(ligament.stiffness, usual))
+      doubt(ligament.where,
+            fmt::format("ligament `{}` has a stiffness of {:.3g} {}, usual is up to "
+                        "{:g}",
+                        ligament.name, (by_length ? 1e-3 : 1) * ligament.stiffness,
+                        by_length ? "N/mm" : "N per strain", (by_length ? 1e-3 : 1) * usual.most));
   }
 }
 
@@ -172,7 +214,8 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
   for (std::size_t b = 0; b < scenario.bodies.size(); ++b) {
     const Body& body = scenario.bodies[b];
     const bool is_tissue = body.kind == Body::Kind::Tissue;
-    if (body.kind == Body::Kind::Fixed) continue;  // a floor may have any size
+    const bool is_made = !std::holds_alternative<MeshFile>(body.geometry);
+    if (body.kind == Body::Kind::Fixed && is_made) continue;  // a floor may have any size
     const BodyModel& made = model.bodies[b];
     const Tissue* const tissue =
         is_tissue ? &model.tissues[static_cast<std::size_t>(made.tissue)] : nullptr;
@@ -200,14 +243,9 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
     if (muscle.tissue.empty() && !is_usual(muscle.max_force, kUsualForce))
       doubt(muscle.where, fmt::format("muscle `{}` has a largest force of {:.3g} N", muscle.name,
                                       muscle.max_force));
-  for (const Ligament& ligament : scenario.ligaments)
-    if (ligament.slack_length && !is_usual(*ligament.slack_length, kSlackLength))
-      doubt(ligament.where, fmt::format("ligament `{}` has a slack length of {:.3g} m, usual is "
-                                        "less than {} m",
-                                        ligament.name, *ligament.slack_length, kSlackLength.most));
+  doubt_ligaments(scenario, doubt);
   doubt_points(scenario, model, doubt);
-  doubt_gravity(scenario, doubt);
-  doubt_turns(scenario, doubt);
+  for (const Load& load : scenario.loads) std::visit(DoubtLoad<decltype(doubt)>{doubt}, load);
   doubt_surface_loads(scenario, model, doubt);
   doubt_times(scenario, doubt);
   doubt_ratios(scenario, doubt);

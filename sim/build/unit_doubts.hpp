@@ -7,8 +7,8 @@
 
 namespace articular::sim {
 
-/// Sizes, masses, stiffnesses, forces and places that no tissue, bone or tool has, gravity of no
-/// planet, friction and toe strains in per cent, and curves and food that begin when the run is
+/// Sizes, masses, stiffnesses, forces, ways and places that no tissue, bone or tool has, gravity of
+/// no planet, friction and toe strains in per cent, and curves and food that begin when the run is
 /// over: most often a unit was meant otherwise. One line each, with the place in the scenario.
 std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& model);
 

@@ -137,6 +137,7 @@ class AbaqusDeck {
     block_ = Block::Skipped;
     if (keyword == "INCLUDE" || !option(keyword_line, "INPUT").empty())
       throw InputError(where_, "data in another file is not read; put it into this one");
+    refuse_makers(keyword, upper(option(keyword_line, "SYSTEM")));
     if (keyword == "NODE") {
       block_ = Block::Nodes;
       set_ = option(keyword_line, "NSET");
@@ -153,6 +154,21 @@ class AbaqusDeck {
     }
     is_instance_ = keyword == "INSTANCE";
     if (is_instance_) block_ = Block::Surface;  // its lines move it
+  }
+
+  /// Keywords that move nodes, or make nodes and elements that are not listed.
+  void refuse_makers(const std::string& keyword, const std::string& system) const {
+    constexpr std::string_view kMakers[] = {"SYSTEM", "NGEN",  "NFILL", "NMAP",
+                                            "NCOPY",  "ELGEN", "ELCOPY"};
+    if (std::find(std::begin(kMakers), std::end(kMakers), keyword) != std::end(kMakers))
+      throw InputError(where_,
+                       "*" + keyword +
+                           " is not read; write the deck with every node and element listed, "
+                           "in one Cartesian system");
+    if (keyword == "NODE" && !system.empty() && system != "R")
+      throw InputError(where_,
+                       "nodes in a cylindrical or spherical system are not read; expected "
+                       "Cartesian coordinates");
   }
 
   void begin_elements(const std::string& type) {

@@ -109,6 +109,7 @@ class BulkData {
     if (card.word == "INCLUDE" || card.word.starts_with("INCLUDE "))
       throw InputError({where_.file, card.line},
                        "data in another file is not read; put it into this one");
+    if (card.word == "GRDSET") return refuse_system(card);
     if (card.word == "GRID") return add_node(card);
     if (card.word == "SPC1") return add_constraint(card, 2);
     if (card.word == "SPC") return add_constraint(card, 1);
@@ -131,11 +132,16 @@ class BulkData {
     return *value;
   }
 
-  void add_node(const Card& card) {
-    const std::int64_t number = whole(card, 0, "a node's number");
+  /// GRID, and GRDSET, which stands for the fields that GRID leaves out.
+  void refuse_system(const Card& card) const {
     if (!field(card, 1).empty() && field(card, 1) != "0")
       throw InputError({where_.file, card.line},
-                       "the node has a coordinate system of its own; expected the basic one (0)");
+                       "nodes have a coordinate system of their own; expected the basic one (0)");
+  }
+
+  void add_node(const Card& card) {
+    const std::int64_t number = whole(card, 0, "a node's number");
+    refuse_system(card);
     Eigen::Vector3d x;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string text(field(card, 2 + i));

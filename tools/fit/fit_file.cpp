@@ -5,6 +5,7 @@
 #include "tools/fit/parameter_text.hpp"
 #include "tools/study/history_columns.hpp"
 #include "tools/study/number_with_unit.hpp"
+#include "tools/study/parameter_path.hpp"
 
 namespace articular::tools {
 namespace {
@@ -218,6 +219,7 @@ Fit read_fit(const std::filesystem::path& file) {
   for (const Node& node : sim::read_list(document.at("parameter"), "[[parameter]] tables")) {
     FitParameter parameter = read_parameter(node);
     check_new_name(node, parameter.name, fit.parameters);
+    check_new_path(node.where, parameter.path, fit.parameters);
     fit.parameters.push_back(std::move(parameter));
   }
   for (const Node& node : sim::read_list(document.at("measurement"), "[[measurement]] tables")) {

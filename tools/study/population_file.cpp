@@ -5,6 +5,7 @@
 #include "sim/base/error.hpp"
 #include "tools/study/braces.hpp"
 #include "tools/study/number_with_unit.hpp"
+#include "tools/study/parameter_path.hpp"
 
 namespace articular::tools {
 namespace {
@@ -209,6 +210,7 @@ Population read_population(const TableReader& document, const fs::path& folder) 
     for (const PopulationParameter& other : population.parameters)
       if (other.name == parameter.name)
         sim::fail(node, fmt::format("a second parameter is called `{}`", parameter.name));
+    check_new_path(node.where, parameter.path, population.parameters);
     population.parameters.push_back(std::move(parameter));
   }
   const auto count = static_cast<Eigen::Index>(population.parameters.size());

@@ -4,6 +4,7 @@
 
 #include "sim/scenario/toml_reader.hpp"
 #include "tools/study/braces.hpp"
+#include "tools/study/parameter_path.hpp"
 #include "tools/study/population_file.hpp"
 
 namespace articular::tools {
@@ -98,10 +99,10 @@ StudyKnob read_knob(const Node& node) {
   StudyKnob knob;
   knob.name = sim::read_text(table.at("name"));
   if (&table.exactly_one({"path", "choice"}) == table.find("path")) {
-    const std::string path = sim::read_text(table.at("path"));
+    knob.path = sim::read_text(table.at("path"));
     for (const Node& value : sim::read_list(table.at("values"), "a list of values")) {
       check_new(value, "value", short_name(value), knob.choices);
-      knob.choices.push_back({short_name(value), {{path + "=" + toml_text(value)}, {}, {}}});
+      knob.choices.push_back({short_name(value), {{knob.path + "=" + toml_text(value)}, {}, {}}});
     }
     return knob;
   }
@@ -281,6 +282,7 @@ Study read_study(const std::filesystem::path& file) {
   for (const Node& node : sim::entries(document, "knob")) {
     StudyKnob knob = read_knob(node);
     check_new(*node.find("name"), "knob", knob.name, study.knobs);
+    check_new_path(node.where, knob.path, study.knobs);
     study.knobs.push_back(std::move(knob));
   }
   for (const Node& node : sim::entries(document, "case")) {

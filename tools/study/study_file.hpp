@@ -20,6 +20,7 @@ struct StudyKnob {
   };
   std::string name;
   std::vector<Choice> choices;
+  std::string path = {};  // of the value that is varied; "": choices set what they like
 };
 
 /// A run beside those that the knobs make.

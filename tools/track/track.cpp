@@ -92,6 +92,12 @@ class Tracker {
       throw sim::InputError({track.file.string()},
                             fmt::format("`duration`: the scenario ends at {:g} s, before {:g} s",
                                         scenario_.duration, duration_));
+    for (const TrackTarget& target : track.targets)
+      if (target.value.time.size() > 1 && target.value.time.front() >= duration_)
+        throw sim::InputError(
+            target.where,
+            fmt::format("target `{}` begins at {:g} s, when the run of {:g} s is over", target.name,
+                        target.value.time.front(), duration_));
     interval_ = track.interval.value_or(model_.is_static ? scenario_.integrator.step
                                                          : scenario_.output.interval);
   }

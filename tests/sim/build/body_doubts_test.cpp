@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "sim/base/error.hpp"
+#include "sim/mesh/shapes.hpp"
+#include "tests/sim/support/contact_scene.hpp"
 #include "tests/sim/support/scene.hpp"
 
 namespace articular::sim::body_doubts_test {
@@ -61,6 +63,43 @@ TEST(BodyDoubts, AreOfALayerThatCannotGiveWay) {
   ASSERT_EQ(doubts_of(bone).size(), 1U);
   EXPECT_NE(doubts_of(bone)[0].find("the layer of `bone` is 167 times as stiff"), std::string::npos)
       << doubts_of(bone)[0];
+}
+
+// A surface in metres that was drawn in millimetres, and one in millimetres drawn in metres.
+TEST(BodyDoubts, AreOfContactMeshesOfAnotherUnit) {
+  const TemporaryFolder folder;
+  const MeshData block = box_mesh({Vec3(0.04, 0.02, 0.02), {1, 1, 1}, Vec3(0.01, 0, 0)});
+  Body bone = mesh_body("bone", Body::Kind::Fixed, block, folder);
+  MeshFile touching = std::get<MeshFile>(bone.geometry);
+  for (const double factor : {1.0, 0.1, 1.4}) {  // a part of it, and a sheet that goes on
+    touching.unit = factor;
+    bone.contact_meshes = {touching};
+    EXPECT_TRUE(doubts_of(bone).empty()) << factor;
+  }
+  for (const double factor : {10.0, 1000.0, 0.001}) {
+    touching.unit = factor;
+    bone.contact_meshes = {touching};
+    ASSERT_EQ(doubts_of(bone).size(), 1U) << factor;
+    EXPECT_NE(doubts_of(bone)[0].find("the contact meshes of `bone` are "), std::string::npos);
+  }
+}
+
+// A cube of edge a has the radius of gyration a/√6 = 8.2 mm about each axis.
+TEST(BodyDoubts, AreOfAMassThatIsNotThatOfItsMesh) {
+  Body bone = box_body("bone", Body::Kind::Rigid, Vec3::Constant(0.02), {0.1, 0, 0});
+  bone.density.reset();
+  const auto num = [&](double away, double gyration) {
+    bone.mass = 0.1;
+    bone.center_of_mass = Vec3(0.1 + away, 0, 0);
+    bone.inertia = 0.1 * gyration * gyration * Mat3::Identity();
+    return doubts_of(bone).size();
+  };
+  EXPECT_EQ(num(0, 0.0082), 0U);
+  EXPECT_EQ(num(0.039, 0.0082), 0U);
+  EXPECT_EQ(num(0.041, 0.0082), 1U);
+  EXPECT_EQ(num(0, 0.32), 0U);
+  EXPECT_EQ(num(0, 0.34), 1U);
+  EXPECT_EQ(num(0, 0.0008), 1U);
 }
 
 }  // namespace articular::sim::body_doubts_test

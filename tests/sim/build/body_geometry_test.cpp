@@ -63,6 +63,37 @@ TEST(BodyGeometry, ASurfaceThatIsInsideOutIsRefusedAndAnOpenOneIsNot) {
   EXPECT_EQ(refusal(ball), "");
 }
 
+// It would weigh twice as much. A triangle and its other side, as scans have them, enclose nothing.
+TEST(BodyGeometry, ATriangleThatIsThereTwiceIsRefusedWhateverItsNodes) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const MeshData& mesh) -> std::string {
+    try {
+      read_geometry(mesh_body("bone", Body::Kind::Fixed, mesh, folder));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const MeshData once = surface(wrap_test::ellipsoid(8, Vec3::Constant(0.03)));
+  MeshData twice = once;
+  const auto nodes = static_cast<int>(once.X.cols());
+  const Eigen::Index faces = once.triangles.cols();
+  twice.X.conservativeResize(3, nodes + 3);
+  twice.triangles.conservativeResize(3, faces + 1);
+  for (int k = 0; k < 3; ++k) {
+    twice.X.col(nodes + k) = once.X.col(once.triangles((k + 1) % 3, 5));
+    twice.triangles(k, faces) = nodes + k;
+  }
+  EXPECT_NE(refusal(twice).find("the surface of `bone` has a triangle twice"), std::string::npos);
+  std::swap(twice.triangles(0, faces), twice.triangles(1, faces));
+  EXPECT_EQ(refusal(twice), "");
+  Body bone = mesh_body("bone", Body::Kind::Fixed, once, folder);
+  bone.contact_meshes.assign(2, std::get<MeshFile>(bone.geometry));
+  EXPECT_THROW(read_geometry(bone), InputError);
+  bone.contact_meshes.pop_back();
+  EXPECT_EQ(read_geometry(bone).contact.triangles.cols(), faces);
+}
+
 /// A fixed ball of radius 30 mm that touches with a part of itself.
 class PartOfABall : public testing::Test {
  protected:

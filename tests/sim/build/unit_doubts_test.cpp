@@ -5,6 +5,8 @@
 
 #include "fem/material/any_material.hpp"
 #include "sim/build/build_model.hpp"
+#include "sim/mesh/shapes.hpp"
+#include "tests/sim/support/contact_scene.hpp"
 #include "tests/sim/support/scene.hpp"
 
 namespace articular::sim::unit_doubts_test {
@@ -78,11 +80,57 @@ TEST(UnitDoubts, AreOfAMass) {
   }
 }
 
-TEST(UnitDoubts, AreOfGravity) {
-  for (const double g : {99.0, 101.0}) {
+TEST(UnitDoubts, AreOfGravityBothWays) {
+  for (const double g : {0.0, 0.09, 0.11, 49.0, 51.0}) {
     Scenario s = usual();
     s.loads = {GravityLoad{{0, 0, -g / 2}, {}, {{0, 1}, {0, 2}}}};
-    EXPECT_EQ(num_doubts(s), g < 100 ? 0U : 1U) << g;
+    EXPECT_EQ(num_doubts(s), g == 0 || (g > 0.1 && g < 50) ? 0U : 1U) << g;
+  }
+}
+
+TEST(UnitDoubts, AreOfForcesAndMomentsAtTheirLargest) {
+  for (const double factor : {0.9, 1.1}) {
+    Scenario s = usual();
+    ForceLoad force;
+    force.at = anchor("bone", {1, 0, 0});
+    force.force = {0, 0, -1e4 * factor};
+    force.profile = {{0, 1}, {0, -2}};
+    MomentLoad moment{"bone", {0, 1e3 * factor, 0}, {{0, 1}, {0, 2}}, {}};
+    s.loads = {force, moment};
+    EXPECT_EQ(num_doubts(s), factor < 1 ? 0U : 2U) << factor;
+  }
+}
+
+TEST(UnitDoubts, AreOfAMotionOfMetres) {
+  for (const double way : {0.9, 1.1}) {
+    Scenario s = usual();
+    s.loads = {shift("floor", 1, {0, way, 0})};
+    EXPECT_EQ(num_doubts(s), way < 1 ? 0U : 1U) << way;
+  }
+}
+
+TEST(UnitDoubts, AreOfALigamentsStiffnessByItsLaw) {
+  for (const double stiffness : {0.9e6, 1.1e6, 0.9e7, 1.1e7}) {
+    Scenario s = usual();
+    Ligament ligament;
+    ligament.name = "acl";
+    ligament.path = {anchor("bone", {1, 0, 0}), anchor("floor", {1, 0, 0.3})};
+    ligament.stiffness = stiffness;
+    s.ligaments = {ligament};
+    EXPECT_EQ(num_doubts(s), stiffness < 1e7 ? 0U : 1U) << stiffness;
+    s.ligaments[0].law = Ligament::Law::Blankevoort;
+    EXPECT_EQ(num_doubts(s), stiffness < 1e6 ? 0U : 1U) << stiffness;
+  }
+}
+
+// The middle of the bone lies at x = 1 m.
+TEST(UnitDoubts, AreOfAHoldFarFromItsBody) {
+  for (const double apart : {1.9, 2.1}) {
+    Scenario s = usual();
+    s.bodies[1].hold = Hold{};
+    s.bodies[1].hold->held[1] = true;
+    s.bodies[1].hold->at = Vec3(1 + apart, 0, 0);
+    EXPECT_EQ(num_doubts(s), apart < 2 ? 0U : 1U) << apart;
   }
 }
 
@@ -205,6 +253,17 @@ TEST(UnitDoubts, AFloorMayBeAsLargeAsItLikes) {
   Scenario s = usual();
   s.bodies.push_back(box_body("plate", Body::Kind::Fixed, {50, 50, 1}, {0, 0, -2}));
   EXPECT_EQ(num_doubts(s), 0U);
+}
+
+TEST(UnitDoubts, AreOfAFixedBodyFromAFileThatIsMetresWide) {
+  for (const double size : {0.9, 1.1}) {
+    const TemporaryFolder folder;
+    Scenario s = usual();
+    s.contact = false;
+    s.bodies[2] = mesh_body("floor", Body::Kind::Fixed,
+                            box_mesh({Vec3(size, 0.1, 0.1), {1, 1, 1}, Vec3::Zero()}), folder);
+    EXPECT_EQ(num_doubts(s), size < 1 ? 0U : 1U) << size;
+  }
 }
 
 }  // namespace articular::sim::unit_doubts_test

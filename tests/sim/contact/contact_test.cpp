@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/mesh/surface.hpp"
 #include "sim/build/build_model.hpp"
 #include "sim/contact/initial_overlap.hpp"
+#include "sim/mesh/shapes.hpp"
 #include "tests/sim/support/contact_scene.hpp"
 #include "tests/sim/support/probes.hpp"
 
@@ -273,6 +275,29 @@ TEST(Contact, AFixedBodyIsMappedOnceForAMargin) {
   run.advance(0.02);
   EXPECT_EQ(run.state.counts.steps, 20);
   EXPECT_EQ(run.state.counts.tree_updates, 20);
+}
+
+// A plate from a surface file, thinner than its triangles are long: what collides under each of its
+// faces does not come out on the other one.
+TEST(Contact, ABallAboveAThinPlateDoesNotOverlapIt) {
+  const TemporaryFolder folder;
+  MeshData plate = box_mesh({Vec3(0.04, 0.04, 0.002), {4, 4, 1}, Vec3::Zero()});
+  plate.triangles = collision::build_surface(plate.tets, static_cast<int>(plate.X.cols())).faces;
+  plate.tets.resize(4, 0);
+  Scenario s = scene(1e-3);
+  s.contact = true;
+  Body ball;
+  ball.name = "ball";
+  ball.kind = Body::Kind::Rigid;
+  ball.density = 1000;
+  for (const double gap : {0.5e-3, 5e-3}) {
+    ball.geometry = SphereGeometry{0.005, 0.002, {0, 0, 0.001 + 0.005 + gap}};
+    s.bodies = {mesh_body("plate", Body::Kind::Fixed, plate, folder), ball};
+    EXPECT_TRUE(initial_overlaps(build_model(s)).empty()) << gap;
+  }
+  ball.geometry = SphereGeometry{0.005, 0.002, {0, 0, 0.001 + 0.005 - 0.5e-3}};
+  s.bodies[1] = ball;
+  EXPECT_EQ(initial_overlaps(build_model(s)).size(), 1U);
 }
 
 // A corner of the upper block, a hundredth of a side deep in the lower one; the third block, flush

@@ -83,6 +83,11 @@ TEST(FitFile, MistakesAreNamedWithTheirPlace) {
       {kParameter + kMeasurement + "at_most = 3\n", "at_most"},
       {kParameter + kMeasurement + "run = 'x'\n", "no [[run]] `x`"},
       {kParameter + kParameter + kMeasurement, "a second one is called `slack`"},
+      {kParameter +
+           "[[parameter]]\nname = 'b'\npath = 'ligament.a.slack_length'\nstart = 1\n"
+           "spread = 1\n" +
+           kMeasurement,
+       "`slack` changes `ligament.a.slack_length` too"},
       {"[[parameter]]\nname = 'a'\nstart = 1\nspread = 1\n" + kMeasurement,
        "parameter `a` changes nothing"},
       {"[[parameter]]\nname = 'a'\npath = 'x'\nstart = 1\n" + kMeasurement, "expected `spread`"},

@@ -146,6 +146,11 @@ TEST_F(PopulationFile, MistakesAreSaidWithTheirPlaces) {
             std::string::npos);
   EXPECT_NE(error(kTwice + kTwenty + kUniform + kUniform).find("a second parameter"),
             std::string::npos);
+  EXPECT_NE(error(kTwice + kTwenty + kUniform + "path = 'p'\n" +
+                  "[[parameter]]\nname = 'z'\ndistribution = 'uniform'\nlowest = 0\nhighest = 1\n"
+                  "path = 'p'\n")
+                .find("`x` changes `p` too"),
+            std::string::npos);
   EXPECT_NE(error(kTwice + kTwenty +
                   "[[parameter]]\nname = 'y'\ndistribution = 'uniform'\nlowest = 0\nhighest = 1\n")
                 .find("no [[parameter]] `x`"),

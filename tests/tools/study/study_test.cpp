@@ -247,6 +247,11 @@ INSTANTIATE_TEST_SUITE_P(
         StudyMistake{"TwoOfAName", kHead + "[[case]]\nname = 'as it is'\n" + kEnd + kExact,
                      "s.toml: two cases are called `as it is`; expected different names of knobs, "
                      "choices and cases"},
+        StudyMistake{"TwoOfAPath",
+                     kHead + "[[knob]]\nname = 'a'\npath = 'duration'\nvalues = ['1 s']\n" +
+                         "[[knob]]\nname = 'b'\npath = 'duration'\nvalues = ['2 s']\n" + kEnd +
+                         kExact,
+                     "s.toml:7:1: `a` changes `duration` too; expected one of them to change it"},
         StudyMistake{"NoSize", kHead + kEnd + "[[reference]]\nsize = 1\n[[reference]]\n",
                      "s.toml:8:1: [[reference]]: `size` is missing"},
         StudyMistake{"ExactHistory", kHead + kEnd + "value = 'history'\nexact = 1.0\n",

@@ -211,6 +211,18 @@ TEST_F(Track, DoesNotMissExcitationsThatItFinds) {
       << run.err;
 }
 
+// All excitations would be nil, and nothing missed.
+TEST_F(Track, RefusesATargetThatBeginsWhenTheRunIsOver) {
+  make_twin();
+  const ProgramResult late =
+      track(kStatic + kTwoMuscles + kTargets +
+            "[[target]]\nname = \"late\"\ncolumn = \"bone.position.y [mm]\"\nspread = 1\n"
+            "value = { time = [\"90 s\", \"91 s\"], value = [1, 2] }\n");
+  EXPECT_EQ(late.exit_code, 2);
+  EXPECT_NE(late.err.find("target `late` begins at 90 s, when the run of "), std::string::npos)
+      << late.err;
+}
+
 // Three tenths of a second are 0.30000000000000004 in binary.
 TEST_F(Track, TimesOfTheTableHaveNoRoundOff) {
   make_twin();
