@@ -23,7 +23,9 @@ inline ScenarioResults run_recorded_knee(sim::Scenario scenario) {
       run_shell(folder, "out=$PWD; SIZE='4 mm' ARTICULAR=\"$articular\" '" ARTICULAR_SOURCE_DIR
                         "/tools/figures/subject-knee' \"$out/meshes\"");
   EXPECT_EQ(made.exit_code, 0) << made.err;
-  for (std::filesystem::path* file : mesh_files(scenario)) {
+  std::vector<std::filesystem::path*> files = mesh_files(scenario);
+  for (std::filesystem::path& file : scenario.files) files.push_back(&file);
+  for (std::filesystem::path* file : files) {
     const std::filesystem::path coarse = folder.path() / "meshes" / file->filename();
     if (std::filesystem::exists(coarse)) *file = coarse;
   }

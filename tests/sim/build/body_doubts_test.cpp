@@ -1,4 +1,5 @@
-// Balls that are too small, layers that are too stiff.
+// Balls that are too small, layers that are too stiff, contact meshes beside the body, masses of
+// others.
 #include "sim/build/body_doubts.hpp"
 
 #include <gtest/gtest.h>
