@@ -132,34 +132,35 @@ void refuse_inside_out(const MeshData& mesh, const MeshFile& file, const std::st
                                file.path.string(), body));
 }
 
+using Corners = std::array<std::array<double, 3>, 3>;
+
 /// The corners of a triangle, the least first, in their order.
-std::array<double, 9> turned_corners(const Positions& X, const Eigen::Vector3i& t) {
-  std::array<std::array<double, 3>, 3> corners;
+Corners turned_corners(const Positions& X, const Eigen::Vector3i& t) {
+  Corners corners;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto x = X.col(t[static_cast<Eigen::Index>(k)]);
     corners[k] = {x[0], x[1], x[2]};
   }
   std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-  std::array<double, 9> flat{};
-  for (std::size_t k = 0; k < 9; ++k) flat[k] = corners[k / 3][k % 3];
-  return flat;
+  return corners;
 }
 
 /// A triangle that is there twice encloses twice as much, weighs twice as much and carries half of
 /// the force. Their nodes may be others, at the same places.
 void refuse_doubled_triangles(const MeshData& surface, const Location& where,
                               const std::string& what) {
-  std::vector<std::array<double, 9>> triangles;
+  std::vector<Corners> triangles;
   triangles.reserve(static_cast<std::size_t>(surface.triangles.cols()));
   for (const auto& t : surface.triangles.colwise())
     triangles.push_back(turned_corners(surface.X, t));
   std::sort(triangles.begin(), triangles.end());
   const auto twin = std::adjacent_find(triangles.begin(), triangles.end());
   if (twin == triangles.end()) return;
+  const auto& corner = twin->front();
   throw InputError(
       where, fmt::format("{} has a triangle twice, with a corner at ({:.6g} {:.6g} {:.6g}) mm; "
                          "expected each face once",
-                         what, 1e3 * (*twin)[0], 1e3 * (*twin)[1], 1e3 * (*twin)[2]));
+                         what, 1e3 * corner[0], 1e3 * corner[1], 1e3 * corner[2]));
 }
 
 [[noreturn]] void refuse_empty_part(const MeshFile& file, const std::string& body) {

@@ -7,19 +7,10 @@
 #include "sim/base/error.hpp"
 #include "sim/base/message_text.hpp"
 #include "sim/scenario/scenario_reader.hpp"
+#include "sim/scenario/toml_walk.hpp"
 
 namespace articular::sim {
 namespace {
-
-/// visit(node) for a tree and all that is in it.
-template <class Visit>
-void for_each_node(const Node& node, const Visit& visit) {
-  visit(node);
-  if (const TomlTable* table = node.table())
-    for (const Member& member : table->members) for_each_node(member.node, visit);
-  if (const Node::List* list = node.list())
-    for (const Node& entry : *list) for_each_node(entry, visit);
-}
 
 /// Whether any of its lists changes between or after times that the run does not reach.
 bool changes_later(const TomlTable& table, const std::vector<double>& times, double duration) {

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "sim/base/message_text.hpp"
 #include "sim/scenario/curve_doubts.hpp"
 #include "sim/scenario/data_path.hpp"
 #include "sim/scenario/excitation_table.hpp"
@@ -15,6 +14,7 @@
 #include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 #include "sim/scenario/toml_override.hpp"
+#include "sim/scenario/toml_walk.hpp"
 
 namespace articular::sim {
 namespace {
@@ -75,23 +75,14 @@ void refuse_settings_below_tables(const Node& root) {
 }
 
 /// Whatever names a file has the key `file`.
-void append_files(const Node& node, const std::filesystem::path& folder,
-                  std::vector<std::filesystem::path>& files) {
-  if (node.table() != nullptr)
-    for (const Member& member : node.table()->members) {
-      if (member.key == "file" && member.node.text() != nullptr)
-        files.push_back(read_path(member.node, folder));
-      else
-        append_files(member.node, folder, files);
-    }
-  if (node.list() != nullptr)
-    for (const Node& entry : *node.list()) append_files(entry, folder, files);
-}
-
 std::vector<std::filesystem::path> files_of(const Node& root, const std::filesystem::path& file) {
   std::vector<std::filesystem::path> files;
+  const auto take = [&](const Node& node) {
+    if (node.name == "file" && node.text() != nullptr)
+      files.push_back(read_path(node, file.parent_path()));
+  };
   for (const Member& member : root.table()->members)
-    if (member.key != "choice") append_files(member.node, file.parent_path(), files);
+    if (member.key != "choice") for_each_node(member.node, take);
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
   files.insert(files.begin(), file);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -18,6 +19,20 @@ MeshData surface(const wrap_test::Shape& shape) {
   mesh.X = shape.X;
   mesh.triangles = shape.triangles;
   return mesh;
+}
+
+std::string refusal(const Body& body) {
+  try {
+    read_geometry(body);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string refusal(const MeshData& mesh) {
+  const TemporaryFolder folder;
+  return refusal(mesh_body("bone", Body::Kind::Fixed, mesh, folder));
 }
 
 TEST(RigidMass, OfABallIsThatOfItsVolume) {
@@ -46,15 +61,6 @@ TEST(RigidMass, OfAnOpenSurfaceIsRefusedUnlessItIsGiven) {
 
 // Its inside would be what lies around it.
 TEST(BodyGeometry, ASurfaceThatIsInsideOutIsRefusedAndAnOpenOneIsNot) {
-  const auto refusal = [](const MeshData& mesh) -> std::string {
-    const TemporaryFolder folder;
-    try {
-      read_geometry(mesh_body("bone", Body::Kind::Fixed, mesh, folder));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
   MeshData ball = surface(wrap_test::ellipsoid(8, Vec3::Constant(0.03)));
   EXPECT_EQ(refusal(ball), "");
   ball.triangles.row(1).swap(ball.triangles.row(2));
@@ -66,14 +72,6 @@ TEST(BodyGeometry, ASurfaceThatIsInsideOutIsRefusedAndAnOpenOneIsNot) {
 // It would weigh twice as much. A triangle and its other side, as scans have them, enclose nothing.
 TEST(BodyGeometry, ATriangleThatIsThereTwiceIsRefusedWhateverItsNodes) {
   const TemporaryFolder folder;
-  const auto refusal = [&](const MeshData& mesh) -> std::string {
-    try {
-      read_geometry(mesh_body("bone", Body::Kind::Fixed, mesh, folder));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
   const MeshData once = surface(wrap_test::ellipsoid(8, Vec3::Constant(0.03)));
   MeshData twice = once;
   const auto nodes = static_cast<int>(once.X.cols());
@@ -97,12 +95,12 @@ TEST(BodyGeometry, ATriangleThatIsThereTwiceIsRefusedWhateverItsNodes) {
 /// A fixed ball of radius 30 mm that touches with a part of itself.
 class PartOfABall : public testing::Test {
  protected:
-  MeshData touching(const std::function<void(MeshFile&)>& change) const {
+  Body touching(const std::function<void(MeshFile&)>& change) const {
     Body bone = mesh_body("bone", Body::Kind::Fixed, ball_, folder_);
     MeshFile part = std::get<MeshFile>(bone.geometry);
     change(part);
     bone.contact_meshes = {part};
-    return read_geometry(bone).contact;
+    return bone;
   }
 
   MeshData ball_ = surface(wrap_test::ellipsoid(16, Vec3::Constant(0.03)));
@@ -111,10 +109,11 @@ class PartOfABall : public testing::Test {
 
 TEST_F(PartOfABall, IsOfFacesWhoseMiddlesLieInTheBoxAfterItsPlace) {
   const Vec3 lower(-1, 0.011, -1), upper(0.002, 1, 1);
-  const MeshData part = touching([&](MeshFile& file) {
+  const Body bone = touching([&](MeshFile& file) {
     file.placement.translation = Vec3(0, 0.01, 0);
     file.box = {lower, upper};
   });
+  const MeshData part = read_geometry(bone).contact;
   Eigen::Index expected = 0;
   for (const auto& t : ball_.triangles.colwise()) {
     const Vec3 middle = ball_.X(Eigen::all, t).rowwise().mean() + Vec3(0, 0.01, 0);
@@ -130,23 +129,15 @@ TEST_F(PartOfABall, IsOfFacesWhoseMiddlesLieInTheBoxAfterItsPlace) {
 }
 
 TEST_F(PartOfABall, NeedsAFace) {
-  const auto refusal = [&](const std::function<void(MeshFile&)>& change) -> std::string {
-    try {
-      touching(change);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
   const std::pair<Vec3, Vec3> beside(Vec3(0.04, -1, -1), Vec3(1, 1, 1));
   const std::pair<Vec3, Vec3> below(Vec3(-1, -1, -1), Vec3(1, 1, -0.02));
-  EXPECT_NE(refusal([&](MeshFile& file) { file.box = beside; }).find("is left by `box`"),
+  EXPECT_NE(refusal(touching([&](MeshFile& file) { file.box = beside; })).find("is left by `box`"),
             std::string::npos);
   const auto up_below = [&](MeshFile& file) {
     file.box = below;
     file.facing = Vec3::UnitZ();
   };
-  EXPECT_NE(refusal(up_below).find("is left by `facing` and `box`"), std::string::npos);
+  EXPECT_NE(refusal(touching(up_below)).find("is left by `facing` and `box`"), std::string::npos);
 }
 
 }  // namespace articular::sim::body_geometry_test
