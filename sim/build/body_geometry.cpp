@@ -235,9 +235,11 @@ MassProperties rigid_mass(const Body& body, const MeshData& mesh) {
     mass = solid_mass_properties(mesh.X, mesh.triangles, body.density.value_or(1.0));
     if (!(mass.mass > 0))
       throw InputError(body.where,
-                       fmt::format("the surface of `{}` encloses no volume; expected a closed "
-                                   "surface with outward normals",
-                                   body.name));
+                       fmt::format("the surface of `{}` {}; expected a closed surface with "
+                                   "outward normals",
+                                   body.name,
+                                   mass.mass < 0 ? "is inside out: its normals point inwards"
+                                                 : "encloses no volume"));
     if (body.mass) {
       mass.inertia *= *body.mass / mass.mass;
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "sim/base/error.hpp"
@@ -29,7 +30,7 @@ constexpr Usual kExtent{1e-4, 1}, kTissueDensity{100, 4000}, kRigidDensity{100, 
     kFibreStress{0, 3e6}, kGravity{0.1, 50}, kSlackLength{0, 1}, kStiffness{0, 1e7},
     kStiffnessPerStrain{0, 1e6}, kFriction{0, 2}, kToeStrain{0, 0.5}, kShift{0, 1};
 
-constexpr double kFarthest = 2;  // [m] of the end of a muscle or ligament from its body's middle
+constexpr double kFarthest = 2;  // [m] of a line's end or a probe's point from its body's middle
 
 constexpr double kWholeTurn = 2 * std::numbers::pi * (1 + 1e-9);  // [rad]
 
@@ -113,7 +114,32 @@ void doubt_surface_loads(const Scenario& scenario, const Model& model, const Dou
   }
 }
 
-/// Points of muscles and ligaments that lie nowhere near their bodies: metres for millimetres.
+/// A body, and a point that goes with it.
+using PlaceOfProbe = std::pair<std::string, Vec3>;
+
+std::vector<PlaceOfProbe> places_of(const Probe& probe) {
+  return std::visit(
+      [](const auto& what) -> std::vector<PlaceOfProbe> {
+        if constexpr (requires { what.proximal; })
+          return {{what.proximal.body, what.proximal.origin},
+                  {what.distal.body, what.distal.origin}};
+        else if constexpr (requires {
+                             what.body;
+                             what.point;
+                           })
+          return {{what.body, what.point}};
+        else if constexpr (requires {
+                             what.frame;
+                             what.point;
+                           })
+          return {{what.frame, what.point}};
+        else
+          return {};
+      },
+      probe.what);
+}
+
+/// Points that lie nowhere near their bodies: metres for millimetres.
 template <class Doubt>
 void doubt_points(const Scenario& scenario, const Model& model, const Doubt& doubt) {
   const auto middle_of = [&](const BodyModel& body) -> Vec3 {
@@ -124,28 +150,30 @@ void doubt_points(const Scenario& scenario, const Model& model, const Doubt& dou
   };
   std::vector<Vec3> middles;
   for (const BodyModel& body : model.bodies) middles.push_back(middle_of(body));
+  const auto is_doubted = [&](const Location& where, const std::string& what,
+                              const std::string& body, const Vec3& point) {
+    const double distance =
+        (point - middles[static_cast<std::size_t>(body_index(scenario, body))]).norm();
+    if (distance <= kFarthest) return false;
+    doubt(where, fmt::format("{} {:.3g} m from the middle of `{}`, usual is less than {} m", what,
+                             distance, body, kFarthest));
+    return true;
+  };
   const auto look_at = [&](const auto& lines, const char* kind) {
     for (const auto& line : lines)
-      for (const Anchor& anchor : line.path) {
-        const auto body = static_cast<std::size_t>(body_index(scenario, anchor.body));
-        const double distance = (anchor.point - middles[body]).norm();
-        if (distance <= kFarthest) continue;
-        doubt(line.where, fmt::format("{} `{}` has a point {:.3g} m from the middle of `{}`, usual "
-                                      "is less than {} m",
-                                      kind, line.name, distance, anchor.body, kFarthest));
-        break;
-      }
+      for (const Anchor& anchor : line.path)
+        if (is_doubted(line.where, fmt::format("{} `{}` has a point", kind, line.name), anchor.body,
+                       anchor.point))
+          break;
   };
   look_at(scenario.muscles, "muscle");
   look_at(scenario.ligaments, "ligament");
-  for (std::size_t b = 0; b < scenario.bodies.size(); ++b) {
-    const Body& body = scenario.bodies[b];
-    if (!body.hold || !body.hold->at) continue;
-    const double distance = (*body.hold->at - middles[b]).norm();
-    if (distance > kFarthest)
-      doubt(body.where,
-            fmt::format("`{}` is held at a point {:.3g} m from its middle", body.name, distance));
-  }
+  for (const Body& body : scenario.bodies)
+    if (body.hold && body.hold->at)
+      is_doubted(body.where, "it is held at a point", body.name, *body.hold->at);
+  for (const Probe& probe : scenario.probes)
+    for (const auto& [body, point] : places_of(probe))
+      is_doubted(probe.where, fmt::format("probe `{}` has a point", probe.name), body, point);
 }
 
 /// What loads do at most over time.

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -133,6 +134,13 @@ WeightedPoint anchored_point(const Anchor& anchor, int body, const Model& model,
           fmt::format("{} of the surface of `{}` lies within the radius of {:g} mm: the force is "
                       "not spread",
                       patch.nodes.empty() ? "no node" : "one node", of.name, 1e3 * anchor.radius));
+    const std::vector<char> on_surface = surface_nodes(model.tissues[t], surfaces[t]);
+    if (static_cast<std::ptrdiff_t>(patch.nodes.size()) ==
+        std::count(on_surface.begin(), on_surface.end(), char{1}))
+      warnings.push_back(prefix(anchor.where) +
+                         fmt::format("the whole surface of `{}` lies within the radius of {:g} mm; "
+                                     "is its unit the one that was meant?",
+                                     of.name, 1e3 * anchor.radius));
     if (!patch.nodes.empty()) return patch;
   }
   return point_of_tissue(anchor, of, model.tissues[t], surfaces[t]);

@@ -11,6 +11,12 @@
 #include "sim/output/probe_columns.hpp"
 
 namespace articular::sim {
+namespace {
+
+/// Of forces: what is left of them where they act across a direction, in equilibrium.
+constexpr double kRoundOff = 1e-6;
+
+}  // namespace
 
 History::History(const Model& model, LengthUnit unit)
     : model_(model), unit_(std::move(unit)), columns_{"time [s]"} {
@@ -38,15 +44,19 @@ void History::record(const State& state, const Stepper& stepper) {
 
 /// Of the row so far, in which each probe with a force begins with it.
 double History::share_of(const ObservedShare& share, const std::vector<std::size_t>& begin) const {
+  const auto force = [&](int probe) {
+    return Eigen::Map<const Vec3>(&values_[begin[static_cast<std::size_t>(probe)]]);
+  };
   const auto along = [&](const std::vector<int>& probes) {
     double sum = 0;
-    for (const int p : probes)
-      sum +=
-          Eigen::Map<const Vec3>(&values_[begin[static_cast<std::size_t>(p)]]).dot(share.direction);
+    for (const int p : probes) sum += force(p).dot(share.direction);
     return sum;
   };
-  const double ratio = along(share.part) / along(share.whole);
-  return std::isfinite(ratio) ? ratio : std::numeric_limits<double>::quiet_NaN();  // of nothing
+  double size = 0;
+  for (const int p : share.whole) size += force(p).norm();
+  const double whole = along(share.whole);
+  const bool is_nothing = !(std::abs(whole) > kRoundOff * size);
+  return is_nothing ? std::numeric_limits<double>::quiet_NaN() : along(share.part) / whole;
 }
 
 std::string History::header() const { return fmt::format("{}\n", fmt::join(columns_, ",")); }

@@ -259,6 +259,8 @@ class UnitParser {
       if (!skip(rest_, ")")) throw Reason("`)` is missing");
     } else {
       base = symbol();
+      if (!rest_.empty() && is_digit(rest_.front()))
+        throw Reason("a power is written with `^`, as in `cm^3`");
     }
     Unit unit;
     multiply(unit, base, power());

@@ -36,7 +36,7 @@ inline constexpr QuantityKind kMass{{1, 0, 0, 0}, "a mass", "0.2 kg"};
 inline constexpr QuantityKind kAngle{{0, 0, 0, 1}, "an angle", "30 deg", "0 0 30 deg"};
 inline constexpr QuantityKind kRate{{0, 0, -1, 0}, "a rate", "10 1/s"};
 inline constexpr QuantityKind kDensity{{1, -3, 0, 0}, "a density", "1.06 g/cm^3"};
-inline constexpr QuantityKind kStress{{1, -1, -2, 0}, "a stress", "15 kPa"};
+inline constexpr QuantityKind kStress{{1, -1, -2, 0}, "a stress", "15 kPa", "0 0 -15 kPa"};
 inline constexpr QuantityKind kForce{{1, 1, -2, 0}, "a force", "190 N", "0 0 -1 N"};
 inline constexpr QuantityKind kMoment{{1, 2, -2, 0}, "a moment", "5 N m", "0 0 5 N m"};
 inline constexpr QuantityKind kStiffness{{1, 0, -2, 0}, "a stiffness", "250 N/mm"};

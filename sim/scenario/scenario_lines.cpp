@@ -39,6 +39,25 @@ std::vector<Anchor> read_path(const TableReader& line, const Context& context) {
   return path;
 }
 
+constexpr double kSamePoint = 1e-9;  // [m]
+
+bool is_same_point(const Anchor& a, const Anchor& b) {
+  return a.body == b.body && (a.point - b.point).norm() <= kSamePoint;
+}
+
+/// A line in the plane x = 0, or across it from a point to its image, would pull twice.
+void refuse_own_image(const TableReader& table, const std::vector<Anchor>& path,
+                      const std::vector<Anchor>& image) {
+  const bool is_own_image =
+      std::equal(path.begin(), path.end(), image.begin(), image.end(), is_same_point) ||
+      std::equal(path.begin(), path.end(), image.rbegin(), image.rend(), is_same_point);
+  if (path.empty() || !is_own_image)  // a muscle of tissue has no path
+    return;
+  fail(table.at("mirror"),
+       fmt::format("{} is its own mirror image, and would pull twice: expected it without `mirror`",
+                   table.what()));
+}
+
 /// Bodies that a line wraps around.
 std::vector<std::string> read_wrap(const Node& node, const Context& context) {
   std::vector<std::string> names;
@@ -208,6 +227,7 @@ std::vector<MuscleRow> rows_to_take(const TableReader& table, std::vector<Muscle
       });
       return listed != listed_stay;
     });
+    if (rows.empty()) fail(*node, "leaves none of the table's muscles");
   }
   return rows;
 }
@@ -356,6 +376,7 @@ void append_muscles(const Node& node, const Context& context, std::vector<Muscle
     here.side = side;
     Muscle muscle = read_muscle(table, here);
     check_new_name(table.at("name"), "muscle", muscle.name, muscles);
+    if (side == Side::Mirrored) refuse_own_image(table, muscles.back().path, muscle.path);
     muscles.push_back(std::move(muscle));
   }
 }
@@ -369,6 +390,7 @@ void append_ligaments(const Node& node, const Context& context, const std::vecto
     Ligament ligament = read_ligament(table, here);
     check_new_name(table.at("name"), "ligament", ligament.name, ligaments);
     check_new_name(table.at("name"), "line (muscle or ligament)", ligament.name, muscles);
+    if (side == Side::Mirrored) refuse_own_image(table, ligaments.back().path, ligament.path);
     ligaments.push_back(std::move(ligament));
   }
 }
@@ -424,6 +446,7 @@ void append_boluses(const Node& node, const Context& context, const std::vector<
     check_new_name(table.at("name"), "bolus", bolus.name, boluses);
     check_new_name(table.at("name"), "line (muscle or bolus)", bolus.name, muscles);
     check_new_name(table.at("name"), "line (ligament or bolus)", bolus.name, ligaments);
+    if (side == Side::Mirrored) refuse_own_image(table, boluses.back().path, bolus.path);
     boluses.push_back(std::move(bolus));
   }
 }

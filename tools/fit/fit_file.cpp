@@ -173,6 +173,12 @@ void check_use(const Node& root, const Fit& fit) {
     if (std::find(names.begin(), names.end(), name) == names.end())
       throw sim::InputError(root.where, fmt::format("`set`: no [[parameter]] `{}`{}", name,
                                                     sim::suggestion(name, names)));
+  std::vector<std::string> units;
+  for (const FitParameter& parameter : fit.parameters) units.push_back(parameter.unit);
+  for (const FitRun& run : fit.runs)
+    for (const std::string& text : run.settings.overrides)
+      if (const std::string wrong = wrong_unit(text, names, units); !wrong.empty())
+        throw sim::InputError(root.where, "`set`: " + wrong);
   for (const FitParameter& parameter : fit.parameters)
     if (parameter.path.empty() && std::find(used.begin(), used.end(), parameter.name) == used.end())
       throw sim::InputError(

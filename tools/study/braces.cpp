@@ -6,6 +6,9 @@
 #include <cctype>
 #include <charconv>
 #include <optional>
+#include <stdexcept>
+
+#include "sim/scenario/quantity.hpp"
 
 namespace articular::tools {
 namespace {
@@ -67,6 +70,29 @@ std::vector<Brace> braces_in(std::string_view text) {
   return braces;
 }
 
+/// What stands between a brace and the end of its value, but for numbers and other braces: the unit
+/// of a number, or of a vector.
+std::string_view unit_behind(std::string_view text, std::size_t at) {
+  text = text.substr(at, text.find_first_of("\"',]", at) - at);
+  while (true) {
+    text.remove_prefix(after_blanks(text, 0));
+    std::size_t end = 0;
+    if (text.starts_with('{'))
+      end = std::min(text.find('}'), text.size() - 1) + 1;
+    else if (!number_at(text, end))
+      return text;
+    text.remove_prefix(end);
+  }
+}
+
+/// Of the same kind, and another size.
+bool differ_in_size(const std::string& a, const std::string& b) try {
+  const sim::MeasuredUnit of_a = sim::parse_any_unit(a), of_b = sim::parse_any_unit(b);
+  return of_a.dimension == of_b.dimension && of_a.size != of_b.size;
+} catch (const std::invalid_argument&) {
+  return false;  // words of a command
+}
+
 }  // namespace
 
 std::vector<std::string> names_in_braces(std::string_view text) {
@@ -88,6 +114,20 @@ std::string with_numbers(const std::string& text, const std::vector<std::string>
     rest = brace.end + (is_quoted ? 1 : 0);
   }
   return result + text.substr(rest);
+}
+
+std::string wrong_unit(std::string_view text, const std::vector<std::string>& names,
+                       const std::vector<std::string>& units) {
+  for (const Brace& brace : braces_in(text)) {
+    const std::string behind(unit_behind(text, brace.end));
+    const std::string& own = units[static_cast<std::size_t>(
+        std::find(names.begin(), names.end(), brace.name) - names.begin())];
+    if (brace.factor == 1 && differ_in_size(behind, own))
+      return fmt::format(
+          "`{{{0}}}` is a number of {1} and stands before {2}: expected `{{{0}}} {1}`", brace.name,
+          own, behind);
+  }
+  return "";
 }
 
 bool is_parameter_name(const std::string& text) {

@@ -19,6 +19,13 @@ std::vector<std::string> names_in_braces(std::string_view text);
 std::string with_numbers(const std::string& text, const std::vector<std::string>& names,
                          const Eigen::VectorXd& values);
 
+/// Says so where a name in braces stands as it is before another unit than its own, of the same
+/// kind: {E} MPa, where E is in kPa. "" where none does. Numbers change nothing: {E * 0.001} MPa.
+/// @param names  all that are in braces, and maybe more
+/// @param units  one a name; "" has none
+std::string wrong_unit(std::string_view text, const std::vector<std::string>& names,
+                       const std::vector<std::string>& units);
+
 /// Letters, digits and _, and a letter first.
 bool is_parameter_name(const std::string& text);
 

@@ -18,7 +18,7 @@ using sim::TableReader;
 using Kind = Distribution::Kind;
 
 constexpr int kMostSamples = 10000, kMostSeed = 1000000000;
-constexpr sim::Range kCorrelation{-1, 1, true, "must lie between -1 and 1"};
+constexpr sim::Range kCorrelation{-1, 1, true, "must lie between -1 and 1, without these"};
 // Less of a distribution than this lies in the tails, where its shape is a guess.
 constexpr double kLeastKept = 1e-6;
 

@@ -178,16 +178,22 @@ void check_references(const Node& root, const Study& study) {
 /// Every name in braces is a parameter, and every parameter changes something.
 void check_population(const TableReader& document, const Study& study) {
   const std::vector<PopulationParameter>& parameters = study.population->parameters;
-  std::vector<std::string> names, used;
-  for (const PopulationParameter& parameter : parameters) names.push_back(parameter.name);
+  std::vector<std::string> names, units, used;
+  for (const PopulationParameter& parameter : parameters) {
+    names.push_back(parameter.name);
+    units.push_back(parameter.unit);
+  }
   const auto look = [&](const std::vector<std::string>& texts, const char* key) {
-    for (const std::string& text : texts)
+    for (const std::string& text : texts) {
       for (const std::string& name : names_in_braces(text)) {
         if (std::find(names.begin(), names.end(), name) == names.end())
           sim::fail(document.at(key),
                     fmt::format("no [[parameter]] `{}`{}", name, sim::suggestion(name, names)));
         used.push_back(name);
       }
+      const std::string wrong = wrong_unit(text, names, units);
+      if (!wrong.empty()) sim::fail(document.at(key), wrong);
+    }
   };
   look(study.settings.overrides, "set");
   look(study.settings.prepare, "prepare");

@@ -148,6 +148,26 @@ TEST(UnitDoubts, AreOfALigamentsLength) {
 }
 
 // The middle of the bone lies at x = 1 m.
+TEST(UnitDoubts, AreOfAProbesPointFarFromItsBody) {
+  for (const double distance : {1.9, 2.1}) {
+    const Vec3 point(1, distance, 0);  // the bone lies at x = 1
+    const auto expect = [&](const auto& what) {
+      Scenario s = usual();
+      s.probes = {{"probe", what}};
+      EXPECT_EQ(num_doubts(s), distance < 2 ? 0U : 1U) << what.body << " " << distance;
+    };
+    expect(HelicalAxisProbe{"bone", "", point});
+    expect(MomentArmProbe{"masseter", "bone", point});
+    expect(MuscleMomentProbe{{"masseter"}, "bone", point});
+    Scenario s = usual();
+    s.probes = {{"extent", ExtentProbe{"block", "bone", point, Vec3::UnitZ()}}};
+    EXPECT_EQ(num_doubts(s), distance < 2 ? 0U : 1U) << "extent " << distance;
+    const Vec3 x = Vec3::UnitX(), z = Vec3::UnitZ();
+    s.probes = {{"joint", JointProbe{{"floor", Vec3::Zero(), x, z}, {"bone", point, x, z}}}};
+    EXPECT_EQ(num_doubts(s), distance < 2 ? 0U : 1U) << "joint " << distance;
+  }
+}
+
 TEST(UnitDoubts, AreOfAPointFarFromItsBody) {
   for (const double apart : {1.9, 2.1}) {
     Scenario s = usual();

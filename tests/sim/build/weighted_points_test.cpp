@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "sim/base/error.hpp"
@@ -107,6 +108,16 @@ TEST_F(AnchoredPoint, ARadiusTakesTheSurfaceNodesWithinAndWarnsOfOneOrNone) {
             1e-9 * kSide);
   ASSERT_EQ(warnings_.size(), 2U);
   EXPECT_NE(warnings_[1].find("no node"), std::string::npos);
+}
+
+TEST_F(AnchoredPoint, ARadiusThatTakesInTheWholeSurfaceIsDoubted) {
+  const Vec3 corner = Vec3::Constant(kSide / 2);
+  const double diagonal = std::sqrt(3.0) * kSide;
+  at(corner, 0.99 * diagonal);
+  EXPECT_TRUE(warnings_.empty());
+  at(corner, 1.01 * diagonal);
+  ASSERT_EQ(warnings_.size(), 1U);
+  EXPECT_NE(warnings_[0].find("the whole surface of `block`"), std::string::npos) << warnings_[0];
 }
 
 TEST_F(AnchoredPoint, OfARigidBodyIsWithinItOrNearItsSurface) {

@@ -101,6 +101,18 @@ TEST(ContactProbe, ApartThereIsNoMeanPressureAndNoShare) {
   EXPECT_TRUE(std::isnan(probes("share.share [-]")));
 }
 
+// Force and counterforce leave nothing but round-off, of which there are no shares.
+TEST(ContactProbe, OfForcesThatCancelThereIsNoShare) {
+  Scenario s = press(Scenario::Analysis::Static, 0.004);
+  s.probes.back().what =
+      ShareProbe{{"block"}, {"block_low", "block_high", "plate"}, Vec3(0.48, 0.6, 0.64)};
+  Simulation run(s, contact_stiffness_of(kStiffness));
+  run.advance(1);
+  const Probes probes(run);
+  EXPECT_GT(carried(probes, "block").force.norm(), 0);
+  EXPECT_TRUE(std::isnan(probes("share.share [-]")));
+}
+
 // Half of the surface that the plate presses on is tied to the wall: there contact goes straight
 // into the bone. What the wall gets in all is what the plate gives, up to what statics leaves
 // unbalanced (1e-6 of the largest force at each node).

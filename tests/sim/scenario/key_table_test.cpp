@@ -86,7 +86,7 @@ turned = "0 0 1 deg"
 mirror = "x"
 [[muscle]]
 name = "line"
-path = [{ body = "skull", point = "0 0 0 mm", beyond_mesh = true }, { body = "tissue", point = "0 0 9 mm", radius = "1 mm" }]
+path = [{ body = "skull", point = "1 0 0 mm", beyond_mesh = true }, { body = "tissue", point = "0 0 9 mm", radius = "1 mm" }]
 wrap = ["skull"]
 beyond = { time = ["0 s", "1 s"], length = ["1 mm", "2 mm"] }
 max_force = "1 N"
@@ -121,7 +121,7 @@ optimal_length = { m1 = "8 mm" }
 excitation = { masseter = { time = ["0 s"], value = [1] } }
 [[ligament]]
 name = "linear"
-path = [{ body = "skull", point = "0 0 0 mm" }, { body = "free", point = "0 0 9 mm" }]
+path = [{ body = "skull", point = "1 0 0 mm" }, { body = "free", point = "0 0 9 mm" }]
 wrap = ["skull"]
 stiffness = "1 N/mm"
 damping = "1 N s/mm"
@@ -140,7 +140,7 @@ stiffness_per_strain = "1 N"
 reference_strain = 0.05
 [[bolus]]
 name = "nut"
-path = [{ body = "skull", point = "0 0 0 mm" }, { body = "free", point = "0 0 9 mm" }]
+path = [{ body = "skull", point = "1 0 0 mm" }, { body = "free", point = "0 0 9 mm" }]
 from = "0.1 s"
 height = "8 mm"
 depth = ["0 mm", "1 mm", "2 mm"]

@@ -66,6 +66,13 @@ TEST_F(MuscleTable, LeavesOutMusclesThatAreNamed) {
       "has no muscle or row `anterior temporali`; did you mean `anterior temporalis`?");
 }
 
+TEST_F(MuscleTable, IsNotLeftEmpty) {
+  write("muscles.csv", std::string(kHeader) + kRows);
+  EXPECT_EQ(refusal(scenario_, {"muscle_table.0.leave_out=['lat','rat','lgh']"}),
+            "--set muscle_table.0.leave_out=['lat','rat','lgh']: `leave_out`: leaves none of the "
+            "table's muscles");
+}
+
 TEST_F(MuscleTable, TakesOnlyMusclesThatAreNamed) {
   write("muscles.csv", std::string(kHeader) + kRows);
   const Scenario scenario =

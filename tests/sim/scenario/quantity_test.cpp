@@ -44,6 +44,13 @@ TEST(Quantity, ReadsTheUnitsOfTheFormat) {
   EXPECT_EQ(parse_unit("mm", kLength), 1e-3);
 }
 
+TEST(Quantity, APowerWithoutItsSignIsTold) {
+  for (const char* text : {"1 g/cm3", "1 g/(cm3)"})
+    EXPECT_NE(refusal(text, kDensity).find("a power is written with `^`, as in `cm^3`"),
+              std::string::npos)
+        << text;
+}
+
 TEST(Quantity, EquivalentSpellingsGiveTheSameNumber) {
   for (const char* text :
        {"2 N s/mm", "2 N*s/mm", "2 N·s/mm", "2 N s / mm", "2N s/mm", " +2.0e0 N  s/mm ",

@@ -485,6 +485,20 @@ INSTANTIATE_TEST_SUITE_P(
                 "`max_length_ratio` must be greater than 1, found 1"},
         Mistake{"Mirror", ligament("mirror = @\"y\"\nstiffness = \"1 N/m\"\n"),
                 "`mirror`: expected \"x\", found \"y\""},
+        Mistake{"OwnMirrorImage",
+                kStart +
+                    "[[ligament]]\nname = \"capsule\"\nstiffness = \"1 N/m\"\nmirror = @\"x\"\n" +
+                    "path = [{ body = \"skull\", point = \"0 0 9 mm\" }, { body = \"mandible\", "
+                    "point = \"0 1 0 mm\" }]\n",
+                "`mirror`: ligament `capsule` is its own mirror image, and would pull twice: "
+                "expected it without `mirror`"},
+        Mistake{"FromAPointToItsMirrorImage",
+                kStart +
+                    "[[ligament]]\nname = \"capsule\"\nstiffness = \"1 N/m\"\nmirror = @\"x\"\n" +
+                    "path = [{ body = \"skull\", point = \"2 0 9 mm\" }, { body = \"skull\", "
+                    "point = \"-2 0 9 mm\" }]\n",
+                "`mirror`: ligament `capsule` is its own mirror image, and would pull twice: "
+                "expected it without `mirror`"},
         Mistake{"NoStiffness", kStart + "@[[ligament]]\nname = \"capsule\"\n" + kPath,
                 "ligament `capsule`: expected `stiffness` or `stiffness_per_strain`, found none of "
                 "them"},

@@ -101,6 +101,7 @@ TEST(FitFile, MistakesAreNamedWithTheirPlace) {
       {"[[parameter]]\nname = 'a'\npath = 'x'\nstart = '2 mn'\nspread = '1 mn'\n" + kMeasurement,
        "mn"},
       {"set = { x = '{slak} mm' }\n" + kParameter + kMeasurement, "did you mean `slack`"},
+      {"set = { x = '{slack} m' }\n" + kParameter + kMeasurement, "expected `{slack} mm`"},
   };
   for (const auto& [text, message] : cases) {
     const std::string error = error_of(text);

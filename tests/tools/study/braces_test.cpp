@@ -25,6 +25,20 @@ TEST(Braces, AloneInQuotesAreNumbers) {
   EXPECT_EQ(with_numbers("x=[\"{a}\", \"{a} mm\"]", names, value), "x=[0.25, \"0.25 mm\"]");
 }
 
+// A drawn number of kPa before MPa would be a thousand times what was meant.
+TEST(Braces, BeforeAnotherUnitThanTheirOwnAreNamed) {
+  const std::vector<std::string> names = {"E", "n"}, units = {"kPa", ""};
+  for (const char* text :
+       {"E=\"{E} kPa\"", "E=\"{E * 0.001} MPa\"", "E=\"{E}\"", "x=\"{n} MPa\"", "{E} of it",
+        "{E} s", "x=[\"{E} kPa\", \"2 MPa\"]", "x=[{E}, \"2 MPa\"]"})
+    EXPECT_EQ(wrong_unit(text, names, units), "") << text;
+  for (const char* text : {"E=\"{E} MPa\"", "E=\"{E + 2} MPa\"", "--E {E} MPa",
+                           "x=\"0 {E} {n} -1.5 MPa\"", "x=['{n} {E} MPa']"})
+    EXPECT_EQ(wrong_unit(text, names, units),
+              "`{E}` is a number of kPa and stands before MPa: expected `{E} kPa`")
+        << text;
+}
+
 TEST(Braces, NamesOfParametersAreWords) {
   for (const char* name : {"a", "acl_strain", "E2"}) EXPECT_TRUE(is_parameter_name(name)) << name;
   for (const char* name : {"", "2a", "_a", "a b", "a.b", "ä"})

@@ -159,6 +159,11 @@ TEST_F(PopulationFile, MistakesAreSaidWithTheirPlaces) {
                   "[[parameter]]\nname = 'y'\ndistribution = 'uniform'\nlowest = 0\nhighest = 1\n")
                 .find("parameter `y` changes nothing"),
             std::string::npos);
+  EXPECT_NE(error("scenario = 's'\nset = { E = '{x} MPa' }\n[[output]]\ncolumn = 'y'\n" + kTwenty +
+                  "[[parameter]]\nname = 'x'\ndistribution = 'uniform'\nlowest = '1 kPa'\n"
+                  "highest = '2 kPa'\n")
+                .find("expected `{x} kPa`"),
+            std::string::npos);
   EXPECT_NE(error(kTwice + kTwenty +
                   "[[parameter]]\nname = 'x'\ndistribution = 'normal'\nmean = '1 mm'\nsd = 2\n")
                 .find("expected a value in `mm`, as `mean`"),
