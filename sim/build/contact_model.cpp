@@ -150,16 +150,19 @@ struct PairMaker {
     const Side& nonmortar = contact.reversed ? B : A;
     // In time two rigid bodies count depths point by point: there is no tissue whose facets
     // averages let give way, and where edges slip off each other stiff contact would make energy.
-    // A layer that stiffens has averages always: as soft as it is at its edges it makes none, and
-    // there is no polynomial of the depth to be integrated exactly over a patch.
+    // So does an elastic layer between them in statics, whose springs side by side averages would
+    // blur. A layer that stiffens has averages always: as soft as it is at its edges it makes no
+    // energy, and there is no polynomial of the depth to be integrated exactly over a patch.
     contact.logarithmic = {A.logarithmic, B.logarithmic};
+    contact.layers = A.layer + B.layer;
+    const bool is_foundation = !A.is_tissue && !B.is_tissue && contact.layers > 0;
     const bool is_firm = is_static || contact.stiffens() ||
                          (nonmortar.is_tissue && response == Scenario::Response::Averaged);
-    contact.averaged = is_static || contact.stiffens() || (is_firm && nonmortar.is_fine);
+    contact.averaged =
+        contact.stiffens() || (is_static ? !is_foundation : is_firm && nonmortar.is_fine);
     contact.share = a == b ? 0.5 : 1;
     contact.factor = is_firm ? factor_of_averages : factor_of_points;
     contact.soft_factor = kSoftFactor;
-    contact.layers = A.layer + B.layer;
     contact.mean_stiffness = 1 / ((A.compliance + B.compliance) / contact.factor + contact.layers);
     contact.max_penetration = kMaxPenetration * std::min(A.size, B.size);
     // The depth of a layer is its own compression.

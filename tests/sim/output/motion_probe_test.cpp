@@ -227,7 +227,7 @@ TEST_F(ProbeFile, MusclesOfANetMomentGoByPatterns) {
   const std::string muscles =
       "[[muscle]]\nname = \"jaw\"\nmirror = \"x\"\nmax_force = \"1 N\"\npath = [{ body = "
       "\"skull\", "
-      "point = \"0 0 0 m\" }, { body = \"mandible\", point = \"0 0 1 m\" }]\n";
+      "point = \"0.1 0 0 m\" }, { body = \"mandible\", point = \"0 0 1 m\" }]\n";
   const auto moment = [&](const std::string& more) {
     return kStart + muscles +
            "[[probe]]\nname = \"net\"\nkind = \"muscle_moment\"\nbody = \"mandible\"\npoint = \"0 "
