@@ -3,7 +3,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <tuple>
+#include <utility>
 
+#include "sim/build/build_model.hpp"
 #include "sim/model/tissue.hpp"
 #include "tests/sim/support/contact_scene.hpp"
 
@@ -49,6 +53,36 @@ TEST(ElasticLayer, SinksUnderAFlatPunchByItsPressure) {
           << of_plate << " " << of_punch;
       EXPECT_NEAR(sum.area, kSide * kSide, 1e-6 * kSide * kSide);
       EXPECT_NEAR(sum.max_pressure, pressure, 3e-4 * pressure);
+    }
+}
+
+TEST(ElasticLayer, MayLieOnEitherBodyOrOnBoth) {
+  const Layer half{kLayer.thickness / 2, kLayer.young_modulus, kLayer.poisson_ratio};
+  using Layers = std::pair<std::optional<Layer>, std::optional<Layer>>;
+  for (const Layers& layers :
+       {Layers{kLayer, std::nullopt}, Layers{std::nullopt, kLayer}, Layers{half, half}}) {
+    Scenario s = pressed(
+        box_body("punch", Body::Kind::Rigid, Vec3::Constant(0.01), {0, 0, 0.005}, {3, 3, 3}),
+        {7, 7, 1});
+    std::tie(s.bodies[0].layer, s.bodies[1].layer) = layers;
+    Simulation run(s);
+    run.advance(1);
+    const double way = kForce / (1e-4 * stiffness());
+    EXPECT_NEAR(way_down(run), way, 3e-4 * way)
+        << layers.first.has_value() << layers.second.has_value();
+  }
+}
+
+// Tissue has facets that averages let give way, whatever it lies on.
+TEST(ElasticLayer, IsCountedPointByPointBetweenRigidBodiesOnly) {
+  for (const Body::Kind kind : {Body::Kind::Rigid, Body::Kind::Tissue})
+    for (const bool has_layer : {true, false}) {
+      Scenario s = contact_scene(1);
+      s.analysis = Scenario::Analysis::Static;
+      s.bodies = {box_body("plate", Body::Kind::Fixed, {0.04, 0.04, 0.01}, {0, 0, -0.005}),
+                  box_body("block", kind, Vec3::Constant(0.01), {0, 0, 0.006}, {3, 3, 3})};
+      if (has_layer) s.bodies[0].layer = kLayer;
+      EXPECT_EQ(build_model(s).contacts[0].averaged, kind == Body::Kind::Tissue || !has_layer);
     }
 }
 
