@@ -170,7 +170,8 @@ void doubt_points(const Scenario& scenario, const Model& model, const Doubt& dou
   look_at(scenario.ligaments, "ligament");
   for (const Body& body : scenario.bodies)
     if (body.hold && body.hold->at)
-      is_doubted(body.where, "it is held at a point", body.name, *body.hold->at);
+      is_doubted(body.where, fmt::format("`{}` is held at a point", body.name), body.name,
+                 *body.hold->at);
   for (const Probe& probe : scenario.probes)
     for (const auto& [body, point] : places_of(probe))
       is_doubted(probe.where, fmt::format("probe `{}` has a point", probe.name), body, point);

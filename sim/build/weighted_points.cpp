@@ -79,8 +79,7 @@ WeightedPoint inner_point(const Tissue& tissue, const Vec3& x) {
 
 /// The nodes of the surface within the anchor's radius, in equal parts; may be none.
 WeightedPoint nodes_within(const Anchor& anchor, const Tissue& tissue,
-                           const collision::Surface& surface) {
-  const std::vector<char> on_surface = surface_nodes(tissue, surface);
+                           const std::vector<char>& on_surface) {
   WeightedPoint point;
   for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
     if (on_surface[i] != 0 &&
@@ -127,14 +126,14 @@ WeightedPoint anchored_point(const Anchor& anchor, int body, const Model& model,
     return point_of_rigid_body(anchor, of, model.rigid_bodies[static_cast<std::size_t>(of.rigid)]);
   const auto t = static_cast<std::size_t>(of.tissue);
   if (anchor.radius > 0) {
-    WeightedPoint patch = nodes_within(anchor, model.tissues[t], surfaces[t]);
+    const std::vector<char> on_surface = surface_nodes(model.tissues[t], surfaces[t]);
+    WeightedPoint patch = nodes_within(anchor, model.tissues[t], on_surface);
     if (patch.nodes.size() < 2)
       warnings.push_back(
           prefix(anchor.where) +
           fmt::format("{} of the surface of `{}` lies within the radius of {:g} mm: the force is "
                       "not spread",
                       patch.nodes.empty() ? "no node" : "one node", of.name, 1e3 * anchor.radius));
-    const std::vector<char> on_surface = surface_nodes(model.tissues[t], surfaces[t]);
     if (static_cast<std::ptrdiff_t>(patch.nodes.size()) ==
         std::count(on_surface.begin(), on_surface.end(), char{1}))
       warnings.push_back(prefix(anchor.where) +
