@@ -10,6 +10,7 @@
 
 #include "sim/base/error.hpp"
 #include "sim/mesh/triangle_tree.hpp"
+#include "sim/mesh/winding_number.hpp"
 #include "sim/model/near_contacts.hpp"
 
 namespace articular::sim {
@@ -72,20 +73,6 @@ bool coincide(const Collider& a, const Collider& b) {
          lies_on(of_a, b, distance) && lies_on(of_b, a, distance);
 }
 
-/// How often a surface goes around a point: 1 inside a closed one, 0 outside [Van Oosterom,
-/// Strackee 1983, IEEE Trans Biomed Eng 30:125].
-double windings(const Collider& body, const Vec3& x) {
-  double half_angles = 0;
-  for (const auto& face : body.surface.faces.colwise()) {
-    const Vec3 a = body.X.col(face[0]) - x, b = body.X.col(face[1]) - x,
-               c = body.X.col(face[2]) - x;
-    const double A = a.norm(), B = b.norm(), C = c.norm();
-    half_angles +=
-        std::atan2(a.dot(b.cross(c)), A * B * C + a.dot(b) * C + b.dot(c) * A + c.dot(a) * B);
-  }
-  return half_angles / (2 * M_PI);
-}
-
 /// All of a's surface lies inside b's, a node at least clearly so.
 bool lies_within(const Collider& a, const Collider& b) {
   const double flush = kOnSurface * height(a, b);
@@ -97,7 +84,7 @@ bool lies_within(const Collider& a, const Collider& b) {
   bool any = false;
   for (const Vec3 x : of_a.colwise()) {
     if (tree.is_within(x, flush)) continue;
-    if (windings(b, x) < 0.5) return false;
+    if (winding_number(b.X, b.surface.faces, x) < 0.5) return false;
     any = true;
   }
   return any;

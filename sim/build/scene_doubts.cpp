@@ -17,6 +17,8 @@
 #include "sim/build/muscle_doubts.hpp"
 #include "sim/mesh/chord_depth.hpp"
 #include "sim/mesh/extent.hpp"
+#include "sim/mesh/overlapping_parts.hpp"
+#include "sim/model/ignored_overlaps.hpp"
 #include "sim/model/tissue.hpp"
 #include "sim/scenario/driven_motion.hpp"
 
@@ -34,6 +36,9 @@ constexpr double kMostGap = 0.1;
 /// than a tenth of what these do.
 constexpr double kLeastContactStiffness = 10;
 
+/// How deep parts of one mesh may lie in each other, of an element.
+constexpr double kMostOfElement = 0.5;
+
 /// How far from where it is drawn a driven body may begin: samples are rounded.
 constexpr double kRoundedShift = 1e-5, kRoundedTurn = 1e-4;  // [m], [rad]
 
@@ -49,6 +54,7 @@ class Doubts {
     for (const Attachment& attachment : scenario_.attachments) look_at(attachment);
     for (const Body& body : scenario_.bodies)
       if (body.kind == Body::Kind::Tissue) look_at(body);
+    look_at_overlaps();
     look_at_loads();
     look_at_contact_stiffness();
     for (const Load& load : scenario_.loads)
@@ -120,6 +126,38 @@ class Doubts {
     if (std::ranges::all_of(nodes, is_attached))
       doubt(body.where,
             fmt::format("every node of `{}` is attached to a body: it can't deform", body.name));
+  }
+
+  /// Of a body that no [[contact]] names, and of the parts of one mesh.
+  void look_at_overlaps() {
+    Configuration start;
+    const Eigen::VectorXd y = initial_state(model_);
+    read_state(model_, y.data(), 0, start);
+    for (const IgnoredOverlap& overlap : ignored_overlaps(scenario_, model_, start)) {
+      const auto& [inner, outer, x, depth, is_whole] = overlap;
+      if (is_whole) continue;  // a tumour in an organ
+      const int forgotten = model_.contacts.touches(inner) ? outer : inner;
+      if (model_.contacts.touches(forgotten)) continue;  // whoever named both left them out
+      doubt(scenario_.bodies[static_cast<std::size_t>(forgotten)].where,
+            fmt::format("`{}` lies in `{}` at the start, to {:.3g} mm at {}, and nothing will part "
+                        "them: no [[contact]] names `{}`; expected one, `collides = false`, or "
+                        "another place",
+                        name(inner), name(outer), 1e3 * depth, millimetres(x), name(forgotten)));
+    }
+    for (const Tissue& tissue : model_.tissues)
+      if (const auto found = deepest_in_another_part(tissue.X, tissue.elements.tets(),
+                                                     kMostOfElement * element_size(tissue)))
+        doubt(scenario_.bodies[static_cast<std::size_t>(tissue.body)].where,
+              fmt::format("the mesh of `{}` has parts that share no node and lie in each other, to "
+                          "{:.3g} mm at {}: what is there twice is as stiff and as heavy as two; "
+                          "expected one mesh, or a body for each part",
+                          name(tissue.body), 1e3 * found->depth, millimetres(found->x)));
+  }
+  static std::string millimetres(const Vec3& x) {
+    return fmt::format("({:.4g} {:.4g} {:.4g}) mm", 1e3 * x.x(), 1e3 * x.y(), 1e3 * x.z());
+  }
+  const std::string& name(int body) const {
+    return model_.bodies[static_cast<std::size_t>(body)].name;
   }
 
   void look_at_loads() {

@@ -13,6 +13,10 @@ namespace articular::sim {
 std::vector<std::string> run_warnings(const Model& model, const State& state,
                                       const Stepper& stepper);
 
+/// Bodies that went into each other since the start and that no [[contact]] names. A sentence each.
+std::vector<std::string> overlap_warnings(const Scenario& scenario, const Model& model,
+                                          const Configuration& now);
+
 /// What a reader of the results may want to know, and what it leaves untouched: motion that the
 /// time integration damped on its way to rest. A sentence each.
 std::vector<std::string> run_notes(const Model& model, const State& state, const Stepper& stepper);

@@ -113,13 +113,13 @@ Json energy(const State& state, const StoredEnergy& now) {
 
 std::string summary_json(const Scenario& scenario, const Model& model, const State& state,
                          const Stepper& stepper, const PhaseTimes& phases, const WallTimes& wall,
-                         const std::vector<InputFile>& inputs, const std::string& outcome) {
+                         const std::vector<InputFile>& inputs,
+                         const std::vector<std::string>& warnings, const std::string& outcome) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const Provenance by = provenance();
-  std::vector<std::string> warnings = model.warnings;
-  for (std::string& warning : run_warnings(model, state, stepper))
-    warnings.push_back(std::move(warning));
+  std::vector<std::string> all_warnings = model.warnings;
+  all_warnings.insert(all_warnings.end(), warnings.begin(), warnings.end());
   Json json = {
       {"outcome", outcome},
       {"scenario", scenario.file.filename().string()},
@@ -147,7 +147,7 @@ std::string summary_json(const Scenario& scenario, const Model& model, const Sta
         {"output", wall.output}}},
       {"evaluations", evaluations(state.counts.evaluations)},
       {"peak_memory_MB", static_cast<double>(usage.ru_maxrss) / 1024},
-      {"warnings", warnings},
+      {"warnings", all_warnings},
       {"notes", run_notes(model, state, stepper)},
       {"inputs", fingerprint(scenario, model)},
       {"input_files", input_files(inputs)},

@@ -14,10 +14,12 @@ struct WallTimes {
 };
 
 /// summary.json: settings, sizes, counts, wall time by phase, energy balance, memory, versions.
-/// @param inputs   of the scenario
-/// @param outcome  "finished", "interrupted" or the reason why it could not go on
+/// @param inputs    of the scenario
+/// @param warnings  of the run, beyond those of the model
+/// @param outcome   "finished", "interrupted" or the reason why it could not go on
 std::string summary_json(const Scenario& scenario, const Model& model, const State& state,
                          const Stepper& stepper, const PhaseTimes& phases, const WallTimes& wall,
-                         const std::vector<InputFile>& inputs, const std::string& outcome);
+                         const std::vector<InputFile>& inputs,
+                         const std::vector<std::string>& warnings, const std::string& outcome);
 
 }  // namespace articular::sim

@@ -42,14 +42,17 @@ class Run {
       WallTimes wall = times_;
       wall.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       write_and_sync();
+      std::vector<std::string> warnings = run_warnings(model_, state(), stepper());
+      for (std::string& warning :
+           overlap_warnings(scenario_, model_, stepper().now().configuration))
+        warnings.push_back(std::move(warning));
       if (options_.warn)
-        for (const std::string& warning : run_warnings(model_, state(), stepper()))
-          options_.warn(warning);
+        for (const std::string& warning : warnings) options_.warn(warning);
       if (options_.note)
         for (const std::string& note : run_notes(model_, state(), stepper())) options_.note(note);
       write_text_file(options_.directory / "summary.json",
                       summary_json(scenario_, model_, state(), stepper(), stepper().times(), wall,
-                                   inputs_, how));
+                                   inputs_, warnings, how));
     };
     course_.set_watch(options_.after_iteration);
     course_.set_stop(options_.is_to_stop);

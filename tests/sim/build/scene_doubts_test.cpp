@@ -139,4 +139,33 @@ TEST(SceneDoubts, AreOfADrivenBodyThatJumpsAtTheStart) {
   EXPECT_TRUE(says(of(Vec3::Zero(), {0, 0, 0.1}), "jumps by 0 mm and 5.73 degrees"));
 }
 
+/// A block of tissue that lies by 3 mm in another, which stands on the floor.
+Scenario one_block_in_another() {
+  Scenario s = scene(1e-3);
+  s.contact = true;
+  const Vec3 size = Vec3::Constant(0.01);
+  s.bodies = {box_body("floor", Body::Kind::Fixed, {0.05, 0.05, 0.01}, {0, 0, -0.01}),
+              box_body("lower", Body::Kind::Tissue, size, Vec3::Zero(), {4, 4, 4}),
+              box_body("upper", Body::Kind::Tissue, size, {0, 0, 0.007}, {4, 4, 4})};
+  s.contacts = {{"lower", "floor", {}}};
+  return s;
+}
+
+TEST(SceneDoubts, AreOfABodyThatLiesInAnotherAndWasForgottenByContact) {
+  Scenario s = one_block_in_another();
+  EXPECT_TRUE(says(doubt(s), "to 3 mm at "));
+  EXPECT_TRUE(says(doubt(s), "no [[contact]] names `upper`"));
+  s.contacts.push_back({"upper", "floor", {}});  // then it is meant
+  EXPECT_EQ(doubt(s), "");
+  s = one_block_in_another();
+  s.contacts.clear();  // all touch
+  EXPECT_EQ(doubt(s), "");
+}
+
+TEST(SceneDoubts, AreNotOfABodyThatLiesInAnotherWhole) {
+  Scenario s = one_block_in_another();
+  s.bodies[2] = box_body("tumour", Body::Kind::Tissue, Vec3::Constant(0.005), {0, 0, 0}, {2, 2, 2});
+  EXPECT_EQ(doubt(s), "");
+}
+
 }  // namespace articular::sim::scene_doubts_test
