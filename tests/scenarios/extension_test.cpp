@@ -304,7 +304,7 @@ TEST(KneeExtension, OnARecordedKneeThePatellaBalancesInItsGrooveToo) {
       knee_test::run_recorded_knee(to_30_degrees("knee/subject-extension.toml"));
   expect_balance_of_the_patella(knee);
   expect_patella_in_its_groove(knee);
-  EXPECT_NEAR(tendon_ratio(knee, 3), 1 / 0.86, 0.2);  // at 15 degrees, where this knee begins
+  EXPECT_NEAR(tendon_ratio(knee, 3), 1 / 0.86, 0.2);  // near 15 degrees, where this knee begins
 }
 #endif
 
