@@ -42,6 +42,17 @@ TEST(OverlappingParts, BesideEachOtherDoNot) {
   EXPECT_FALSE(deepest(joined(large, box({16, 16, 16}, {0, 0, 16}))));  // face on face
 }
 
+TEST(OverlappingParts, AreSeenWhereTheyAreDeepest) {
+  const MeshData large = box({16, 16, 16}, Vec3::Zero()), deep = box({8, 8, 8}, {2, 2, 9}),
+                 shallow = box({8, 8, 8}, {2, 2, -11});
+  for (const MeshData& mesh :
+       {joined(joined(large, deep), shallow), joined(joined(shallow, large), deep)}) {
+    const auto found = deepest(mesh);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->depth, 3, 1e-12);
+  }
+}
+
 // Elements of one part, as of a fold, are matters of contact with itself.
 TEST(OverlappingParts, ShareNoNode) {
   MeshData mesh = joined(box({16, 16, 16}, Vec3::Zero()), box({8, 8, 8}, {2, 2, 9}));

@@ -22,8 +22,9 @@ Scenario two_blocks(double shared, Body::Kind lower = Body::Kind::Tissue,
   return s;
 }
 
-std::vector<IgnoredOverlap> at_start(const Scenario& s) {
-  const Model model = build_model(s);
+std::vector<IgnoredOverlap> at_start(const Scenario& s, const ModelChange& change = {}) {
+  Model model = build_model(s);
+  if (change) change(model);
   Configuration start;
   const Eigen::VectorXd y = initial_state(model);
   read_state(model, y.data(), 0, start);
@@ -71,6 +72,23 @@ TEST(IgnoredOverlaps, AreNotOfTissueAndTheBoneThatItIsTiedTo) {
   ASSERT_EQ(at_start(s).size(), 1U);
   s.attachments = {attach("upper", "lower", {-1, -1, -1}, {1, 1, 0.003})};
   EXPECT_TRUE(at_start(s).empty());
+  s = two_blocks(3e-3, Body::Kind::Tissue, Body::Kind::Rigid);
+  s.attachments = {attach("lower", "upper", {-1, -1, 0.002}, {1, 1, 1})};
+  EXPECT_TRUE(at_start(s).empty());
+}
+
+TEST(IgnoredOverlaps, AreNotOfBodiesThatAreDrawnOtherwiseThanTheyTouch) {
+  const Scenario s = two_blocks(3e-3, Body::Kind::Rigid, Body::Kind::Rigid);
+  EXPECT_EQ(at_start(s).size(), 1U);
+  EXPECT_TRUE(at_start(s, [](Model& model) { model.bodies[1].touches_as_drawn = false; }).empty());
+}
+
+TEST(IgnoredOverlaps, AreNotInOpenSurfaces) {
+  const auto open = [](Model& model) {
+    for (BodyModel& body : model.bodies)
+      body.triangles = body.triangles.leftCols(body.triangles.cols() - 1).eval();
+  };
+  EXPECT_TRUE(at_start(two_blocks(3e-3, Body::Kind::Rigid, Body::Kind::Rigid), open).empty());
 }
 
 TEST(IgnoredOverlaps, AreNotOfBodiesThatAreBothHeldWhereTheyAre) {
