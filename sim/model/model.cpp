@@ -1,8 +1,30 @@
 #include "sim/model/model.hpp"
 
+#include <Eigen/Geometry>
+
 #include "sim/scenario/curve.hpp"
 
 namespace articular::sim {
+namespace {
+
+/// The only rigid body that a tissue's nodes are tied to; none without, or with several.
+const RigidBody* sole_carrier(const Model& model, const Tissue& tissue) {
+  int carrier = -1;
+  for (const NodeRef& node : tissue.nodes) {
+    if (node.rigid < 0 || node.rigid == carrier) continue;
+    if (carrier >= 0) return nullptr;
+    carrier = node.rigid;
+  }
+  return carrier < 0 ? nullptr : &model.rigid_bodies[static_cast<std::size_t>(carrier)];
+}
+
+/// What is told no velocity and hangs on one body begins to move with it.
+Vec3 start_velocity(const Tissue& tissue, const RigidBody* carrier, const Vec3& x) {
+  if (!carrier || !tissue.start_velocity.isZero(0)) return tissue.start_velocity;
+  return carrier->start.linear + carrier->start.angular.cross(x - carrier->rest.p);
+}
+
+}  // namespace
 
 double steady_activation(const MuscleModel& muscle, double t) {
   return muscle.given.excitation.time.empty() ? 0 : value_at(muscle.given.excitation, t);
@@ -12,11 +34,13 @@ Eigen::VectorXd initial_state(const Model& model) {
   const Layout& layout = model.layout;
   Eigen::VectorXd y = Eigen::VectorXd::Zero(layout.size());
   for (const Tissue& tissue : model.tissues) {
+    const RigidBody* const carrier = sole_carrier(model, tissue);
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
       const NodeRef& node = tissue.nodes[i];
       if (node.rigid >= 0) continue;
-      y.segment<3>(layout.node_x(node.block)) = tissue.X.col(static_cast<Eigen::Index>(i));
-      y.segment<3>(layout.velocities() + 3 * node.block) = tissue.start_velocity;
+      const Vec3 x = tissue.X.col(static_cast<Eigen::Index>(i));
+      y.segment<3>(layout.node_x(node.block)) = x;
+      y.segment<3>(layout.velocities() + 3 * node.block) = start_velocity(tissue, carrier, x);
     }
   }
   for (const HeldBlock& held : model.held_blocks)

@@ -238,7 +238,8 @@ const KeyTable& body_keys() {
        {"velocity",
         {form::Vector{kVelocity}},
         standard("0 0 0 m/s"),
-        "at the start; rigid and tissue, dynamic only"},
+        "at the start; rigid and tissue, dynamic only. Tissue without one begins to move with the "
+        "body that it is tied to, if that is one alone"},
        {"angular_velocity",
         {form::Vector{kAngularVelocity}},
         standard("0 0 0 rad/s"),

@@ -155,4 +155,46 @@ TEST(CarriedTissue, HasNoInertiaInStatics) {
   EXPECT_EQ(kinetic_energy(run.stepper.now()), 0);
 }
 
+// A disc with a rim of tissue turns on as one body: nothing pulls at the rim but what keeps it on
+// its circle.
+TEST(CarriedTissue, BeginsToMoveWithTheBodyThatItIsTiedTo) {
+  Scenario s = scene(1e-4, Scheme::TrBdf2);
+  const Vec3 middle(0.1, 0, 0);
+  Body hub = box_body("hub", Body::Kind::Rigid, Vec3::Constant(kSide), middle);
+  hub.velocity = {0.3, -0.2, 0.1};
+  hub.angular_velocity = {1, -2, 5};
+  s.bodies = {
+      box_body("rim", Body::Kind::Tissue, Vec3::Constant(kSide), {0.1 + kSide, 0, 0}, {2, 2, 2}),
+      hub};
+  s.attachments = {attach("rim", "hub", {0, -1, -1}, {0.1 + kSide / 2 + 1e-6, 1, 1})};
+  const Simulation run(s);
+  const Tissue& rim = run.model.tissues[0];
+  for (std::size_t i = 0; i < rim.nodes.size(); ++i) {
+    const Vec3 x = rim.X.col(static_cast<Eigen::Index>(i));
+    const Vec3 expected = hub.velocity + hub.angular_velocity.cross(x - middle);
+    EXPECT_LT((run.now().velocity(rim.nodes[i]) - expected).norm(), 1e-12) << x.transpose();
+  }
+}
+
+TEST(CarriedTissue, BeginsAsItIsTold) {
+  Scenario s = scene(1e-4, Scheme::TrBdf2);
+  Body hub = box_body("hub", Body::Kind::Rigid, Vec3::Constant(kSide));
+  hub.velocity = {0.3, 0, 0};
+  Body rim = box_body("rim", Body::Kind::Tissue, Vec3::Constant(kSide), {kSide, 0, 0}, {2, 2, 2});
+  s.bodies = {rim, hub};
+  s.attachments = {attach("rim", "hub", {-1, -1, -1}, {kSide / 2 + 1e-6, 1, 1})};
+  const auto velocity_at_the_end = [&] {
+    const Simulation run(s);
+    return Vec3(run.now().velocity(run.model.tissues[0].nodes.back()));
+  };
+  EXPECT_EQ(velocity_at_the_end(), hub.velocity);
+  s.bodies[0].velocity = {0, 0.4, 0};
+  EXPECT_EQ(velocity_at_the_end(), s.bodies[0].velocity);
+  // Between two bodies it could not move as both do.
+  s.bodies[0].velocity = Vec3::Zero();
+  s.bodies.push_back(stand("wall"));
+  s.attachments.push_back(attach("rim", "wall", {1.5 * kSide - 1e-6, -1, -1}, {1, 1, -0.009}));
+  EXPECT_EQ(velocity_at_the_end(), Vec3::Zero());
+}
+
 }  // namespace articular::sim::carried_tissue_test
