@@ -1,5 +1,7 @@
 #include "sim/mesh/overlapping_parts.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -55,7 +57,10 @@ std::vector<Solid> solids_of_parts(const Positions& X, const Tetrahedra& tets,
 
 std::optional<DeepestPoint> deepest_in_another_part(const Positions& X, const Tetrahedra& tets,
                                                     double least) {
-  const std::vector<Solid> solids = solids_of_parts(X, tets, parts_of_nodes(X.cols(), tets));
+  const std::vector<int> parts = parts_of_nodes(X.cols(), tets);
+  if (std::adjacent_find(parts.begin(), parts.end(), std::not_equal_to<>()) == parts.end())
+    return std::nullopt;
+  const std::vector<Solid> solids = solids_of_parts(X, tets, parts);
   std::optional<DeepestPoint> deepest;
   for (const Solid& inner : solids)
     for (const Solid& outer : solids) {

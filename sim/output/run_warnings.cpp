@@ -59,10 +59,12 @@ struct EnergyBalance {
 /// None where there is no motion to speak of.
 std::optional<EnergyBalance> energy_balance(const Model& model, const State& state,
                                             const Stepper& stepper) {
-  const double whole = turned_over(state);
+  const StoredEnergy stored = stepper.stored_energy();
+  const double given_off = state.energy.start - stored.total();  // what was strained at the start
+  const double whole = std::max(turned_over(state), given_off);
   if (model.is_static || !(whole > energy_of_tolerance(model, stepper.settings().step)))
     return std::nullopt;
-  return EnergyBalance{numerical_loss(state, stepper.stored_energy()), whole};
+  return EnergyBalance{numerical_loss(state, stored), whole};
 }
 
 bool is_much_lost(const EnergyBalance& energy) { return energy.loss > kMuchLost * energy.whole; }

@@ -427,4 +427,26 @@ TEST(RunWarnings, WhatLayInAnotherBodyFromTheStartIsNotToldAgain) {
   EXPECT_TRUE(overlaps_after(s, 0.02).empty());
 }
 
+// A mass on a stretched ligament, with steps so long that it creeps home: it never moves as fast as
+// the ligament's energy would make it.
+TEST(RunWarnings, OfWhatWasStrainedAtTheStartNoMoreThanAllIsLost) {
+  Scenario s = scene(2e-3, Integrator::Scheme::ImplicitEuler);
+  s.bodies = {mass_body("mass", 0.1, {0.012, 0, 0}), stand("wall")};
+  Ligament ligament;
+  ligament.name = "spring";
+  ligament.path = {anchor("mass", {0.012, 0, 0}), anchor("wall", Vec3::Zero())};
+  ligament.law = Ligament::Law::Linear;
+  ligament.stiffness = 2000;
+  ligament.slack_length = 0.01;
+  s.ligaments = {ligament};
+  Simulation run(s);
+  run.advance(0.2);
+  const std::string warnings = all_warnings(run);
+  const std::size_t at = warnings.find(" J, ");
+  ASSERT_NE(at, std::string::npos) << warnings;
+  const double percent = std::stod(warnings.substr(at + 4));
+  EXPECT_GT(percent, 80) << warnings;
+  EXPECT_LE(percent, 100) << warnings;
+}
+
 }  // namespace articular::sim::run_warnings_test
