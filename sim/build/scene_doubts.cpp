@@ -130,11 +130,8 @@ class Doubts {
 
   /// Of a body that no [[contact]] names, and of the parts of one mesh.
   void look_at_overlaps() {
-    Configuration start;
-    const Eigen::VectorXd y = initial_state(model_);
-    read_state(model_, y.data(), 0, start);
-    for (const IgnoredOverlap& overlap : ignored_overlaps(scenario_, model_, start)) {
-      const auto& [inner, outer, x, depth, is_whole] = overlap;
+    for (const IgnoredOverlap& overlap : IgnoredOverlaps(scenario_, model_).at_start()) {
+      const auto& [inner, outer, x, depth, is_whole, t] = overlap;
       if (is_whole) continue;  // a tumour in an organ
       const int forgotten = model_.contacts.touches(inner) ? outer : inner;
       if (model_.contacts.touches(forgotten)) continue;  // whoever named both left them out

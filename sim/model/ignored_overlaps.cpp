@@ -2,135 +2,191 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
-#include <utility>
 
 #include "collision/mesh/surface.hpp"
-#include "sim/mesh/deepest_inside.hpp"
 #include "sim/mesh/winding_number.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
 namespace {
 
-/// Of an element of tissue; of the diagonal of a rigid body's box.
+/// Of an element of tissue; of the diagonal of a rigid body's box. What is less deep is a matter of
+/// rounded corners, and of meshes that don't match.
 constexpr double kDeepInTissue = 0.5, kDeepInRigid = 0.02;
 
-/// Bodies as they are now: surfaces are made for those that may lie in others alone.
-class Bodies {
- public:
-  Bodies(const Model& model, const Configuration& now) : model_(model) {
-    for (const BodyModel& body : model.bodies) {
-      Positions& x = x_.emplace_back(body.X);
-      if (body.tissue >= 0) {
-        positions_of(now, tissue(body).nodes, x);
-      } else if (body.rigid >= 0) {
-        const Pose& pose = now.poses[static_cast<std::size_t>(body.rigid)];
-        x = (pose.R * body.X).colwise() + pose.p;
-      }
-      Eigen::AlignedBox3d& box = boxes_.emplace_back();
-      if (x.cols() > 0) box = {x.rowwise().minCoeff(), x.rowwise().maxCoeff()};
-    }
-  }
+const BodyModel& body_of(const Model& model, int body) {
+  return model.bodies[static_cast<std::size_t>(body)];
+}
 
-  const Eigen::AlignedBox3d& box(int body) const { return boxes_[index(body)]; }
+const Tissue& tissue_of(const Model& model, const BodyModel& body) {
+  return model.tissues[static_cast<std::size_t>(body.tissue)];
+}
 
-  /// Deeper is no matter of rounded corners and meshes that don't match [m].
-  double least_depth(int a, int b) const { return std::min(least_depth(a), least_depth(b)); }
+Eigen::AlignedBox3d box_of(const Positions& x) {
+  if (x.cols() == 0) return {};
+  return {x.rowwise().minCoeff(), x.rowwise().maxCoeff()};
+}
 
-  /// Of one body in another; depth 0 where no node lies there deeper than `least`, or in an open
-  /// surface.
-  IgnoredOverlap deepest(int inner, int outer, double least) {
-    const Solid &body = solid(inner), &around = solid(outer);
-    const auto found = is_closed_[outer] ? deepest_inside(body.X, around, least) : std::nullopt;
-    if (!found) return {};
-    const bool is_whole = std::all_of(body.X.colwise().begin(), body.X.colwise().end(),
-                                      [&](const auto& x) { return around.contains(x); });
-    return {inner, outer, found->x, found->depth, is_whole};
-  }
-
- private:
-  static std::size_t index(int body) { return static_cast<std::size_t>(body); }
-  const Tissue& tissue(const BodyModel& body) const { return model_.tissues[index(body.tissue)]; }
-
-  double least_depth(int b) const {
-    const BodyModel& body = model_.bodies[index(b)];
-    if (body.tissue >= 0) return kDeepInTissue * element_size(tissue(body));
-    return kDeepInRigid * boxes_[index(b)].diagonal().norm();
-  }
-
-  /// Of nodes that are on the surface alone.
-  const Solid& solid(int b) {
-    const auto found = solids_.find(b);
-    if (found != solids_.end()) return found->second;
-    const BodyModel& body = model_.bodies[index(b)];
-    const Positions& x = x_[index(b)];
-    Triangles faces = body.triangles;
-    if (body.tissue >= 0)
-      faces =
-          collision::build_surface(tissue(body).elements.tets(), static_cast<int>(x.cols())).faces;
-    std::map<int, int> of_node;
-    for (int& node : faces.reshaped())
-      node = of_node.emplace(node, static_cast<int>(of_node.size())).first->second;
-    Positions on_surface(3, static_cast<Eigen::Index>(of_node.size()));
-    for (const auto& [node, number] : of_node) on_surface.col(number) = x.col(node);
-    is_closed_[b] = is_closed(faces);
-    return solids_.emplace(b, Solid(std::move(on_surface), std::move(faces))).first->second;
-  }
-
-  const Model& model_;
-  std::vector<Positions> x_;  // by body
-  std::vector<Eigen::AlignedBox3d> boxes_;
-  std::map<int, Solid> solids_;
-  std::map<int, bool> is_closed_;
-};
-
-/// Whether one of them can give way.
+/// Whether it can give way.
 bool is_free(const Model& model, const BodyModel& body) {
   return body.tissue >= 0 || (body.rigid >= 0 && body.rigid < model.layout.num_rigid);
 }
 
 bool is_tied_to(const Model& model, const BodyModel& body, const BodyModel& other) {
   if (body.tissue < 0 || other.rigid < 0) return false;
-  const std::vector<NodeRef>& nodes = model.tissues[static_cast<std::size_t>(body.tissue)].nodes;
+  const std::vector<NodeRef>& nodes = tissue_of(model, body).nodes;
   return std::any_of(nodes.begin(), nodes.end(),
                      [&](const NodeRef& node) { return node.rigid == other.rigid; });
 }
 
-}  // namespace
+/// The nodes of some triangles, in the order in which they come up; triangles then refer to these.
+std::vector<int> keep_own_nodes(Triangles& triangles) {
+  std::vector<int> kept;
+  std::map<int, int> number;
+  for (int& node : triangles.reshaped()) {
+    const auto [at, is_new] = number.emplace(node, static_cast<int>(kept.size()));
+    if (is_new) kept.push_back(node);
+    node = at->second;
+  }
+  return kept;
+}
 
+/// Whichever of the two lies in the other.
 bool are_of_same_bodies(const IgnoredOverlap& a, const IgnoredOverlap& b) {
   return std::minmax(a.inner, a.outer) == std::minmax(b.inner, b.outer);
 }
 
-std::vector<IgnoredOverlap> ignored_overlaps(const Scenario& scenario, const Model& model,
-                                             const Configuration& now) {
-  std::vector<IgnoredOverlap> overlaps;
-  if (!scenario.contact) return overlaps;
-  Bodies bodies(model, now);
+}  // namespace
+
+IgnoredOverlaps::IgnoredOverlaps(const Scenario& scenario, const Model& model)
+    : model_(model), surfaces_(model.bodies.size()) {
+  if (!scenario.contact) return;
   const int count = static_cast<int>(model.bodies.size());
-  const auto may_be_ignored = [&](int a, int b) {
-    const BodyModel &p = model.bodies[static_cast<std::size_t>(a)],
-                    &q = model.bodies[static_cast<std::size_t>(b)];
-    return (is_free(model, p) || is_free(model, q)) && !is_tied_to(model, p, q) &&
-           !is_tied_to(model, q, p) && !model.contacts.between(a, b);
+  const auto is_solid = [&](int b) {
+    return scenario.bodies[static_cast<std::size_t>(b)].collides &&
+           body_of(model, b).touches_as_drawn;
   };
-  const auto is_solid = [&](int body) {
-    const auto b = static_cast<std::size_t>(body);
-    return scenario.bodies[b].collides && model.bodies[b].touches_as_drawn;
+  const auto is_ignored = [&](int a, int b) {
+    const BodyModel &p = body_of(model, a), &q = body_of(model, b);
+    return (is_free(model, p) || is_free(model, q)) && !model.contacts.between(a, b) &&
+           !is_tied_to(model, p, q) && !is_tied_to(model, q, p);
   };
-  for (int a = 0; a < count; ++a) {
-    if (!is_solid(a)) continue;
-    for (int b = a + 1; b < count; ++b) {
-      if (!is_solid(b) || !bodies.box(a).intersects(bodies.box(b)) || !may_be_ignored(a, b))
-        continue;
-      const double least = bodies.least_depth(a, b);
-      const IgnoredOverlap of_a = bodies.deepest(a, b, least), of_b = bodies.deepest(b, a, least);
-      const IgnoredOverlap& worst = of_b.depth > of_a.depth ? of_b : of_a;
-      if (worst.depth > 0) overlaps.push_back(worst);
+  for (int a = 0; a < count; ++a)
+    for (int b = a + 1; b < count; ++b)
+      if (is_solid(a) && is_solid(b) && is_ignored(a, b)) pairs_.emplace_back(a, b);
+  for (const auto& [a, b] : pairs_)
+    for (const int body : {a, b})
+      if (surfaces_[static_cast<std::size_t>(body)].nodes.empty()) add_surface(body);
+}
+
+void IgnoredOverlaps::add_surface(int b) {
+  const BodyModel& body = body_of(model_, b);
+  Surface& surface = surfaces_[static_cast<std::size_t>(b)];
+  surface.triangles = body.triangles;
+  if (body.tissue >= 0) {
+    const Tissue& tissue = tissue_of(model_, body);
+    const auto num_nodes = static_cast<int>(tissue.nodes.size());
+    surface.triangles = collision::build_surface(tissue.elements.tets(), num_nodes).faces;
+    for (const int node : keep_own_nodes(surface.triangles))
+      surface.nodes.push_back(tissue.nodes[static_cast<std::size_t>(node)]);
+    surface.deep = kDeepInTissue * element_size(tissue);
+  } else {
+    const Positions X = body.X(Eigen::all, keep_own_nodes(surface.triangles));
+    for (const Vec3 local : X.colwise()) surface.nodes.push_back({0, body.rigid, local});
+    surface.deep = kDeepInRigid * box_of(X).diagonal().norm();
+    surface.solid.emplace(X, surface.triangles);
+  }
+  surface.is_closed = is_closed(surface.triangles);
+}
+
+/// At one moment.
+class IgnoredOverlaps::Look {
+ public:
+  Look(const IgnoredOverlaps& all, const Configuration& now)
+      : all_(all), now_(now), x_(all.surfaces_.size()), boxes_(x_.size()) {
+    for (std::size_t b = 0; b < x_.size(); ++b) {
+      positions_of(now, all.surfaces_[b].nodes, x_[b]);
+      boxes_[b] = box_of(x_[b]);
     }
   }
+
+  /// The deeper one of either in the other; depth 0 where none is.
+  IgnoredOverlap between(int a, int b) {
+    if (!boxes_[index(a)].intersects(boxes_[index(b)])) return {};
+    const double least = least_depth(a, b);
+    const IgnoredOverlap of_a = deepest(a, b, least), of_b = deepest(b, a, least);
+    return of_b.depth > of_a.depth ? of_b : of_a;
+  }
+
+ private:
+  static std::size_t index(int body) { return static_cast<std::size_t>(body); }
+  const Surface& surface(int body) const { return all_.surfaces_[index(body)]; }
+
+  double least_depth(int a, int b) const {
+    const bool of_a = !surface(a).solid, of_b = !surface(b).solid;  // of tissue, which is finer
+    if (of_a != of_b) return surface(of_a ? a : b).deep;
+    return std::min(surface(a).deep, surface(b).deep);
+  }
+
+  IgnoredOverlap deepest(int inner, int outer, double least) {
+    if (!surface(outer).is_closed) return {};
+    const Solid& around = solid(outer);
+    const Pose frame = frame_of(outer);
+    const Positions x = frame.R.transpose() * (x_[index(inner)].colwise() - frame.p);
+    const auto found = deepest_inside(x, around, least);
+    if (!found) return {};
+    const bool is_whole = std::all_of(x.colwise().begin(), x.colwise().end(),
+                                      [&](const auto& point) { return around.contains(point); });
+    return {inner, outer, frame.R * found->x + frame.p, found->depth, is_whole, now_.t};
+  }
+
+  /// That of a rigid body; of tissue the world's.
+  Pose frame_of(int body) const {
+    if (!surface(body).solid) return {};
+    return now_.poses[index(body_of(all_.model_, body).rigid)];
+  }
+  const Solid& solid(int body) {
+    if (surface(body).solid) return *surface(body).solid;
+    const auto found = of_tissue_.find(body);
+    if (found != of_tissue_.end()) return found->second;
+    return of_tissue_.emplace(body, Solid(x_[index(body)], surface(body).triangles)).first->second;
+  }
+
+  const IgnoredOverlaps& all_;
+  const Configuration& now_;
+  std::vector<Positions> x_;  // by body
+  std::vector<Eigen::AlignedBox3d> boxes_;
+  std::map<int, Solid> of_tissue_;
+};
+
+std::vector<IgnoredOverlap> IgnoredOverlaps::find(const Configuration& now) const {
+  std::vector<IgnoredOverlap> overlaps;
+  if (pairs_.empty()) return overlaps;
+  Look look(*this, now);
+  for (const auto& [a, b] : pairs_)
+    if (const IgnoredOverlap overlap = look.between(a, b); overlap.depth > 0)
+      overlaps.push_back(overlap);
   return overlaps;
+}
+
+std::vector<IgnoredOverlap> IgnoredOverlaps::at_start() const {
+  Configuration start;
+  const Eigen::VectorXd y = initial_state(model_);
+  read_state(model_, y.data(), 0, start);
+  return find(start);
+}
+
+OverlapWatch::OverlapWatch(const Scenario& scenario, const Model& model)
+    : overlaps_(scenario, model), at_start_(overlaps_.at_start()) {}
+
+void OverlapWatch::look(const Configuration& now) {
+  for (const IgnoredOverlap& found : overlaps_.find(now)) {
+    const auto is_known = [&](const IgnoredOverlap& other) {
+      return are_of_same_bodies(found, other);
+    };
+    if (std::ranges::none_of(at_start_, is_known) && std::ranges::none_of(since_start_, is_known))
+      since_start_.push_back(found);
+  }
 }
 
 }  // namespace articular::sim

@@ -9,7 +9,6 @@
 #include "fem/mesh/tetrahedron.hpp"
 #include "sim/contact/contact_pressure.hpp"
 #include "sim/contact/contact_response.hpp"
-#include "sim/model/ignored_overlaps.hpp"
 #include "sim/model/tissue.hpp"
 #include "sim/step/failure_diagnosis.hpp"
 #include "sim/step/run_extrema.hpp"
@@ -247,30 +246,21 @@ std::vector<std::string> run_warnings(const Model& model, const State& state,
   return warnings;
 }
 
-std::vector<std::string> overlap_warnings(const Scenario& scenario, const Model& model,
-                                          const Configuration& now) {
-  const std::vector<IgnoredOverlap> at_end = ignored_overlaps(scenario, model, now);
-  if (at_end.empty()) return {};
-  Configuration start;
-  const Eigen::VectorXd y = initial_state(model);
-  read_state(model, y.data(), 0, start);
-  const std::vector<IgnoredOverlap> at_start = ignored_overlaps(scenario, model, start);
-  const auto began_so = [&](const IgnoredOverlap& overlap) {
-    return std::ranges::any_of(
-        at_start, [&](const IgnoredOverlap& other) { return are_of_same_bodies(overlap, other); });
-  };
+std::vector<std::string> overlap_warnings(const Model& model,
+                                          const std::vector<IgnoredOverlap>& overlaps) {
   std::vector<std::string> warnings;
-  std::size_t count = 0;
-  for (const IgnoredOverlap& overlap : at_end)
-    if (!began_so(overlap) && ++count <= kMostNamed)
-      warnings.push_back(
-          fmt::format("`{}` went into `{}`, by {:.3g} mm at the end, and nothing kept them apart: "
-                      "no [[contact]] names these two; expected one",
-                      name_of_body(model, overlap.inner), name_of_body(model, overlap.outer),
-                      1e3 * overlap.depth));
-  if (count > kMostNamed)
-    warnings.push_back(
-        fmt::format("{} more pairs of bodies went into each other", count - kMostNamed));
+  for (const IgnoredOverlap& overlap : overlaps) {
+    if (warnings.size() == kMostNamed) {
+      warnings.push_back(fmt::format("{} more pairs of bodies went into each other",
+                                     overlaps.size() - kMostNamed));
+      break;
+    }
+    const auto [a, b] = std::minmax(overlap.inner, overlap.outer);
+    warnings.push_back(fmt::format(
+        "`{}` and `{}` went into each other, by {:.3g} mm at t = {:.4g} s, and nothing "
+        "kept them apart: no [[contact]] names both; expected one",
+        name_of_body(model, a), name_of_body(model, b), 1e3 * overlap.depth, overlap.t));
+  }
   return warnings;
 }
 

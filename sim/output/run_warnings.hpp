@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/model/ignored_overlaps.hpp"
 #include "sim/step/stepper.hpp"
 
 namespace articular::sim {
@@ -13,9 +14,9 @@ namespace articular::sim {
 std::vector<std::string> run_warnings(const Model& model, const State& state,
                                       const Stepper& stepper);
 
-/// Bodies that went into each other since the start and that no [[contact]] names. A sentence each.
-std::vector<std::string> overlap_warnings(const Scenario& scenario, const Model& model,
-                                          const Configuration& now);
+/// Bodies that went into each other, as no [[contact]] names both. A sentence each.
+std::vector<std::string> overlap_warnings(const Model& model,
+                                          const std::vector<IgnoredOverlap>& overlaps);
 
 /// What a reader of the results may want to know, and what it leaves untouched: motion that the
 /// time integration damped on its way to rest. A sentence each.

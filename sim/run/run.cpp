@@ -32,7 +32,8 @@ class Run {
         writer_(options.directory, scenario.name, scenario.output.length_unit,
                 scenario.threads > 1 ? FrameThread::OfItsOwn : FrameThread::Callers),
         course_(scenario, model),
-        history_(model, scenario.output.length_unit) {}
+        history_(model, scenario.output.length_unit),
+        overlaps_(scenario, model) {}
 
   RunOutcome go() {
     const auto start = std::chrono::steady_clock::now();
@@ -43,8 +44,8 @@ class Run {
       wall.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       write_and_sync();
       std::vector<std::string> warnings = run_warnings(model_, state(), stepper());
-      for (std::string& warning :
-           overlap_warnings(scenario_, model_, stepper().now().configuration))
+      overlaps_.look(stepper().now().configuration);
+      for (std::string& warning : overlap_warnings(model_, overlaps_.since_start()))
         warnings.push_back(std::move(warning));
       if (options_.warn)
         for (const std::string& warning : warnings) options_.warn(warning);
@@ -160,6 +161,7 @@ class Run {
 
   void output_frame() {
     const Stopwatch watch(times_.output);
+    overlaps_.look(stepper().now().configuration);
     if (scenario_.output.frames) {
       write_frame(model_, stepper(), scenario_.output.contact_surfaces, state().frames, state().t,
                   writer_);
@@ -198,6 +200,7 @@ class Run {
   FrameWriter writer_;
   Course course_;
   History history_;
+  OverlapWatch overlaps_;  // of a run that goes on: from there on
   std::string fingerprint_;
   std::vector<InputFile> inputs_;
   std::optional<AppendFile> history_file_, convergence_file_;

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "sim/build/build_model.hpp"
 #include "tests/sim/support/scene.hpp"
 
@@ -25,10 +28,7 @@ Scenario two_blocks(double shared, Body::Kind lower = Body::Kind::Tissue,
 std::vector<IgnoredOverlap> at_start(const Scenario& s, const ModelChange& change = {}) {
   Model model = build_model(s);
   if (change) change(model);
-  Configuration start;
-  const Eigen::VectorXd y = initial_state(model);
-  read_state(model, y.data(), 0, start);
-  return ignored_overlaps(s, model, start);
+  return IgnoredOverlaps(s, model).at_start();
 }
 
 TEST(IgnoredOverlaps, AreAsDeepAsTheBodiesLieInEachOther) {
@@ -42,6 +42,12 @@ TEST(IgnoredOverlaps, AreAsDeepAsTheBodiesLieInEachOther) {
 TEST(IgnoredOverlaps, CountFromHalfAnElementOn) {
   EXPECT_TRUE(at_start(two_blocks(1.1e-3)).empty());
   EXPECT_EQ(at_start(two_blocks(1.4e-3)).size(), 1U);
+}
+
+TEST(IgnoredOverlaps, OfTissueAndARigidBodyCountByTheTissue) {
+  EXPECT_TRUE(at_start(two_blocks(1.1e-3, Body::Kind::Rigid)).empty());
+  EXPECT_TRUE(at_start(two_blocks(1.1e-3, Body::Kind::Tissue, Body::Kind::Rigid)).empty());
+  EXPECT_EQ(at_start(two_blocks(1.4e-3, Body::Kind::Rigid)).size(), 1U);
 }
 
 TEST(IgnoredOverlaps, OfRigidBodiesCountFromAFiftiethOn) {
@@ -108,15 +114,52 @@ TEST(IgnoredOverlaps, SayWhatLiesInAnotherWhole) {
 TEST(IgnoredOverlaps, FollowTheMotion) {
   const Scenario s = two_blocks(-0.01, Body::Kind::Rigid);
   const Model model = build_model(s);
+  const IgnoredOverlaps overlaps(s, model);
+  Configuration now;
+  const Eigen::VectorXd y = initial_state(model);
+  read_state(model, y.data(), 0.7, now);
+  EXPECT_TRUE(overlaps.find(now).empty());
+  Pose& lower = now.poses[static_cast<std::size_t>(model.bodies[0].rigid)];
+  lower.p.z() += 0.013;
+  lower.R = Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX());  // a cube, as before
+  const std::vector<IgnoredOverlap> found = overlaps.find(now);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].depth, 3e-3, 1e-12);
+  EXPECT_EQ(found[0].t, 0.7);
+  const double face = found[0].inner == 1 ? 0.015 : 0.018;  // of the one in the other [m]
+  EXPECT_NEAR(found[0].x.z(), face, 1e-12);
+  lower.R = Eigen::AngleAxisd(M_PI / 4, Vec3::UnitX());  // now an edge is up, by 2.07 mm more
+  EXPECT_GT(overlaps.find(now).at(0).depth, 3.5e-3);
+  lower.R.setIdentity();
+  now.x.row(2).array() += 3e-3;
+  EXPECT_TRUE(overlaps.find(now).empty());
+}
+
+// A body that goes through another one is seen on its way, and not forgotten beyond.
+TEST(OverlapWatch, KeepsWhatWentThrough) {
+  const Scenario s = two_blocks(-0.01, Body::Kind::Rigid);
+  const Model model = build_model(s);
+  OverlapWatch watch(s, model);
+  const Eigen::VectorXd y = initial_state(model);
+  for (int i = 0; i <= 20; ++i) {
+    Configuration now;
+    read_state(model, y.data(), 0.1 * i, now);
+    now.poses[static_cast<std::size_t>(model.bodies[0].rigid)].p.z() += 0.0022 * i;
+    watch.look(now);
+    EXPECT_EQ(watch.since_start().size(), i < 6 ? 0U : 1U) << i;
+  }
+  EXPECT_NEAR(watch.since_start()[0].t, 0.6, 1e-12);
+}
+
+TEST(OverlapWatch, IsNotOfWhatLayThereFromTheStart) {
+  const Scenario s = two_blocks(3e-3);
+  const Model model = build_model(s);
+  OverlapWatch watch(s, model);
   Configuration now;
   const Eigen::VectorXd y = initial_state(model);
   read_state(model, y.data(), 0, now);
-  EXPECT_TRUE(ignored_overlaps(s, model, now).empty());
-  now.poses[static_cast<std::size_t>(model.bodies[0].rigid)].p.z() += 0.013;
-  ASSERT_EQ(ignored_overlaps(s, model, now).size(), 1U);
-  EXPECT_NEAR(ignored_overlaps(s, model, now)[0].depth, 3e-3, 1e-12);
-  now.x.row(2).array() += 3e-3;
-  EXPECT_TRUE(ignored_overlaps(s, model, now).empty());
+  watch.look(now);
+  EXPECT_TRUE(watch.since_start().empty());
 }
 
 }  // namespace articular::sim::ignored_overlaps_test

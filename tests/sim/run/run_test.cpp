@@ -255,4 +255,21 @@ TEST_F(RunTest, AnActivationThatIsSteeredIsThatOfTheNextStep) {
   EXPECT_LT(last, 0.9);
 }
 
+// The block falls from the air through the table, which [[contact]] forgot, and is beyond it at the
+// end.
+TEST_F(RunTest, ABodyThatWentThroughAnotherIsTold) {
+  Scenario falling = scenario({"body.2.velocity=\"0 0 -400 mm/s\"", "output.interval=\"3 ms\""});
+  falling.contacts = {{"plate", "block", {}}, {"plate", "table", {}}};
+  falling.probes.clear();
+  std::string warnings;
+  RunOptions options;
+  options.directory = out("run");
+  options.warn = [&](const std::string& warning) { warnings += warning + "\n"; };
+  const std::string told = "`table` and `block` went into each other";
+  run(falling, build_model(falling), options);
+  EXPECT_NE(warnings.find(told), std::string::npos) << warnings;
+  const auto summary = nlohmann::json::parse(content(out("run") / "summary.json"));
+  EXPECT_NE(summary.at("warnings").dump().find(told), std::string::npos);
+}
+
 }  // namespace articular::sim::run_test
