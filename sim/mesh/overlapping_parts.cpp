@@ -44,6 +44,7 @@ std::vector<Solid> solids_of_parts(const Positions& X, const Tetrahedra& tets,
     part.corners.push_back(at->second);
   }
   std::vector<Solid> solids;
+  solids.reserve(of_part.size());
   for (const auto& [first, part] : of_part)
     solids.emplace_back(
         Positions(Eigen::Map<const Positions>(part.nodes.data()->data(), 3,
