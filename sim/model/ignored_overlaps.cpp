@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "collision/mesh/box_tree.hpp"
 #include "collision/mesh/surface.hpp"
 #include "sim/mesh/winding_number.hpp"
 #include "sim/model/tissue.hpp"
@@ -20,11 +21,6 @@ const BodyModel& body_of(const Model& model, int body) {
 
 const Tissue& tissue_of(const Model& model, const BodyModel& body) {
   return model.tissues[static_cast<std::size_t>(body.tissue)];
-}
-
-Eigen::AlignedBox3d box_of(const Positions& x) {
-  if (x.cols() == 0) return {};
-  return {x.rowwise().minCoeff(), x.rowwise().maxCoeff()};
 }
 
 /// Whether it can give way.
@@ -60,23 +56,16 @@ bool are_of_same_bodies(const IgnoredOverlap& a, const IgnoredOverlap& b) {
 
 IgnoredOverlaps::IgnoredOverlaps(const Scenario& scenario, const Model& model)
     : model_(model), surfaces_(model.bodies.size()) {
-  if (!scenario.contact) return;
-  const int count = static_cast<int>(model.bodies.size());
-  const auto is_solid = [&](int b) {
-    return scenario.bodies[static_cast<std::size_t>(b)].collides &&
-           body_of(model, b).touches_as_drawn;
-  };
-  const auto is_ignored = [&](int a, int b) {
-    const BodyModel &p = body_of(model, a), &q = body_of(model, b);
-    return (is_free(model, p) || is_free(model, q)) && !model.contacts.between(a, b) &&
-           !is_tied_to(model, p, q) && !is_tied_to(model, q, p);
-  };
-  for (int a = 0; a < count; ++a)
-    for (int b = a + 1; b < count; ++b)
-      if (is_solid(a) && is_solid(b) && is_ignored(a, b)) pairs_.emplace_back(a, b);
-  for (const auto& [a, b] : pairs_)
-    for (const int body : {a, b})
-      if (surfaces_[static_cast<std::size_t>(body)].nodes.empty()) add_surface(body);
+  if (!scenario.contact || scenario.contacts.empty()) return;  // nothing, or all may touch
+  for (std::size_t b = 0; b < surfaces_.size(); ++b)
+    if (scenario.bodies[b].collides && model.bodies[b].touches_as_drawn)
+      add_surface(static_cast<int>(b));
+}
+
+bool IgnoredOverlaps::is_ignored(int a, int b) const {
+  const BodyModel &p = body_of(model_, a), &q = body_of(model_, b);
+  return (is_free(model_, p) || is_free(model_, q)) && !model_.contacts.between(a, b) &&
+         !is_tied_to(model_, p, q) && !is_tied_to(model_, q, p);
 }
 
 void IgnoredOverlaps::add_surface(int b) {
@@ -93,8 +82,8 @@ void IgnoredOverlaps::add_surface(int b) {
   } else {
     const Positions X = body.X(Eigen::all, keep_own_nodes(surface.triangles));
     for (const Vec3 local : X.colwise()) surface.nodes.push_back({0, body.rigid, local});
-    surface.deep = kDeepInRigid * box_of(X).diagonal().norm();
     surface.solid.emplace(X, surface.triangles);
+    surface.deep = kDeepInRigid * surface.solid->box.diagonal().norm();
   }
   surface.is_closed = is_closed(surface.triangles);
 }
@@ -106,13 +95,14 @@ class IgnoredOverlaps::Look {
       : all_(all), now_(now), x_(all.surfaces_.size()), boxes_(x_.size()) {
     for (std::size_t b = 0; b < x_.size(); ++b) {
       positions_of(now, all.surfaces_[b].nodes, x_[b]);
-      boxes_[b] = box_of(x_[b]);
+      for (const Vec3 x : x_[b].colwise()) boxes_[b].include(x);
     }
   }
 
+  const std::vector<collision::Aabb>& boxes() const { return boxes_; }
+
   /// The deeper one of either in the other; depth 0 where none is.
   IgnoredOverlap between(int a, int b) {
-    if (!boxes_[index(a)].intersects(boxes_[index(b)])) return {};
     const double least = least_depth(a, b);
     const IgnoredOverlap of_a = deepest(a, b, least), of_b = deepest(b, a, least);
     return of_b.depth > of_a.depth ? of_b : of_a;
@@ -155,17 +145,19 @@ class IgnoredOverlaps::Look {
   const IgnoredOverlaps& all_;
   const Configuration& now_;
   std::vector<Positions> x_;  // by body
-  std::vector<Eigen::AlignedBox3d> boxes_;
+  std::vector<collision::Aabb> boxes_;
   std::map<int, Solid> of_tissue_;
 };
 
 std::vector<IgnoredOverlap> IgnoredOverlaps::find(const Configuration& now) const {
   std::vector<IgnoredOverlap> overlaps;
-  if (pairs_.empty()) return overlaps;
   Look look(*this, now);
-  for (const auto& [a, b] : pairs_)
-    if (const IgnoredOverlap overlap = look.between(a, b); overlap.depth > 0)
-      overlaps.push_back(overlap);
+  collision::BoxTree near;
+  for (const auto& [a, b] : near.overlapping_bodies(look.boxes())) {
+    if (!is_ignored(a, b)) continue;
+    const IgnoredOverlap overlap = look.between(a, b);
+    if (overlap.depth > 0) overlaps.push_back(overlap);
+  }
   return overlaps;
 }
 

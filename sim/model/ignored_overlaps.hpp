@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "sim/mesh/deepest_inside.hpp"
@@ -40,10 +39,10 @@ class IgnoredOverlaps {
   class Look;
 
   void add_surface(int body);
+  bool is_ignored(int a, int b) const;
 
   const Model& model_;
-  std::vector<std::pair<int, int>> pairs_;  // that no contact parts
-  std::vector<Surface> surfaces_;           // by body; empty where it is in no pair
+  std::vector<Surface> surfaces_;  // by body; empty where it doesn't count
 };
 
 /// Keeps what has gone into another body since the start, as it was when it was first seen.
