@@ -2,14 +2,13 @@
 
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "fem/mesh/mesh_parts.hpp"
 #include "fem/mesh/tetrahedron.hpp"
 
 namespace articular::fem {
@@ -61,26 +60,8 @@ std::vector<Role> roles(int num_nodes, std::span<const int> from, std::span<cons
   return role;
 }
 
-/// The lowest node of the part of the mesh that each node is connected to.
-std::vector<int> parts(int num_nodes, const Tetrahedra& tets) {
-  std::vector<int> part(static_cast<std::size_t>(num_nodes));
-  std::iota(part.begin(), part.end(), 0);
-  const auto root = [&part](int a) {
-    while (part[a] != a) a = part[a] = part[part[a]];
-    return a;
-  };
-  for (const auto& tet : tets.colwise()) {
-    for (int a = 1; a < 4; ++a) {
-      const int p = root(tet[0]), q = root(tet[a]);
-      part[std::max(p, q)] = std::min(p, q);
-    }
-  }
-  for (int a = 0; a < num_nodes; ++a) part[a] = root(a);
-  return part;
-}
-
 void check_connected(const Tetrahedra& tets, const std::vector<Role>& role) {
-  const std::vector<int> part = parts(static_cast<int>(role.size()), tets);
+  const std::vector<int> part = parts_of_nodes(static_cast<int>(role.size()), tets);
   std::vector<bool> has_from(role.size()), has_to(role.size());
   for (std::size_t a = 0; a < role.size(); ++a) {
     if (role[a] == Role::From) has_from[part[a]] = true;

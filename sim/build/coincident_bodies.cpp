@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "sim/mesh/triangle_tree.hpp"
 #include "sim/mesh/winding_number.hpp"
 #include "sim/model/near_contacts.hpp"
+#include "sim/model/tied_bodies.hpp"
 
 namespace articular::sim {
 namespace {
@@ -92,21 +92,10 @@ bool lies_within(const Collider& a, const Collider& b) {
 
 }  // namespace
 
-bool are_tied(const Model& model, const ContactModel& contact) {
-  const auto tied = [&](int tissue, int rigid) {
-    const BodyModel& body = model.bodies[static_cast<std::size_t>(tissue)];
-    const int index = model.bodies[static_cast<std::size_t>(rigid)].rigid;
-    return body.tissue >= 0 && index >= 0 &&
-           std::any_of(body.collider->nodes.begin(), body.collider->nodes.end(),
-                       [&](const NodeRef& node) { return node.rigid == index; });
-  };
-  return tied(contact.a, contact.b) || tied(contact.b, contact.a);
-}
-
 void refuse_coincident_bodies(const Scenario& scenario, const Model& model) {
   for (const ContactId id : contacts_near_at_start(model, kSame)) {
     const ContactModel contact = model.contacts[id];
-    if (contact.a == contact.b || are_tied(model, contact)) continue;
+    if (contact.a == contact.b || are_tied(model, contact.a, contact.b)) continue;
     const BodyModel &a = model.bodies[static_cast<std::size_t>(contact.a)],
                     &b = model.bodies[static_cast<std::size_t>(contact.b)];
     if (!coincide(*a.collider, *b.collider)) continue;
@@ -120,7 +109,7 @@ void refuse_coincident_bodies(const Scenario& scenario, const Model& model) {
 void refuse_bodies_within_others(const Scenario& scenario, const Model& model) {
   for (const ContactId id : contacts_near_at_start(model, kSame)) {
     const ContactModel contact = model.contacts[id];
-    if (contact.a == contact.b || are_tied(model, contact)) continue;
+    if (contact.a == contact.b || are_tied(model, contact.a, contact.b)) continue;
     for (const auto& [inner, outer] :
          {std::pair(contact.a, contact.b), std::pair(contact.b, contact.a)}) {
       const BodyModel &in = model.bodies[static_cast<std::size_t>(inner)],

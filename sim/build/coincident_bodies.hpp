@@ -4,9 +4,6 @@
 
 namespace articular::sim {
 
-/// Is tissue of one body tied to the other? Then it belongs there.
-bool are_tied(const Model& model, const ContactModel& contact);
-
 /// Two bodies that may touch, with surfaces that lie within a tenth of an element of each other all
 /// over, however they are meshed: no face enters the other body as contact would need it. One of
 /// them is a copy left by mistake. Bodies that are tied to each other may lie so.

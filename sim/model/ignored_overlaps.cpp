@@ -5,7 +5,9 @@
 
 #include "collision/mesh/box_tree.hpp"
 #include "collision/mesh/surface.hpp"
+#include "sim/mesh/own_nodes.hpp"
 #include "sim/mesh/winding_number.hpp"
+#include "sim/model/tied_bodies.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
@@ -28,25 +30,6 @@ bool is_free(const Model& model, const BodyModel& body) {
   return body.tissue >= 0 || (body.rigid >= 0 && body.rigid < model.layout.num_rigid);
 }
 
-bool is_tied_to(const Model& model, const BodyModel& body, const BodyModel& other) {
-  if (body.tissue < 0 || other.rigid < 0) return false;
-  const std::vector<NodeRef>& nodes = tissue_of(model, body).nodes;
-  return std::any_of(nodes.begin(), nodes.end(),
-                     [&](const NodeRef& node) { return node.rigid == other.rigid; });
-}
-
-/// The nodes of some triangles, in the order in which they come up; triangles then refer to these.
-std::vector<int> keep_own_nodes(Triangles& triangles) {
-  std::vector<int> kept;
-  std::map<int, int> number;
-  for (int& node : triangles.reshaped()) {
-    const auto [at, is_new] = number.emplace(node, static_cast<int>(kept.size()));
-    if (is_new) kept.push_back(node);
-    node = at->second;
-  }
-  return kept;
-}
-
 /// Whichever of the two lies in the other.
 bool are_of_same_bodies(const IgnoredOverlap& a, const IgnoredOverlap& b) {
   return std::minmax(a.inner, a.outer) == std::minmax(b.inner, b.outer);
@@ -65,7 +48,7 @@ IgnoredOverlaps::IgnoredOverlaps(const Scenario& scenario, const Model& model)
 bool IgnoredOverlaps::is_ignored(int a, int b) const {
   const BodyModel &p = body_of(model_, a), &q = body_of(model_, b);
   return (is_free(model_, p) || is_free(model_, q)) && !model_.contacts.between(a, b) &&
-         !is_tied_to(model_, p, q) && !is_tied_to(model_, q, p);
+         !are_tied(model_, a, b);
 }
 
 void IgnoredOverlaps::add_surface(int b) {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "sim/build/build_model.hpp"
-#include "sim/build/coincident_bodies.hpp"
 #include "sim/contact/initial_overlap.hpp"
+#include "sim/model/tied_bodies.hpp"
 #include "sim/statics/contact_hooks.hpp"
 #include "sim/statics/pseudo_time.hpp"
 
@@ -70,7 +70,7 @@ double kept_depth(const Model& model, const ContactModel& contact) {
 void refuse_lost_bodies(const Model& model, const ContactDepths& seen) {
   for (const InitialOverlap& overlap : initial_overlaps(model)) {
     const ContactModel contact = model.contacts[overlap.contact];
-    if (overlap.depth <= contact.max_penetration || are_tied(model, contact)) continue;
+    if (overlap.depth <= contact.max_penetration || are_tied(model, contact.a, contact.b)) continue;
     if (seen.of(overlap.contact) > 0) continue;
     throw SimulationError(
         fmt::format("{} overlap at the start by {:.3g} mm, at ({:.3f} {:.3f} {:.3f}) mm, and "
