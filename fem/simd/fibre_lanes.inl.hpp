@@ -137,7 +137,7 @@ struct FibreLanes {
   ///   W'' q² ∇s ∇sᵀ + W' q [(1 − n nᵀ) ⊗ a aᵀ/λ² − ∂²ln J/3 + ∇s ∇sᵀ − ∇ln λ ∇ln λᵀ],  s = ln q,
   /// with n along F a. The last two cancel unless the volume changes, and are left out; the part of
   /// ln J is added to the ground's, whose nearest is taken. W' is not negative: fibres do not push.
-  void projected_tangent(const State& s, Tangent81& C) const requires(!kShear) {
+  void projected_tangent(const State& s, Tangent81& C) const {
     Slopes ground_slopes = ground.slopes(s.ground);
     const Lanes zero{}, inverse_J = 1 / s.ground.i.J;
     Lanes along{}, isochoric_along{}, across{};
@@ -154,6 +154,7 @@ struct FibreLanes {
       });
     }
     Ground::projected_tangent(s.ground, ground_slopes, C);
+    if constexpr (kShear) across += add_projected_shear(s, C);
     const Vector n = (1 / s.stretch) * s.b;
     const Matrix by_stretch = outer((1 / s.stretch) * n, s.a);
     const Matrix by_isochoric = by_stretch - ((1.0 / 3) * inverse_J) * s.ground.cof;
@@ -254,6 +255,105 @@ struct FibreLanes {
     d.I5_I5 += curvature * y_5 * y_5;
     d.I5_J += by_J * y_5;
     d.ground.J_J += (curvature * y_J - 2 * slope * inverse_J) * y_J;
+  }
+
+  /// F in axes of the fibre: e across it at rest, n = F a/λ along it now, F e_i = γ_i λ n + f_i
+  /// with f_i across n. Where F e_i − γ_i F a = f_i: ε_i = e_i − γ_i a.
+  struct AcrossFibre {
+    Vector epsilon[2], n, f[2];
+    Lanes gamma[2];
+  };
+  static AcrossFibre across_fibre(const State& s) {
+    AcrossFibre across;
+    // Axes across a unit vector, without a branch [Duff 2017, J. Comput. Graph. Tech. 6(1)].
+    const Vector& a = s.a;
+    const Lanes sign = a[2] < 0 ? all(-1) : all(1), k = -1 / (sign + a[2]), m = a[0] * a[1] * k;
+    const Vector e[2] = {{1 + sign * a[0] * a[0] * k, sign * m, -sign * a[0]},
+                         {m, sign + a[1] * a[1] * k, -a[1]}};
+    across.n = (1 / s.stretch) * s.b;
+    for (int i = 0; i < 2; ++i) {
+      const Vector Fe = s.ground.F * e[i];
+      across.gamma[i] = dot(s.b, Fe) / s.I4;
+      across.f[i] = Fe - across.gamma[i] * s.b;
+      across.epsilon[i] = e[i] - across.gamma[i] * a;
+    }
+    return across;
+  }
+
+  /// The upper blocks of weight (g : δF)².
+  static void add_square(Lanes weight, const Matrix& g, Tangent81& C) {
+    for (int l = 0; l < 3; ++l) {
+      const Vector weighted = weight * g[l];
+      for (int j = l; j < 3; ++j) C.block[j + 3 * l] = C.block[j + 3 * l] + outer(g[j], weighted);
+    }
+  }
+  /// The upper blocks of weight |δF p|².
+  static void add_square(Lanes weight, const Vector& p, Tangent81& C) {
+    for (int l = 0; l < 3; ++l) {
+      for (int j = l; j < 3; ++j) {
+        const Lanes on_diagonal = weight * p[j] * p[l];
+        for (int k = 0; k < 3; ++k) C.block[j + 3 * l][k][k] += on_diagonal;
+      }
+    }
+  }
+
+  /// The upper blocks of squares that are nowhere less than the second derivative of
+  /// G1 B1² + G2 B2², and equal to it without shear.
+  /// @return the part of (δF a)² across the fibre, for the caller to add
+  Lanes add_projected_shear(const State& s, Tangent81& C) const {
+    if (s.ground.share == 0) return Lanes{};
+    const AcrossFibre across = across_fibre(s);
+    add_projected_shear_along(s, across, all(s.ground.share * fibres.shear_along), C);
+    return add_projected_shear_across(s, across, all(s.ground.share * fibres.shear_across), C);
+  }
+
+  /// B1² = |γ|². With u = δF a and v_i = δF ε_i its second derivative is
+  ///   2 |δγ|² + 4 γ·(u·v/λ² − 2 (n·u/λ) δγ)
+  ///     = 2 |δγ − 2 γ n·u/λ|² − 8 |γ|² (n·u/λ)² + |γ| (|u + v'|² − |u − v'|²)/λ²,  v' = γ·v/|γ|,
+  /// of which what is negative is left out.
+  static void add_projected_shear_along(const State& s, const AcrossFibre& across, Lanes G1,
+                                        Tangent81& C) {
+    const Lanes inverse_I4 = 1 / s.I4;
+    Lanes squared_shear{};
+    Vector shear{};
+    for (int i = 0; i < 2; ++i) {
+      const Vector moved = across.f[i] - (2 * across.gamma[i]) * s.b;
+      add_square(2 * G1 * inverse_I4 * inverse_I4,
+                 outer(s.b, across.epsilon[i]) + outer(moved, s.a), C);
+      squared_shear += across.gamma[i] * across.gamma[i];
+      shear = shear + across.gamma[i] * across.epsilon[i];
+    }
+    const Lanes size = sqrt(squared_shear), inverse_size = size > 0 ? 1 / size : Lanes{};
+    add_square(G1 * size * inverse_I4, s.a + inverse_size * shear, C);
+  }
+
+  /// B2² = acosh²(y), and of the area d = |f1 x f2| y is 1 + |q|²/(2d) with q = f1 + n x f2. With u
+  /// and v_i as above and φ = u/λ, which turns n, the second derivative of y is
+  ///   |δq − q δd/d|²/d − |q|² (v1 x v2)·n/d²                           within the plane across n
+  ///     + φ·(y 1 − Σ f_i f_iᵀ/d) φ − (2/d) Σ (n·v_i) φ·k_i,  k = f + y (n x f2, −n x f1).
+  /// −4 (v1 x v2)·n is |δq|² less a square, the eigenvalues of y 1 − Σ f fᵀ/d are ±sinh B2, and the
+  /// last terms are squares, (κ n·v_i − φ·k_i)²/(κ d), less others, for any κ. acosh²'' < 0.
+  static Lanes add_projected_shear_across(const State& s, const AcrossFibre& across, Lanes G2,
+                                          Tangent81& C) {
+    const Vector &n = across.n, f1 = across.f[0], f2 = across.f[1];
+    const Lanes y = cosh_B2(s), above_1 = max(Lanes{}, y - 1);
+    const Lanes slope = G2 * squared_acosh(y).slope, inverse_d = s.stretch / s.ground.i.J;
+    const Matrix of_d = (1 / s.ground.i.J) * s.ground.cof - outer((1 / s.I4) * s.b, s.a);  // δd/d
+    const Vector t1 = (1 / sqrt(dot(f1, f1))) * f1, t2 = cross(n, t1);
+    const Matrix of_q[2] = {outer(t1, across.epsilon[0]) - outer(t2, across.epsilon[1]),
+                            outer(t2, across.epsilon[0]) + outer(t1, across.epsilon[1])};
+    const Lanes q[2] = {dot(t1, f1) - dot(t2, f2), dot(t2, f1) + dot(t1, f2)};
+    for (int i = 0; i < 2; ++i) {
+      add_square(slope * inverse_d, of_q[i] - q[i] * of_d, C);
+      add_square(0.5 * slope * above_1 * inverse_d, of_q[i], C);
+    }
+    const Vector k[2] = {f1 + y * cross(n, f2), f2 - y * cross(n, f1)};
+    const Lanes size = sqrt((dot(k[0], k[0]) + dot(k[1], k[1])) * inverse_d);
+    const Lanes scale = size > 0 ? 1 / (size * s.stretch) : Lanes{};
+    for (int i = 0; i < 2; ++i)
+      add_square(0.5 * slope * size * inverse_d,
+                 outer(n, across.epsilon[i]) - outer(scale * k[i], s.a), C);
+    return slope * sqrt(above_1 * (y + 1)) / s.I4;
   }
 
   /// ∂I5/∂F

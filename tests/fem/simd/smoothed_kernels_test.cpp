@@ -10,11 +10,12 @@
 #include "fem/element/smoothed_elasticity.hpp"
 #include "fem/material/any_material.hpp"
 #include "fem/mesh/tetrahedron.hpp"
+#include "tests/fem/support/batched_tangent.hpp"
 #include "tests/fem/support/box_mesh.hpp"
 #include "tests/fem/support/dense.hpp"
+#include "tests/fem/support/instruction_sets.hpp"
 #include "tests/fem/support/laws.hpp"
 #include "tests/fem/support/random_matrices.hpp"
-#include "tests/fem/support/spectrum.hpp"
 
 // The loops over eight domains or elements at a time against the formulas of
 // smoothed_elasticity.hpp, one domain after the other, with the laws of the tests.
@@ -23,13 +24,6 @@ namespace articular::fem::smoothed_kernels_test {
 constexpr double kActivation = 0.4;
 constexpr double kScale = 0.3;        // of stiffnesses
 const Vec3 kSize(0.02, 0.01, 0.005);  // [m]
-
-std::vector<InstructionSet> instruction_sets() {
-  std::vector<InstructionSet> sets{InstructionSet::Baseline};
-  if (best_instruction_set() != InstructionSet::Baseline) sets.push_back(InstructionSet::Avx2);
-  if (best_instruction_set() == InstructionSet::Avx512) sets.push_back(InstructionSet::Avx512);
-  return sets;
-}
 
 /// A mesh, its laws and a state.
 struct Problem {
@@ -101,13 +95,10 @@ struct Assembled {
   }
 };
 
-/// What stands for share times the distortion and a rest of other energies, in a projected tangent.
-/// @param hessian  of both
-Mat9 projected_tangent(const LawExample& law, const Mat9& hessian, double share, const Mat3& F,
-                       double activation) {
-  if (!law.fibre_part || share == 0) return positive_part(hessian);
-  const FibrePart part = law.fibre_part(F, activation);
-  return positive_part(hessian - share * part.hessian) + share * part.positive;
+/// See batched_law_test.cpp for what it is.
+Mat9 projected_tangent(const LawExample& law, double share, double pressure, const Mat3& F) {
+  return batched_tangent(InstructionSet::Baseline, law.material, share, pressure, F, kActivation,
+                         Tangent::Projected);
 }
 
 Assembled point_by_point(const Problem& problem, const SmoothedElasticity& elasticity,
@@ -132,8 +123,7 @@ Assembled point_by_point(const Problem& problem, const SmoothedElasticity& elast
     }
     const LawExample& law = problem.laws[m];
     const Jet part = scaled(1 - share, law.distortion(F, kActivation));
-    sum.add_energy(domains.volume[k], part,
-                   projected_tangent(law, part.hessian, 1 - share, F, kActivation), nodes,
+    sum.add_energy(domains.volume[k], part, projected_tangent(law, 1 - share, 0, F), nodes,
                    gradients);
   }
   const Tetrahedra& tets = problem.mesh.tets;
@@ -160,11 +150,10 @@ Assembled point_by_point(const Problem& problem, const SmoothedElasticity& elast
       part.gradient += share * distortion.gradient;
       part.hessian += share * distortion.hessian;
     }
-    sum.add_energy(V, part, projected_tangent(law, part.hessian, share, F, kActivation), nodes,
-                   gradients);
+    sum.add_energy(V, part, projected_tangent(law, share, pressure, F), nodes, gradients);
     Assembled::add_stiffness(V, distortion.hessian, nodes, gradients, sum.K_plain);
-    Assembled::add_stiffness(V, projected_tangent(law, distortion.hessian, 1, F, kActivation),
-                             nodes, gradients, sum.K_plain_projected);
+    Assembled::add_stiffness(V, projected_tangent(law, 1, 0, F), nodes, gradients,
+                             sum.K_plain_projected);
     const double kappa = std::min(law.bulk_modulus, 13.0 / 6 * law.shear_modulus);
     const Vec9 theta_gradient = theta.gradient.reshaped();
     Assembled::add_stiffness(V, kappa * theta_gradient * theta_gradient.transpose(), nodes,

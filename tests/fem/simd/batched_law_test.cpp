@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/fem/support/batched_tangent.hpp"
+#include "tests/fem/support/instruction_sets.hpp"
+#include "tests/fem/support/laws.hpp"
+#include "tests/fem/support/random_matrices.hpp"
+#include "tests/fem/support/spectrum.hpp"
+
+// What a solver relies on in the projected tangents of all laws: that of a law with fibres is a sum
+// of its parts', and not the nearest.
+namespace articular::fem::batched_law_test {
+
+constexpr double kRounding = 1e-11;  // [-] by the size of the tangent
+
+class BatchedLaws : public testing::TestWithParam<LawExample> {
+ protected:
+  Mat9 tangent(InstructionSet set, const Mat3& F, Tangent tangent) const {
+    constexpr double kActivation = 0.7;
+    return batched_tangent(set, GetParam().material, 1, 0.1 * GetParam().scale, F, kActivation,
+                           tangent);
+  }
+  /// Calls use(F, consistent, projected) from small to large strains, fibres slack and taut.
+  template <class Use>
+  void for_each_tangent(const Use& use) const {
+    Random random;
+    for (const InstructionSet set : instruction_sets())
+      for (const double size : {0.01, 0.1, 0.3, 0.6})
+        for (int k = 0; k < 8; ++k) {
+          const Mat3 F = random.rotation() * (Mat3::Identity() + size * random.matrix3());
+          if (!bears(F)) continue;
+          use(F, tangent(set, F, Tangent::Consistent), tangent(set, F, Tangent::Projected));
+        }
+  }
+
+ private:
+  bool bears(const Mat3& F) const {
+    return F.determinant() > 0.3 &&
+           std::sqrt(eigenvalues(F.transpose() * F)[0]) > GetParam().promise.least_stretch;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, BatchedLaws, testing::ValuesIn(all_laws()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST_P(BatchedLaws, ProjectedTangentIsPositiveSemidefinite) {
+  for_each_tangent([](const Mat3&, const Mat9& consistent, const Mat9& projected) {
+    EXPECT_GT(eigenvalues(projected)[0], -kRounding * consistent.norm());
+  });
+}
+
+TEST_P(BatchedLaws, ProjectedTangentIsTheNearestWithoutFibres) {
+  if (GetParam().fibred) GTEST_SKIP() << "a sum of projected parts";
+  for_each_tangent([](const Mat3&, const Mat9& consistent, const Mat9& projected) {
+    EXPECT_LT((projected - positive_part(consistent)).norm(), kRounding * consistent.norm());
+  });
+}
+
+// Nor softer, as long as the volume is kept: there, the parts of a fibre that are left out cancel.
+// Nor much stiffer than the nearest one.
+TEST_P(BatchedLaws, ProjectedTangentIsNowhereSofterAtConstantVolume) {
+  for_each_tangent([](const Mat3& F, const Mat9& consistent, const Mat9& projected) {
+    const Vec9 by_volume = Vec9(F.inverse().transpose().reshaped()).normalized();
+    const Mat9 keeps_volume = Mat9::Identity() - by_volume * by_volume.transpose();
+    const Mat9 difference = keeps_volume * (projected - consistent) * keeps_volume;
+    EXPECT_GT(eigenvalues(difference)[0], -kRounding * consistent.norm()) << F;
+    const double beyond = (projected - positive_part(consistent)).norm() / consistent.norm();
+    EXPECT_LT(beyond, 0.5) << F;
+  });
+}
+
+TEST_P(BatchedLaws, ProjectedTangentTendsToTheConsistentOneWithoutStrain) {
+  Random random;
+  const Mat3 direction = random.matrix3();
+  std::vector<double> distances;
+  for (const double size : {1e-3, 1e-4}) {
+    const Mat3 F = (Mat3::Identity() + size * direction) * GetParam().promise.rest;
+    const auto by_kernels = [&](Tangent tangent) {
+      return batched_tangent(best_instruction_set(), GetParam().material, 1, 0, F, 0, tangent);
+    };
+    const Mat9 consistent = by_kernels(Tangent::Consistent);
+    distances.push_back((by_kernels(Tangent::Projected) - consistent).norm() / consistent.norm());
+  }
+  EXPECT_LT(distances[1], 0.11 * distances[0] + kRounding);
+}
+
+}  // namespace articular::fem::batched_law_test
