@@ -78,13 +78,14 @@ void check_mentioned(const Node& choices, const Mentioned& mentioned) {
                        fmt::format("no `when` mentions the choice `{}`{}", one_line(choice.key),
                                    names.empty() ? "" : suggestion(choice.key, names)));
     }
-    if (known->second.count(*choice.node.text()) != 0) continue;
+    std::set<std::string> words = known->second;
+    words.insert("off");
+    if (words.contains(*choice.node.text())) continue;
     std::string list;
-    for (const std::string& word : known->second)
+    for (const std::string& word : words)
       list += fmt::format("{}{}", list.empty() ? "" : ", ", in_quotes(word));
-    fail(choice.node,
-         fmt::format("no `when` mentions this word; expected {}{}, found {}",
-                     known->second.size() > 1 ? "one of " : "", list, found(choice.node)));
+    fail(choice.node, fmt::format("no `when` mentions this word; expected one of {}, found {}",
+                                  list, found(choice.node)));
   }
 }
 

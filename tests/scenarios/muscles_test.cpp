@@ -62,6 +62,15 @@ double volume(const Tetrahedra& tets, const Positions& x) {  // [m³]
   return sum;
 }
 
+std::string name_of(const sim::Model& model, std::size_t tissue) {
+  return model.bodies[static_cast<std::size_t>(model.tissues[tissue].body)].name;
+}
+std::size_t tissue_named(const sim::Model& model, const std::string& name) {
+  std::size_t tissue = 0;
+  while (name_of(model, tissue) != name) ++tissue;
+  return tissue;
+}
+
 /// The deepest that muscles get into others, mean around a node, by the height of their elements.
 double deepest_of_muscles(const sim::Model& model, const sim::Moment& now) {
   double deepest = 0;
@@ -83,7 +92,7 @@ struct Clench {
 };
 class JawWithMuscles : public testing::TestWithParam<Clench> {};
 INSTANTIATE_TEST_SUITE_P(Clench, JawWithMuscles,
-                         testing::Values(Clench{"MasseterAndTemporalis", {}, 4},
+                         testing::Values(Clench{"MasseterAndTemporalis", {}, 6},
                                          Clench{"MedialPterygoid",
                                                 {"choice.masseter=lines", "choice.temporalis=lines",
                                                  "choice.medial_pterygoid=tissue"},
@@ -109,7 +118,7 @@ TEST_P(JawWithMuscles, MusclesClenchAsTissueDoesAndAreMirrorImages) {
   while (state.t < 0.0359) stepper.step(state, state.t + 3e-3);
   ASSERT_EQ(model.tissues.size(), GetParam().num_tissues);
   for (std::size_t t = 0; t < model.tissues.size(); ++t) {
-    SCOPED_TRACE(model.bodies[static_cast<std::size_t>(model.tissues[t].body)].name);
+    SCOPED_TRACE(name_of(model, t));
     const sim::Tissue& tissue = model.tissues[t];
     const Positions& x = stepper.now().tissues[t].x;
     EXPECT_NEAR(volume(tissue.elements.tets(), x) / volume(tissue.elements.tets(), tissue.X), 1,
@@ -123,11 +132,19 @@ TEST_P(JawWithMuscles, MusclesClenchAsTissueDoesAndAreMirrorImages) {
   const double deepest = deepest_of_muscles(model, stepper.now());
   EXPECT_GT(deepest, 0);  // they press
   EXPECT_LT(deepest, 0.01);
-  for (std::size_t left = 0; left < model.tissues.size(); left += 2) {
-    const Positions a = stepper.now().tissues[left].x, b = stepper.now().tissues[left + 1].x;
+  std::size_t pairs = 0;
+  for (std::size_t left = 0; left < model.tissues.size(); ++left) {
+    const std::string name = name_of(model, left);
+    if (!name.ends_with("_left")) continue;
+    ++pairs;
+    SCOPED_TRACE(name);
+    const Positions
+        a = stepper.now().tissues[left].x,
+        b = stepper.now().tissues[tissue_named(model, name.substr(0, name.size() - 4) + "right")].x;
     EXPECT_LT((a.row(0) + b.row(0)).cwiseAbs().maxCoeff(), 0.02e-3);  // [m]
     EXPECT_LT((a.bottomRows(2) - b.bottomRows(2)).cwiseAbs().maxCoeff(), 0.02e-3);
   }
+  EXPECT_EQ(2 * pairs, model.tissues.size());
 }
 
 }  // namespace articular::muscles_test

@@ -48,8 +48,8 @@ void add_mandible(CLI::App& anatomy, int& exit_code) {
       ->capture_default_str();
   CLI::Option* muscles = mandible->add_flag(
       "--muscles", options->muscles,
-      "Adds masseter, temporalis, medial and inferior lateral pterygoid of both sides as tissue "
-      "with fibres, and the bone they touch");
+      "Adds both parts of the masseter, temporalis, medial and inferior lateral pterygoid of both "
+      "sides as tissue with fibres, and the bone they touch");
   mandible
       ->add_option("--muscle-size", options->muscle_size_mm,
                    "Element size of the muscles in mm (3 to 6)")

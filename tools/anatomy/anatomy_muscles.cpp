@@ -8,14 +8,26 @@
 namespace articular::anatomy {
 
 std::vector<FibreBody> muscle_shapes() {
-  return {{"masseter",
-           {{{49.5, -15.5, 71.5}, {60, 0, 75.8}, {65.3, 20, 82.5}, 4},
-            {{49.5, -8, 57}, {59.3, 6.5, 60}, {63, 22, 64}, 6.4},
-            {{48.5, -1.5, 45}, {55.5, 11.5, 46.5}, {58.5, 24, 48}, 6.6},
-            {{47.5, 5, 33}, {54, 16.5, 34}, {57, 26, 35}, 5.6},
-            {{47, 9, 23}, {52.5, 19.5, 22.5}, {55, 26.5, 24}, 3}},
+  // The superficial masseter: from the front two thirds of the lower border of the zygomatic arch
+  // to the outside of the angle of the jaw. It lies on the deep one.
+  return {{"superficial_masseter",
+           {{{49.5, -15.5, 71.5}, {55.6, -6, 74}, {60.3, 2.5, 76.5}, 3.6},
+            {{51.5, -9.5, 58.5}, {61.4, 2, 60.5}, {68, 12.5, 63.5}, 5.6},
+            {{50.5, -2.5, 47}, {60.2, 9.5, 48.5}, {65.3, 20.5, 50}, 5.6},
+            {{46.5, 4, 35.5}, {54.3, 15.5, 36}, {58, 26, 37}, 5.3},
+            {{46, 9, 22.5}, {51.8, 19.5, 22.5}, {54.5, 26.5, 24}, 3.2}},
            {"skull"},
-           {"mandible", 0.35}},
+           {"mandible", 0.27}},
+          // The deep masseter: from the back third of the arch to the outside of the ramus below
+          // its notch, steeper and more inwards.
+          {"deep_masseter",
+           {{{64, 7, 78}, {65.3, 13, 80}, {66.2, 19, 82.2}, 1.7},
+            {{56.8, 8, 69.5}, {58.3, 16.2, 70.5}, {59.5, 25, 71.5}, 5.0},
+            {{52.2, 7.5, 60}, {54, 16, 61}, {55.7, 25.5, 62}, 5.2},
+            {{49.6, 8, 53.5}, {52, 17.5, 54}, {54, 26, 55}, 3.5},
+            {{48, 9.5, 48}, {50.2, 18.5, 48.5}, {52, 26.5, 49.5}, 1.6}},
+           {"skull"},
+           {"mandible", 0.4}},
           {"temporalis",
            {{{56.3, 4, 142}, {66.8, 29, 142}, {67.3, 51, 124}, 2.8},
             {{54.6, -2, 126}, {63.6, 20.5, 125}, {63.6, 37, 111}, 3.6},
@@ -69,7 +81,7 @@ Mesh temporal_sheet(double h) {
   return part_of(skull_without_styloid(h), [](const Vec3& p, const Vec3& normal) {
     const Vec3 d = p - kCondyle;  // the joint has its own surface
     const bool joint =
-        std::abs(d.x()) < 14 && d.y() < 11 && d.y() > -26 && d.z() < 14 && normal.z() < -0.3;
+        d.x() > -14 && d.x() < 13 && d.y() < 11 && d.y() > -26 && d.z() < 14 && normal.z() < -0.3;
     return p.x() > 36 && p.y() > -22 && p.y() < 58 && p.z() > 68 && !joint;
   });
 }

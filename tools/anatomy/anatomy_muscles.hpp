@@ -7,7 +7,7 @@
 /// Muscles of the jaw as bodies of tissue, between "skull" and "mandible". mm; left side.
 namespace articular::anatomy {
 
-/// Masseter (both parts as one), temporalis, medial pterygoid, and the inferior head of the lateral
+/// Both parts of the masseter, temporalis, medial pterygoid, and the inferior head of the lateral
 /// pterygoid. The volumes are about those of the fibres of the lines of mandible_muscles (PECK):
 /// physiological cross-section times the part of the length that is no tendon. The temporalis has
 /// less room, and 0.6 of that. That line of the lateral pterygoid has no tendon, but fibres of

@@ -58,6 +58,7 @@ TEST_F(ScenarioChoices, AnEntryIsThereWhereEachChoiceHasOneOfItsWords) {
   EXPECT_EQ(names(), (Names{"skull", "disc tissue"}));
   EXPECT_EQ(names({"choice.disc=rigid"}), (Names{"skull", "disc", "stand"}));
   EXPECT_EQ(names({"choice.disc=coarse"}), (Names{"skull", "disc tissue"}));
+  EXPECT_EQ(names({"choice.disc=off"}), Names{"skull"});  // which no `when` mentions
   EXPECT_EQ(names({"\"choice\".disc = rigid"}), (Names{"skull", "disc", "stand"}));
   EXPECT_EQ(names({"choice = { disc = \"rigid\", side = \"left\" }"}),
             (Names{"skull", "disc", "stand"}));

@@ -139,8 +139,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{"WordThatNobodyMentions",
                 choice("disc = @\"tisue\"", "{ disc = [\"tissue\", \"rigid\"] }"),
-                "`disc`: no `when` mentions this word; expected one of \"rigid\", \"tissue\", "
-                "found \"tisue\""},
+                "`disc`: no `when` mentions this word; expected one of \"off\", \"rigid\", "
+                "\"tissue\", found \"tisue\""},
         Mistake{"ChoiceThatNobodyMentions",
                 choice("disc = \"rigid\"\n@dics = \"rigid\"", "{ disc = \"rigid\" }"),
                 "no `when` mentions the choice `dics`; expected `disc`"},
