@@ -60,8 +60,7 @@ void add_surface_stiffness(const Model& model, const SurfaceLoadModel& load,
 }
 
 double surface_work(const SurfaceLoadModel& load, const Configuration& from,
-                    const Configuration& to) {
-  const double first = value_at(load.profile, from.t), last = value_at(load.profile, to.t);
+                    const Configuration& to, double first, double last) {
   double work = 0;
   for (std::size_t i = 0; i < load.faces.size(); ++i) {
     const FaceCorners x = corner_positions(load.faces[i], from),

@@ -33,9 +33,10 @@ double add_surface_force(const SurfaceLoadModel& load, const Configuration& now,
 void add_surface_stiffness(const Model& model, const SurfaceLoadModel& load,
                            const Configuration& now, double scale, fem::BlockMatrix& A);
 
-/// Work on a straight way, exact where the factor is linear in time [J]: Simpson's rule, as the
-/// power is cubic.
+/// Work [J] on a straight way on which the factor changes linearly: Simpson's rule, as the power is
+/// cubic.
+/// @param first, last  factors [-] at both ends
 double surface_work(const SurfaceLoadModel& load, const Configuration& from,
-                    const Configuration& to);
+                    const Configuration& to, double first, double last);
 
 }  // namespace articular::sim

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/assembly/load_work.hpp"
 #include "sim/assembly/rigid_body_modes.hpp"
 #include "sim/model/newton_weights.hpp"
 #include "sim/statics/load_prediction.hpp"
@@ -177,16 +178,25 @@ class LoadStep {
     if (is_exhausted()) return PseudoStep::GaveUp;
     look(y, motion);
     const double damping = equilibrium_.largest_acceleration() / motion;
+    const Configuration from = dynamics_.now().configuration;
     const Eigen::VectorXd before = dynamics_.now().forces;
     Eigen::VectorXd trial = y;
     if (!solve(trial, damping) || (contacts_.covered && !contacts_.covered()))
       return PseudoStep::Failed;
-    if (result.loose) result.settling_loss += work(y, before, trial, dynamics_.now().forces);
+    if (result.loose)
+      result.settling_loss += work(y, before, trial, dynamics_.now().forces) - surplus(from);
     y = trial;
     look(y, 0);
     result.loose = find_rigid_body_mode(model_, dynamics_);
     const bool reached = equilibrium_.is_balanced(2 * kBalanced) || (!result.loose && balance(y));
     return reached ? PseudoStep::Arrived : PseudoStep::Moved;
+  }
+
+  /// What the loads of the step's end do on the way since `from` more than their means over the
+  /// step, which the ledger counts [J].
+  double surplus(const Configuration& from) const {
+    const Configuration& now = dynamics_.now().configuration;
+    return load_work(model_, from, now, t_, t_) - load_work(model_, from, now, t_before_, t_);
   }
 
   /// Of the unbalanced forces f on the way from y to z, by the trapezoidal rule [J].

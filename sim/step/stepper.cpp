@@ -7,12 +7,11 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/assembly/load_work.hpp"
 #include "sim/base/error.hpp"
 #include "sim/base/stopwatch.hpp"
 #include "sim/contact/touch_left.hpp"
 #include "sim/lines/bolus_law.hpp"
-#include "sim/loads/gravity.hpp"
-#include "sim/loads/surface_load.hpp"
 #include "sim/model/carried_tissue.hpp"
 #include "sim/model/driven_supports.hpp"
 #include "sim/model/relative_motion.hpp"
@@ -230,9 +229,6 @@ void Stepper::remember_start(const State& state) {
   support_forces_before_.clear();
   for (const SupportModel& support : model_.supports)
     support_forces_before_.push_back(held_force_on_support(dynamics_->now(), support));
-  loads_before_.clear();
-  for (const ForceModel& force : model_.forces)
-    loads_before_.push_back(start_.position(force.point));
 }
 
 bool Stepper::is_exhausted() const {
@@ -421,25 +417,7 @@ void Stepper::account(State& after) {
       0.5 * (damping_before_ + damping_.power(dynamics_->now())) * (after.t - t_before_);
   ledger.contact_loss += 0.5 * (contact_power_before_ + dynamics_->now().contact.damping_power()) *
                          (after.t - t_before_);
-  for (std::size_t i = 0; i < model_.forces.size(); ++i) {
-    const ForceModel& force = model_.forces[i];
-    const double factor =
-        0.5 * (value_at(force.profile, t_before_) + value_at(force.profile, after.t));
-    ledger.load_work += factor * force.force.dot(now.position(force.point) - loads_before_[i]);
-  }
-  for (const MomentModel& load : model_.moments) {
-    const auto r = static_cast<std::size_t>(load.rigid);
-    const Eigen::AngleAxisd turn(now.poses[r].R * start_.poses[r].R.transpose());
-    const double factor =
-        0.5 * (value_at(load.profile, t_before_) + value_at(load.profile, after.t));
-    ledger.load_work += factor * turn.angle() * load.moment.dot(turn.axis());
-  }
-  for (const SurfaceLoadModel& load : model_.surface_loads)
-    ledger.load_work += surface_work(load, start_, now);
-  const Vec3 changing = mean_changing_gravity(model_, t_before_, after.t);
-  if (!changing.isZero(0))
-    ledger.load_work +=
-        weight_energy(model_, start_, changing) - weight_energy(model_, now, changing);
+  ledger.load_work += load_work(model_, start_, now, t_before_, after.t);
   for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b) {
     const RigidBody& rigid = model_.rigid_bodies[b];
     if (!rigid.motion) continue;

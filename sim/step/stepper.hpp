@@ -141,7 +141,6 @@ class Stepper {
   /// What the step started from, for the prediction and the ledger.
   Configuration start_;
   std::vector<LineState> lines_before_;
-  std::vector<Vec3> loads_before_;
   std::vector<Vec6> reactions_before_;       // of held rigid bodies that are driven, by rigid body
   std::vector<Vec3> support_forces_before_;  // without inertia, by support
   Eigen::VectorXd forces_before_;

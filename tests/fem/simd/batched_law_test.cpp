@@ -17,22 +17,24 @@ constexpr double kRounding = 1e-11;  // [-] by the size of the tangent
 
 class BatchedLaws : public testing::TestWithParam<LawExample> {
  protected:
-  Mat9 tangent(InstructionSet set, const Mat3& F, Tangent tangent) const {
+  Mat9 tangent(InstructionSet set, double pressure, const Mat3& F, Tangent tangent) const {
     constexpr double kActivation = 0.7;
-    return batched_tangent(set, GetParam().material, 1, 0.1 * GetParam().scale, F, kActivation,
-                           tangent);
+    return batched_tangent(set, GetParam().material, 1, pressure, F, kActivation, tangent);
   }
   /// Calls use(F, consistent, projected) from small to large strains, fibres slack and taut.
   template <class Use>
   void for_each_tangent(const Use& use) const {
-    Random random;
     for (const InstructionSet set : instruction_sets())
-      for (const double size : {0.01, 0.1, 0.3, 0.6})
-        for (int k = 0; k < 8; ++k) {
-          const Mat3 F = random.rotation() * (Mat3::Identity() + size * random.matrix3());
-          if (!bears(F)) continue;
-          use(F, tangent(set, F, Tangent::Consistent), tangent(set, F, Tangent::Projected));
-        }
+      for (const double pressure : {0.0, 0.1 * GetParam().scale}) {
+        Random random;
+        for (const double size : {0.01, 0.1, 0.3, 0.6})
+          for (int k = 0; k < 8; ++k) {
+            const Mat3 F = random.rotation() * (Mat3::Identity() + size * random.matrix3());
+            if (!bears(F)) continue;
+            use(F, tangent(set, pressure, F, Tangent::Consistent),
+                tangent(set, pressure, F, Tangent::Projected));
+          }
+      }
   }
 
  private:

@@ -204,6 +204,20 @@ TEST(Equilibrium, ABlockSettlesOnTheFloorAndItsWeightIsBalanced) {
   EXPECT_NE(run.stepper.indifferent()[0].words.find("`block`"), std::string::npos);
 }
 
+// A load that grows within the load step works by its mean, and pseudo-time takes no more than
+// that.
+TEST(Equilibrium, WhatGrowsAsItCarriesABlockToTheFloorWorksByItsMean) {
+  Scenario s = falling_block();
+  s.loads = {GravityLoad{{0, 0, -9.81}, {}, {{0, 1}, {0, 1}}}};
+  Simulation run(s);
+  run.advance(1);
+  const double work = 0.5 * 1000 * 1e-6 * 9.81 * 0.002;
+  EXPECT_NEAR(run.state.energy.load_work, work, 0.02 * work);
+  // What pseudo-time takes of the last way, on which the block touches, is not counted: 4e-7 J.
+  EXPECT_NEAR(run.state.energy.settling_loss, work, 0.05 * work);
+  EXPECT_LT(std::abs(run.loss()), 0.05 * work);
+}
+
 TEST(Equilibrium, AMissingSupportIsNamed) {
   Scenario s = falling_block();
   s.bodies.pop_back();
