@@ -157,17 +157,12 @@ struct FibreLanes {
     if constexpr (kShear) across += add_projected_shear(s, C);
     const Vector n = (1 / s.stretch) * s.b;
     const Matrix by_stretch = outer((1 / s.stretch) * n, s.a);
-    const Matrix by_isochoric = by_stretch - ((1.0 / 3) * inverse_J) * s.ground.cof;
+    add_square(along, by_stretch, C);
+    add_square(isochoric_along, by_stretch - ((1.0 / 3) * inverse_J) * s.ground.cof, C);
+    add_square(across, s.a, C);
+    add_square(-across, outer(n, s.a), C);
     for (int l = 0; l < 3; ++l) {
-      for (int j = l; j < 3; ++j) {
-        Matrix B = C.block[j + 3 * l] + outer(by_stretch[j], along * by_stretch[l]) +
-                   outer(by_isochoric[j], isochoric_along * by_isochoric[l]);
-        const Lanes aside = across * s.a[j] * s.a[l];
-        B = B - outer(n, aside * n);
-        for (int k = 0; k < 3; ++k) B[k][k] += aside;
-        C.block[j + 3 * l] = B;
-        if (j != l) C.block[l + 3 * j] = transposed(B);
-      }
+      for (int j = l + 1; j < 3; ++j) C.block[l + 3 * j] = transposed(C.block[j + 3 * l]);
     }
   }
 

@@ -12,7 +12,7 @@ namespace articular::sim {
 
 double load_work(const Model& model, const Configuration& from, const Configuration& to,
                  double t_from, double t_to) {
-  const auto mean = [&](const auto& profile) {
+  const auto mean = [&](const Curve& profile) {
     return 0.5 * (value_at(profile, t_from) + value_at(profile, t_to));
   };
   double work = 0;

@@ -13,12 +13,18 @@
 // of its parts', and not the nearest.
 namespace articular::fem::batched_law_test {
 
+constexpr double kActivation = 0.7;
 constexpr double kRounding = 1e-11;  // [-] by the size of the tangent
+
+/// Takes away what changes the volume.
+Mat9 constant_volume(const Mat3& F) {
+  const Vec9 by_volume = Vec9(F.inverse().transpose().reshaped()).normalized();
+  return Mat9::Identity() - by_volume * by_volume.transpose();
+}
 
 class BatchedLaws : public testing::TestWithParam<LawExample> {
  protected:
   Mat9 tangent(InstructionSet set, double pressure, const Mat3& F, Tangent tangent) const {
-    constexpr double kActivation = 0.7;
     return batched_tangent(set, GetParam().material, 1, pressure, F, kActivation, tangent);
   }
   /// Calls use(F, consistent, projected) from small to large strains, fibres slack and taut.
@@ -59,13 +65,21 @@ TEST_P(BatchedLaws, ProjectedTangentIsTheNearestWithoutFibres) {
   });
 }
 
+// The nearest to the ground and what its fibres' pull adds by the volume, and the fibres' own part.
+TEST_P(BatchedLaws, ProjectedTangentOfALigamentIsTheSumOfItsParts) {
+  if (!GetParam().fibre_part) GTEST_SKIP() << "of ligaments";
+  for_each_tangent([](const Mat3& F, const Mat9& consistent, const Mat9& projected) {
+    const FibrePart part = GetParam().fibre_part(F, kActivation);
+    EXPECT_LT((projected - positive_part(consistent - part.hessian) - part.positive).norm(),
+              kRounding * consistent.norm());
+  });
+}
+
 // Nor softer, as long as the volume is kept: there, the parts of a fibre that are left out cancel.
 // Nor much stiffer than the nearest one.
 TEST_P(BatchedLaws, ProjectedTangentIsNowhereSofterAtConstantVolume) {
   for_each_tangent([](const Mat3& F, const Mat9& consistent, const Mat9& projected) {
-    const Vec9 by_volume = Vec9(F.inverse().transpose().reshaped()).normalized();
-    const Mat9 keeps_volume = Mat9::Identity() - by_volume * by_volume.transpose();
-    const Mat9 difference = keeps_volume * (projected - consistent) * keeps_volume;
+    const Mat9 difference = constant_volume(F) * (projected - consistent) * constant_volume(F);
     EXPECT_GT(eigenvalues(difference)[0], -kRounding * consistent.norm()) << F;
     const double beyond = (projected - positive_part(consistent)).norm() / consistent.norm();
     EXPECT_LT(beyond, 0.5) << F;

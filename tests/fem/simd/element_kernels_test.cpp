@@ -14,6 +14,7 @@
 #include "fem/mesh/tetrahedron.hpp"
 #include "tests/fem/support/basic_laws.hpp"
 #include "tests/fem/support/dense.hpp"
+#include "tests/fem/support/instruction_sets.hpp"
 #include "tests/fem/support/random_matrices.hpp"
 #include "tests/fem/support/spectrum.hpp"
 
@@ -25,13 +26,6 @@ constexpr double kNu = 0.4;
 // Relative. The condition of a rotation, 1/(σ1 + σ2), is below 100 where F is random (the loop
 // takes others out), and the stiffness has its square.
 constexpr double kRoundOff = 1e-11;
-
-std::vector<InstructionSet> instruction_sets() {
-  std::vector<InstructionSet> sets{InstructionSet::Baseline};
-  if (best_instruction_set() != InstructionSet::Baseline) sets.push_back(InstructionSet::Avx2);
-  if (best_instruction_set() == InstructionSet::Avx512) sets.push_back(InstructionSet::Avx512);
-  return sets;
-}
 
 /// One tetrahedron for each F, without common nodes.
 struct Soup {

@@ -34,6 +34,12 @@ struct Jet {
 /// Ψ, P and ∂P/∂F at F and an activation. Erased types: what tests them compiles once.
 using Evaluate = std::function<Jet(const Mat3& F, double activation)>;
 
+/// Of a law whose projected tangent is a sum of those of its parts: ∂P/∂F of the fibres' own part,
+/// and what is taken in its place.
+struct FibrePart {
+  Mat9 hessian, positive;
+};
+
 struct LawExample {
   std::string name;
   AnyMaterial material;
@@ -42,7 +48,8 @@ struct LawExample {
   double scale;  // of its stresses [Pa]
   Evaluate law, distortion;
   std::function<Jet(const Mat3&)> dilatation;
-  double bulk_modulus, shear_modulus;  // [Pa]
+  double bulk_modulus, shear_modulus;                                          // [Pa]
+  std::function<FibrePart(const Mat3& F, double activation)> fibre_part = {};  // empty: no parts
 };
 
 void PrintTo(const LawExample& example, std::ostream* out);  // found by the test framework
