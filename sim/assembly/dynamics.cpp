@@ -125,6 +125,7 @@ void Dynamics::find_elastic_force(std::size_t k, const double* y, const Conditio
   find_pressure(k, conditions.pressures);
   now.force.setZero();
   tissue.elements.add_internal_force(now.x, now.pressure, activation, now.force);
+  for (const SheetModel& sheet : tissue.sheets) sheet.fibres.add_force(now.x, now.force);
   if (tissue.dashpots || tissue.fibre_drag)
     velocities_of(configuration, tissue.nodes, now.velocity);
   if (tissue.dashpots) tissue.dashpots->add_force(now.x, now.velocity, now.force);
@@ -151,6 +152,7 @@ void Dynamics::find_elastic_forces(const double* y, const Conditions& conditions
     if (tissue.dashpots || tissue.fibre_drag || tissue.mass_damping > 0)
       ++evaluations_[Term::TissueDamping];
     if (tissue.relaxation) ++evaluations_[Term::Relaxation];
+    evaluations_[Term::Sheet] += static_cast<std::int64_t>(tissue.sheets.size());
     for (std::size_t i = 0; i < tissue.nodes.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       Vec3 force = -f.col(column);

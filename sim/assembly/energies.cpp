@@ -40,6 +40,9 @@ double elastic_energy(const Moment& now) {
   double energy = 0;
   for (std::size_t t = 0; t < now.tissues.size(); ++t)
     energy += model.tissues[t].elements.energy(now.tissues[t].x, activation(t));
+  for (std::size_t t = 0; t < now.tissues.size(); ++t)
+    for (const SheetModel& sheet : model.tissues[t].sheets)
+      energy += sheet.fibres.energy(now.tissues[t].x);
   if (model.is_static)
     for (std::size_t t = 0; t < now.tissues.size(); ++t)
       if (const auto& relaxation = model.tissues[t].relaxation)

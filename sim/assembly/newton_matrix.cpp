@@ -32,6 +32,11 @@ std::vector<int> slots_in(const fem::BlockMatrix& A, const fem::BlockMatrix& par
   return slots;
 }
 
+/// Sheets, dashpots, fibres with a drag: add_beside_elements() adds them.
+bool has_more_than_elements(const Tissue& tissue) {
+  return tissue.dashpots || tissue.fibre_drag || !tissue.sheets.empty();
+}
+
 fem::BlockMatrix matrix_of(const Model& model, Stencils stencils, const Stencils& more) {
   for (std::size_t s = 0; s + 1 < more.offsets.size(); ++s) {
     stencils.blocks.insert(stencils.blocks.end(), more.blocks.begin() + more.offsets[s],
@@ -54,7 +59,7 @@ NewtonMatrix::NewtonMatrix(const Model& model)
     if (const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed()) {
       smoothed_ = true;
       tissues_[t].plain.K = smoothed->make_plain_matrix();
-      if (tissue.dashpots || tissue.fibre_drag) tissues_[t].damping = tissues_[t].plain.K;
+      if (has_more_than_elements(tissue)) tissues_[t].beside = tissues_[t].plain.K;
       make_pressure_gradient(t);
     }
   }
@@ -63,11 +68,10 @@ NewtonMatrix::NewtonMatrix(const Model& model)
   build_pattern();
 }
 
-/// Dashpots, fibres with a drag and relaxation need a matrix of the tissue, and so do nodes whose
-/// rigid body is an unknown, which the tissue pushes by levers.
+/// Sheets, dashpots, fibres with a drag and relaxation need a matrix of the tissue, and so do nodes
+/// whose rigid body is an unknown, which the tissue pushes by levers.
 bool NewtonMatrix::adds_directly(const Tissue& tissue) const {
-  if (tissue.elements.smoothed() != nullptr || tissue.dashpots || tissue.fibre_drag ||
-      tissue.relaxation)
+  if (tissue.elements.smoothed() != nullptr || has_more_than_elements(tissue) || tissue.relaxation)
     return false;
   return std::none_of(tissue.nodes.begin(), tissue.nodes.end(), [this](const NodeRef& node) {
     return node.rigid >= 0 && node.rigid < model_.layout.num_rigid;
@@ -213,10 +217,13 @@ void NewtonMatrix::add_relaxation(std::size_t t, const Moment& now, const System
                                    scale.stiffness, tissues_[t].own.K);
 }
 
-void NewtonMatrix::add_damping(std::size_t t, const Moment& now, const SystemScale& scale,
-                               fem::BlockMatrix& K) {
+/// What has the pattern of plain elements and is none.
+void NewtonMatrix::add_beside_elements(std::size_t t, const Moment& now, const SystemScale& scale,
+                                       fem::BlockMatrix& K) {
   const Tissue& tissue = model_.tissues[t];
   const TissueMoment& moment = now.tissues[t];
+  for (const SheetModel& sheet : tissue.sheets)
+    sheet.fibres.add_stiffness(moment.x, scale.stiffness, K);
   if (tissue.dashpots) tissue.dashpots->add_damping(moment.x, scale.damping, K);
   if (tissue.fibre_drag)
     tissue.fibre_drag->add_damping(moment.x, moment.velocity,
@@ -236,7 +243,7 @@ void NewtonMatrix::find_stiffness(std::size_t t, const Moment& now, const System
   work.own.K.set_zero();
   tissue.elements.add_stiffness(now.tissues[t].x, {}, activation_of(tissue, now.configuration),
                                 tangent, scale.stiffness, work.own.K);
-  add_damping(t, now, scale, work.own.K);
+  add_beside_elements(t, now, scale, work.own.K);
   add_relaxation(t, now, scale, tangent);
 }
 
@@ -247,8 +254,8 @@ void NewtonMatrix::find_smoothed_stiffness(std::size_t t, const Moment& now,
   TissueWork& work = tissues_[t];
   const double activation = activation_of(tissue, now.configuration);
   const Positions& x = now.tissues[t].x;
-  work.damping.set_zero();
-  add_damping(t, now, scale, work.damping);
+  work.beside.set_zero();
+  add_beside_elements(t, now, scale, work.beside);
   work.own.K.set_zero();
   smoothed.add_stiffness(x, now.tissues[t].pressure, tangent, scale.stiffness, work.own.K,
                          activation);
@@ -290,8 +297,8 @@ void NewtonMatrix::add_tissue(std::size_t t, const Moment& now, const SystemScal
     return;
   }
   const bool smoothed = tissue.elements.smoothed() != nullptr;
-  if (smoothed && !tissue.dashpots && !tissue.fibre_drag) return;
-  const fem::BlockMatrix& K = smoothed ? work.damping : work.own.K;
+  if (smoothed && !has_more_than_elements(tissue)) return;
+  const fem::BlockMatrix& K = smoothed ? work.beside : work.own.K;
   const TissueMatrix& places = smoothed ? work.plain : work.own;
   add_free(K, places, A);
   add_carried(K, places, tissue, now.configuration, A);

@@ -66,7 +66,7 @@ class NewtonMatrix {
     std::optional<fem::StiffnessSlots> direct;  // tissues that need no matrix of their own
     TissueMatrix own;                           // the others
     TissueMatrix plain;                         // smoothed: couplings of the elements alone
-    fem::BlockMatrix damping;                   // smoothed: the same couplings
+    fem::BlockMatrix beside;                    // smoothed: the same couplings
     fem::PressureGradient node_G, G;            // smoothed: by nodes, and by blocks of unknowns
   };
   bool adds_directly(const Tissue& tissue) const;
@@ -80,7 +80,8 @@ class NewtonMatrix {
                       fem::Tangent tangent);
   void find_smoothed_stiffness(std::size_t t, const Moment& now, const SystemScale& scale,
                                fem::Tangent tangent);
-  void add_damping(std::size_t t, const Moment& now, const SystemScale& scale, fem::BlockMatrix& K);
+  void add_beside_elements(std::size_t t, const Moment& now, const SystemScale& scale,
+                           fem::BlockMatrix& K);
   void add_relaxation(std::size_t t, const Moment& now, const SystemScale& scale,
                       fem::Tangent tangent);
   void add_tissue(std::size_t t, const Moment& now, const SystemScale& scale, fem::Tangent tangent,

@@ -3,12 +3,17 @@
 namespace articular::sim {
 
 std::string_view name_of(Term term) {
-  constexpr std::array<std::string_view, kNumTerms> kNames{
-      "elastic_force", "elastic_stiffness", "fibre_muscle",  "tissue_damping",
-      "relaxation",    "line_muscle",       "ligament",      "gravity",
-      "load",          "inertia",           "contact_force", "contact_stiffness",
-      "friction",      "contact_damping",   "body_update",   "fixed_body_update",
-      "box_test",      "tree_fit",          "pair_query",    "self_query"};
+  constexpr std::array<std::string_view, kNumTerms> kNames{"elastic_force",     "elastic_stiffness",
+                                                           "fibre_muscle",      "tissue_damping",
+                                                           "relaxation",        "sheet",
+                                                           "line_muscle",       "ligament",
+                                                           "gravity",           "load",
+                                                           "inertia",           "contact_force",
+                                                           "contact_stiffness", "friction",
+                                                           "contact_damping",   "body_update",
+                                                           "fixed_body_update", "box_test",
+                                                           "tree_fit",          "pair_query",
+                                                           "self_query"};
   static_assert(!kNames.back().empty());
   return kNames[static_cast<std::size_t>(term)];
 }

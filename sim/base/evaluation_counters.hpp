@@ -14,6 +14,7 @@ enum class Term {
   FibreMuscle,  // of these, where a muscle activates the fibres
   TissueDamping,
   Relaxation,
+  Sheet,
   LineMuscle,
   Ligament,
   Gravity,  // once for all

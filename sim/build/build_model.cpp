@@ -12,6 +12,7 @@
 #include "sim/build/contact_model.hpp"
 #include "sim/build/linear_solver.hpp"
 #include "sim/build/make_probes.hpp"
+#include "sim/build/make_sheets.hpp"
 #include "sim/build/make_supports.hpp"
 #include "sim/build/make_surface_loads.hpp"
 #include "sim/build/make_tissue.hpp"
@@ -54,6 +55,7 @@ class Builder {
     read_bodies();
     make_rigid_bodies();
     make_tissues();
+    make_sheets(scenario_, geometry_, surface_, model_);
     attach_nodes();
     number_blocks();
     make_supports(scenario_, geometry_, surface_, model_);

@@ -217,6 +217,17 @@ struct Resolver {
     return ObservedStretch{body(fibres.tissue).tissue};
   }
 
+  Observed operator()(const SheetProbe& probed) const {
+    for (std::size_t t = 0; t < model.tissues.size(); ++t) {
+      const std::vector<SheetModel>& sheets = model.tissues[t].sheets;
+      const auto sheet = std::ranges::find(sheets, probed.sheet, &SheetModel::name);
+      if (sheet != sheets.end())
+        return ObservedSheet{static_cast<int>(t), static_cast<int>(sheet - sheets.begin())};
+    }
+    throw InputError(probe.where,
+                     fmt::format("[[probe]] `{}`: no sheet `{}`", probe.name, probed.sheet));
+  }
+
   Observed operator()(const StressProbe& stress) const {
     const int tissue = body(stress.tissue).tissue;
     return ObservedStress{tissue, elements_in(stress.region, stress.tissue,

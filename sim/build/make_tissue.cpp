@@ -15,63 +15,11 @@
 #include "fem/material/any_material.hpp"
 #include "fem/material/point_law.hpp"
 #include "fem/material/viscosity.hpp"
-#include "fem/mesh/fibre_field.hpp"
 #include "fem/mesh/rest_shape.hpp"
-#include "sim/build/region.hpp"
+#include "sim/build/make_fibres.hpp"
 
 namespace articular::sim {
 namespace {
-
-using collision::Surface;
-
-std::vector<int> nodes_in(const Region& region, int body, const Model& model,
-                          const std::vector<BodyGeometry>& geometry, const Surface& surface,
-                          const Positions& X) {
-  std::vector<bool> on_surface(static_cast<std::size_t>(X.cols()), false);
-  for (const int node : surface.faces.reshaped()) on_surface[static_cast<std::size_t>(node)] = true;
-  const RegionTest test(region, body, model, geometry);
-  std::vector<int> nodes;
-  for (int i = 0; i < X.cols(); ++i)
-    if (test.contains_node(i, X.col(i), on_surface[static_cast<std::size_t>(i)]))
-      nodes.push_back(i);
-  return nodes;
-}
-
-FibreDirections fibres_of_array(const std::string& name, const Body& body, const MeshData& mesh) {
-  const Mat3 turn = rotation_matrix(std::get<MeshFile>(body.geometry).placement.rotation);
-  for (const auto& [array, directions] : mesh.cell_vectors) {
-    if (array != name) continue;
-    return body.material->fibres->density == Fibres::Density::Conserved
-               ? FibreDirections(turn * directions)
-               : fem::normalized_fibres(turn * directions);
-  }
-  std::string names;
-  for (const auto& [array, directions] : mesh.cell_vectors)
-    names += (names.empty() ? "" : ", ") + array;
-  throw std::invalid_argument(
-      fmt::format("its mesh has no cell array `{}` with three components{}", name,
-                  names.empty() ? " (none at all: expected a .vtu or .vtk file with one)"
-                                : fmt::format("; it has {}", names)));
-}
-
-FibreDirections make_fibres(const Body& body, int index, const MeshData& mesh,
-                            const Surface& surface, const Model& model,
-                            const std::vector<BodyGeometry>& geometry) {
-  const Fibres& fibres = *body.material->fibres;
-  if (const auto* direction = std::get_if<Vec3>(&fibres.along))
-    return fem::constant_fibres(*direction, mesh.tets.cols());
-  if (const auto* array = std::get_if<FibreArray>(&fibres.along))
-    return fibres_of_array(array->name, body, mesh);
-  const auto& between = std::get<FibresBetween>(fibres.along);
-  const auto from = nodes_in(between.from, index, model, geometry, surface, mesh.X);
-  const auto to = nodes_in(between.to, index, model, geometry, surface, mesh.X);
-  if (from.empty() || to.empty())
-    throw std::invalid_argument(
-        fmt::format("the region {} holds no node", from.empty() ? "`from`" : "`to`"));
-  return fibres.density == Fibres::Density::Conserved
-             ? fem::conserved_fibres(mesh.X, mesh.tets, from, to)
-             : fem::harmonic_fibres(mesh.X, mesh.tets, from, to);
-}
 
 TissueElements make_elements(const TissueMaterial& material, const MeshData& mesh,
                              const FibreDirections& fibres, std::shared_ptr<ThreadPool> pool) {
@@ -102,18 +50,15 @@ std::string_view end_of(const fem::AnyMaterial& law) {
 }  // namespace
 
 Tissue make_tissue(const Scenario& scenario, const Model& model,
-                   const std::vector<BodyGeometry>& geometry, const Surface& surface, int index) {
+                   const std::vector<BodyGeometry>& geometry, const collision::Surface& surface,
+                   int index) {
   const auto b = static_cast<std::size_t>(index);
   const Body& body = scenario.bodies[b];
   const TissueMaterial& material = *body.material;
   const MeshData& mesh = geometry[b].mesh;
   FibreDirections fibres;
-  try {
-    if (material.fibres) fibres = make_fibres(body, index, mesh, surface, model, geometry);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(material.fibres->where, fmt::format("fibres of tissue `{}`{}: {}", body.name,
-                                                         mesh_name(body), error.what()));
-  }
+  if (material.fibres)
+    fibres = make_fibres(*material.fibres, body, index, model, geometry, surface);
   try {
     Tissue tissue{
         .body = index,
@@ -121,6 +66,7 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
         .dashpots = {},
         .fibre_drag = {},
         .relaxation = {},
+        .sheets = {},
         .lumped_mass = fem::lumped_mass(mesh.X, mesh.tets, *body.density),
         .mass_damping = material.mass_damping,
         .nodes = {},

@@ -1,5 +1,7 @@
 #include "sim/lines/ligament_law.hpp"
 
+#include "fem/material/crimped_fibre.hpp"
+
 namespace articular::sim {
 
 ValueSlope linear_ligament(double length, double slack_length, double stiffness) {
@@ -14,22 +16,14 @@ double linear_ligament_energy(double length, double slack_length, double stiffne
 
 ValueSlope blankevoort_ligament(double length, double slack_length, double stiffness,
                                 double toe_strain) {
-  const double e = length / slack_length - 1;
-  if (e <= 0) return {};
-  if (e <= 2 * toe_strain)
-    return {stiffness * e * e / (4 * toe_strain), stiffness * e / (2 * toe_strain) / slack_length};
-  return {stiffness * (e - toe_strain), stiffness / slack_length};
+  const ValueSlope tension =
+      fem::CrimpedFibre{stiffness, toe_strain}.tension(length / slack_length - 1);
+  return {tension.value, tension.slope / slack_length};
 }
 
 double blankevoort_ligament_energy(double length, double slack_length, double stiffness,
                                    double toe_strain) {
-  const double e = length / slack_length - 1;
-  if (e <= 0) return 0;
-  const double toe_end = 2 * toe_strain;
-  if (e <= toe_end) return stiffness * slack_length * e * e * e / (12 * toe_strain);
-  const double toe_energy = toe_end * toe_end * toe_end / (12 * toe_strain);
-  const double beyond = e - toe_end;
-  return stiffness * slack_length * (toe_energy + beyond * (toe_strain + 0.5 * beyond));
+  return slack_length * fem::CrimpedFibre{stiffness, toe_strain}.energy(length / slack_length - 1);
 }
 
 Damper ligament_damper(const ValueSlope& elastic, double rate, double damping) {

@@ -8,9 +8,8 @@ namespace articular::sim {
 ValueSlope linear_ligament(double length, double slack_length, double stiffness);
 double linear_ligament_energy(double length, double slack_length, double stiffness);
 
-/// Blankevoort's law with strain e = l/l0 − 1 and toe strain e_l: 0 for e < 0, k e²/(4 e_l) up to
-/// 2 e_l, k (e − e_l) beyond. k is force per unit strain [N]. [Blankevoort 1991, J Biomech Eng
-/// 113:263]
+/// Blankevoort's law (fem::CrimpedFibre) with strain e = l/l0 − 1, and a stiffness that is force per
+/// unit strain [N].
 ValueSlope blankevoort_ligament(double length, double slack_length, double stiffness,
                                 double toe_strain);
 double blankevoort_ligament_energy(double length, double slack_length, double stiffness,

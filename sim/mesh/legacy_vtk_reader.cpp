@@ -7,6 +7,7 @@
 #include "sim/base/file_bytes.hpp"
 #include "sim/mesh/cell_collector.hpp"
 #include "sim/mesh/mesh_readers.hpp"
+#include "sim/mesh/mesh_sets.hpp"
 #include "sim/mesh/number_type.hpp"
 #include "sim/mesh/white_space.hpp"
 
@@ -272,7 +273,9 @@ class LegacyVtkFile {
         continue;
       }
       at_ = before;
-      keep(name, components, numbers(components * tuples, number_type(), "a field"));
+      const NumberType type_of_field = number_type();
+      keep(name, components, type_of_field,
+           numbers(components * tuples, type_of_field, "a field"));
     }
   }
 
@@ -325,7 +328,7 @@ class LegacyVtkFile {
     const NumberType type = number_type();
     if (kind == "scalars") components = scalar_components();
     check_size(components);
-    keep(name, components, numbers(components * num_tuples_, type, "data"));
+    keep(name, components, type, numbers(components * num_tuples_, type, "data"));
   }
 
   /// The rest of the line of SCALARS may say how many; a line that names a table may follow.
@@ -351,9 +354,12 @@ class LegacyVtkFile {
       fail("claims more data than it has bytes");
   }
 
-  void keep(const std::string& name, std::uint64_t components, std::vector<double> values) {
-    if (data_ != Data::Cells || components != 3) return;  // only vectors of cells are asked for
-    vectors_.emplace_back(name, std::move(values));
+  /// Only vectors of cells are asked for, and whole numbers of points.
+  void keep(const std::string& name, std::uint64_t components, const NumberType& type,
+            std::vector<double> values) {
+    if (data_ == Data::Cells && components == 3) vectors_.emplace_back(name, std::move(values));
+    if (data_ == Data::Points && components == 1 && type.kind != Real)
+      point_numbers_.emplace_back(name, std::move(values));
   }
 
   MeshData mesh() {
@@ -370,6 +376,8 @@ class LegacyVtkFile {
     cells_.put_into(mesh);
     mesh.X = Eigen::Map<const Positions>(points_.data(), 3,
                                          static_cast<Eigen::Index>(points_.size() / 3));
+    for (const auto& [name, values] : point_numbers_)
+      if (values.size() == points_.size() / 3) add_set_of_points(name, values, mesh);
     if (is_grid_)
       for (const auto& [name, values] : vectors_)
         mesh.cell_vectors.emplace_back(name, of_tets(values));
@@ -398,6 +406,7 @@ class LegacyVtkFile {
   std::vector<std::int64_t> types_;                                   // of a grid's cells
   Data data_ = Data::None;                                            // whose attributes follow
   std::uint64_t num_tuples_ = 0;                                      // of these
+  std::vector<std::pair<std::string, std::vector<double>>> point_numbers_;
   std::vector<std::pair<std::string, std::vector<double>>> vectors_;  // of cells
 };
 

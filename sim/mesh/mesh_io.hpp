@@ -25,7 +25,7 @@ struct MeshData {
   Triangles triangles;  // surface triangles of the file, polygons split; 3 x 0 if none
   /// Cell arrays with three components by their names, one column a tetrahedron (.vtu, .vtk).
   std::vector<std::pair<std::string, Eigen::Matrix3Xd>> cell_vectors{};
-  std::vector<MeshSet> sets{};  // where the format has them
+  std::vector<MeshSet> sets{};  // where the format has them; of VTK files by add_set_of_points()
 };
 
 /// Reads a mesh by the file's ending: .vtu, .vtp, .vtk, .stl, .obj, .ply; with named sets Gmsh .msh
@@ -48,7 +48,7 @@ inline constexpr const char* kTissueEndings =
     ".vtu, .vtk, .msh, .inp, .feb, .bdf, .nas, .mesh, .ele, .node";
 
 /// Writes tetrahedra (and triangles, if there are both) with their cell arrays as .vtu, or
-/// triangles alone as .vtp: binary, compressed, whole or not at all (write beside, then rename).
+/// triangles alone as .vtp, and the nodes of sets as point arrays: binary, compressed, whole or not at all (write beside, then rename).
 /// @throws SystemError when it can't be written, InputError when the file's ending is another
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh, double unit);
 

@@ -46,10 +46,20 @@ const MeshSet* find_set(const MeshData& mesh, const std::string& name) {
   return found != mesh.sets.end() ? &*found : nullptr;
 }
 
+void add_set_of_points(const std::string& name, const std::vector<double>& values, MeshData& mesh) {
+  if (!std::ranges::all_of(values, [](double value) { return value == 0 || value == 1; })) return;
+  MeshSet set;
+  set.name = name;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] == 1) set.nodes.push_back(static_cast<int>(i));
+  if (!set.nodes.empty()) mesh.sets.push_back(std::move(set));
+}
+
 std::string known_sets(const MeshData& mesh) {
   if (mesh.sets.empty())
     return "; it has no sets at all (formats with sets: Gmsh .msh, Abaqus .inp, FEBio .feb, "
-           "Nastran .bdf, Medit .mesh, TetGen .ele)";
+           "Nastran .bdf, Medit .mesh, TetGen .ele; in VTK files point arrays of whole numbers, "
+           "0 and 1)";
   std::string names;
   for (std::size_t s = 0; s < std::min(mesh.sets.size(), kMostNames); ++s)
     names += (s == 0 ? "" : ", ") + in_ticks(mesh.sets[s].name);

@@ -222,4 +222,13 @@ void add_cell_vectors(vtkPointSet& set, const std::string& name, const Eigen::Ma
   set.GetCellData()->AddArray(array);
 }
 
+void add_node_set(vtkPointSet& set, const std::string& name, const std::vector<int>& nodes) {
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetName(name.c_str());
+  array->SetNumberOfTuples(set.GetNumberOfPoints());
+  array->Fill(0);
+  for (const int node : nodes) array->SetValue(node, 1);
+  set.GetPointData()->AddArray(array);
+}
+
 }  // namespace articular::sim

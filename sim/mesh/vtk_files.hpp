@@ -53,5 +53,7 @@ vtkSmartPointer<vtkPointSet> make_surface(const Positions& x, double unit,
                                           const Triangles& triangles);
 /// A cell array with three components: one column a tetrahedron; zero for the other cells.
 void add_cell_vectors(vtkPointSet& set, const std::string& name, const Eigen::Matrix3Xd& values);
+/// A point array with 1 at these nodes, and 0 elsewhere.
+void add_node_set(vtkPointSet& set, const std::string& name, const std::vector<int>& nodes);
 
 }  // namespace articular::sim

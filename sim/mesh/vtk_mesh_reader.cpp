@@ -2,6 +2,7 @@
 
 #include "sim/mesh/cell_collector.hpp"
 #include "sim/mesh/mesh_readers.hpp"
+#include "sim/mesh/mesh_sets.hpp"
 #include "sim/mesh/vtk_xml_file.hpp"
 
 namespace articular::sim {
@@ -32,7 +33,7 @@ std::vector<std::pair<std::string, Eigen::Matrix3Xd>> tetrahedra_vectors(
 }  // namespace
 
 MeshData read_vtk_xml_mesh(const std::filesystem::path& file) {
-  const VtkXmlContent content = read_vtk_xml(file, VtkXmlFields::CellVectors);
+  const VtkXmlContent content = read_vtk_xml(file, VtkXmlFields::OfMeshes);
   CellCollector cells(file.string());
   MeshData mesh;
   if (content.is_grid) {
@@ -45,6 +46,8 @@ MeshData read_vtk_xml_mesh(const std::filesystem::path& file) {
   cells.put_into(mesh);
   mesh.X = Eigen::Map<const Positions>(content.points.data(), 3,
                                        static_cast<Eigen::Index>(content.points.size() / 3));
+  for (const VtkXmlField& field : content.point_fields)
+    add_set_of_points(field.name, field.values, mesh);
   return mesh;
 }
 

@@ -296,14 +296,18 @@ class VtkXmlReader {
       content.types.push_back(static_cast<int>(std::clamp<std::int64_t>(type, -1, 1000)));
   }
 
+  bool is_wanted(const VtkXmlArray& array, bool of_cells) const {
+    if (fields_ == VtkXmlFields::All) return true;
+    return of_cells ? array.components == 3
+                    : array.components == 1 && array.type.kind != NumberType::Kind::Real;
+  }
+
   void add_fields(const Piece& piece, const char* section, std::uint64_t tuples,
                   VtkXmlBudget& budget, std::vector<VtkXmlField>& fields) const {
     const auto found = piece.sections.find(section);
     if (found == piece.sections.end()) return;
     for (const VtkXmlArray& array : found->second) {
-      const bool is_wanted = fields_ == VtkXmlFields::All ||
-                             (section == std::string_view("CellData") && array.components == 3);
-      if (!is_wanted || array.holds_texts || array.name.empty()) continue;
+      if (!is_wanted(array, section == std::string_view("CellData")) || array.holds_texts || array.name.empty()) continue;
       const Numbers values = decode(array, encoding_, budget);
       expect_size(values, tuples, array.components, "`" + one_line(array.name) + "`");
       VtkXmlField& field = named(array.name, "fields", fields);

@@ -40,8 +40,8 @@ struct VtkXmlContent {
   std::vector<std::pair<std::string, std::string>> texts;
 };
 
-/// Which fields are decoded.
-enum class VtkXmlFields { CellVectors, All };
+/// Which fields are decoded: vectors of cells and whole numbers of points, or all.
+enum class VtkXmlFields { OfMeshes, All };
 
 /// Reads .vtu (unstructured grid) and .vtp (polygonal data): text, base64 or appended data, with
 /// zlib, LZ4, LZMA or without. It is read here and not by VTK, which trusts what a file claims to

@@ -12,6 +12,7 @@
 #include "collision/mesh/surface.hpp"
 #include "fem/element/dashpots.hpp"
 #include "fem/element/fibre_drag.hpp"
+#include "fem/element/fibre_sheet.hpp"
 #include "fem/element/relaxation.hpp"
 #include "fem/solver/solver_choice.hpp"
 #include "parallel/thread_pool.hpp"
@@ -104,12 +105,18 @@ struct Collider {
   Eigen::VectorXd height;  // [m] the same around each node of the surface
 };
 
+struct SheetModel {
+  std::string name;
+  fem::FibreSheet fibres;
+};
+
 struct Tissue {
   int body = 0;
   TissueElements elements;
   std::optional<fem::Dashpots> dashpots;
   std::optional<fem::FibreDrag> fibre_drag;
   std::optional<fem::Relaxation> relaxation;
+  std::vector<SheetModel> sheets;
   int first_internal_variable = 0;  // of the relaxation, among Layout::internal variables()
   Eigen::VectorXd lumped_mass;      // [kg], one a node
   double mass_damping = 0;          // α [1/s]: a force −α m v on each node that is not tied
@@ -311,6 +318,11 @@ struct ObservedStretch {
   int tissue = 0;  // index into Model::tissues; it has fibres
 };
 
+struct ObservedSheet {
+  int tissue = 0;  // index into Model::tissues
+  int sheet = 0;   // index into its sheets
+};
+
 struct ObservedStress {
   int tissue = 0;             // index into Model::tissues
   std::vector<int> elements;  // of it
@@ -336,7 +348,7 @@ using Observed =
                  ObservedContacts, ObservedMuscle, ObservedFibres, ObservedLigament, ObservedBolus,
                  ObservedMomentArm, ObservedMuscleMoment, ObservedWrap, ObservedEnergy,
                  ObservedReaction, ObservedSupport, ObservedAttachment, ObservedStretch,
-                 ObservedStress, ObservedExtent, ObservedShare, ObservedJoint>;
+                 ObservedSheet, ObservedStress, ObservedExtent, ObservedShare, ObservedJoint>;
 
 struct ProbeModel {
   std::string name;

@@ -365,6 +365,27 @@ void list(const Stretch& stretch, Columns& columns) {
   columns.number("largest_stretch", "-", stretch.largest);
 }
 
+struct SheetReading {
+  double mean = 0, largest = 0;  // stretch; the mean over the area at rest
+  double tension = 0;            // the largest [N/m]
+};
+
+SheetReading measure(const ObservedSheet& observed, const Now& now) {
+  const auto t = static_cast<std::size_t>(observed.tissue);
+  const fem::FibreSheet& sheet =
+      now.model.tissues[t].sheets[static_cast<std::size_t>(observed.sheet)].fibres;
+  const Positions& x = now.moment().tissues[t].x;
+  const Eigen::VectorXd stretch = sheet.stretch(x);
+  return {stretch.dot(sheet.area()) / sheet.area().sum(), stretch.maxCoeff(),
+          sheet.tension(x).maxCoeff()};
+}
+
+void list(const SheetReading& sheet, Columns& columns) {
+  columns.number("stretch", "-", sheet.mean);
+  columns.number("largest_stretch", "-", sheet.largest);
+  columns.number("largest_tension", "N/m", sheet.tension);
+}
+
 FibreReading measure(const ObservedFibres& fibres, const Now& now) {
   return {now.configuration().activation[fibres.muscle],
           measure(ObservedStretch{fibres.tissue}, now).mean};

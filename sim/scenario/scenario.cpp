@@ -113,6 +113,8 @@ const KeyTable& scenario_keys() {
         "tissue nodes that a bone carries");
     add("support", {conditional_entries_of({form::Table{support_keys}})},
         "tissue nodes on rollers, or drawn along");
+    add("sheet", {conditional_entries_of({form::Table{sheet_keys}})},
+        "thin sheets of fibres on the surface of a tissue: aponeuroses, fasciae, capsules");
     add("muscle", {conditional_entries_of({form::Table{muscle_keys}})}, "muscles");
     add("muscle_table", {conditional_entries_of({form::Table{muscle_table_keys}})},
         "muscles of a table");
@@ -167,6 +169,7 @@ Scenario read_scenario(const std::filesystem::path& file,
   Mistakes on_bodies;  // what names them
   on_bodies.in([&] { scenario.attachments = read_attachments(document, context); });
   on_bodies.in([&] { scenario.supports = read_supports(document, context); });
+  on_bodies.in([&] { scenario.sheets = read_sheets(document, context); });
   on_bodies.in([&] {
     scenario.muscles = read_muscles(document, context);
     replace_excitations(document.find("excitations"), context, scenario.muscles);

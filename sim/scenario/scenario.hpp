@@ -301,6 +301,18 @@ struct MomentLoad {
   Location where;
 };
 
+/// A thin sheet of fibres on the faces of a tissue's surface whose middles lie in a region: an
+/// aponeurosis, a fascia, a capsule. See fem::FibreSheet.
+struct Sheet {
+  std::string name;
+  TissueRegion at;
+  double thickness = 0;          // [m]
+  double young_modulus = 0;      // [Pa], of straight fibres
+  double toe_strain = 0.03;      // see fem::CrimpedFibre
+  std::optional<Fibres> fibres;  // none: those of the tissue
+  Location where;
+};
+
 /// Force on the faces of a tissue's surface whose middles lie in a region.
 struct SurfaceLoad {
   TissueRegion at;
@@ -429,6 +441,11 @@ struct FibresProbe {
   std::string tissue;
 };
 
+/// How far the fibres of a sheet are drawn out, and how they pull.
+struct SheetProbe {
+  std::string sheet;
+};
+
 /// How far a tissue reaches along an axis that goes with a fixed or rigid body.
 struct ExtentProbe {
   std::string tissue;
@@ -465,8 +482,8 @@ struct Probe {
   std::string name;
   std::variant<PointProbe, WayProbe, AngleProbe, HelicalAxisProbe, ContactProbe, ContactsProbe,
                LineProbe, MomentArmProbe, MuscleMomentProbe, WrapProbe, EnergyProbe, ReactionProbe,
-               SupportProbe, AttachmentProbe, FibresProbe, StressProbe, ExtentProbe, ShareProbe,
-               JointProbe>
+               SupportProbe, AttachmentProbe, FibresProbe, SheetProbe, StressProbe, ExtentProbe,
+               ShareProbe, JointProbe>
       what;
   Location where = {};
 };
@@ -515,6 +532,7 @@ struct Scenario {
   std::vector<Body> bodies;
   std::vector<Attachment> attachments;
   std::vector<Support> supports;
+  std::vector<Sheet> sheets;
   std::vector<Muscle> muscles;
   std::vector<Ligament> ligaments;
   std::vector<Bolus> boluses;

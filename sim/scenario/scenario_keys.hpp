@@ -13,6 +13,7 @@ const KeyTable& output_keys();
 const KeyTable& body_keys();
 const KeyTable& attach_keys();
 const KeyTable& support_keys();
+const KeyTable& sheet_keys();
 const KeyTable& muscle_keys();
 const KeyTable& muscle_table_keys();
 const KeyTable& excitations_keys();
@@ -27,6 +28,8 @@ const KeyTable& mesh_keys();
 const KeyTable& contact_mesh_keys();
 const KeyTable& geometry_keys();
 const form::Variants& material_variants();
+const KeyTable& material_fibres_keys();
+const KeyTable& sheet_fibres_keys();  // they are as dense as the sheet is thick
 const KeyTable& region_keys();
 const KeyTable& place_keys();
 const KeyTable& curve_keys();

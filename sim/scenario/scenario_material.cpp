@@ -80,23 +80,14 @@ const KeyTable& ogden_term_keys() {
   return kTable;
 }
 
-const KeyTable& fibres_keys() {
-  static const KeyTable kTable{
-      "fibres",
-      {{"direction", {form::Direction{}}, kNone, "the same everywhere; or one of the next"},
-       {"array", {form::Text{"name of a cell array"}}, kNone, "as the mesh has them"},
-       {"from",
-        {form::Table{region_keys}},
-        kNone,
-        "along the gradient of a harmonic field, from this region"},
-       {"to", {form::Table{region_keys}}, kNone, "to this one"},
-       {"density",
-        {form::Choice{
-            {{"even", Fibres::Density::Even}, {"conserved", Fibres::Density::Conserved}}}},
-        standard("even"),
-        "the law's stress everywhere; or the same fibres from end to end: times the length of the "
-        "array's vectors, or the flux of the field, whose mean is 1"}}};
-  return kTable;
+std::vector<Key> fibre_direction_keys() {
+  return {{"direction", {form::Direction{}}, kNone, "the same everywhere; or one of the next"},
+          {"array", {form::Text{"name of a cell array"}}, kNone, "as the mesh has them"},
+          {"from",
+           {form::Table{region_keys}},
+           kNone,
+           "along the gradient of a harmonic field, from this region"},
+          {"to", {form::Table{region_keys}}, kNone, "to this one"}};
 }
 
 const KeyTable& relaxation_term_keys() {
@@ -134,7 +125,7 @@ Key volumetric_key(const char* word) {
           "κ/2 (J − 1)² or κ/2 (ln J)²"};
 }
 Key fibres_key() {
-  return {"fibres", {form::Table{fibres_keys}}, kRequired, "directions at the start"};
+  return {"fibres", {form::Table{material_fibres_keys}}, kRequired, "directions at the start"};
 }
 
 /// Those that a law has, beside what every tissue may have.
@@ -391,29 +382,6 @@ fem::AnyMaterial read_law(const TableReader& table, Law law) {
                                        : read_split_law<fem::VolumeChange>(table, law);
 }
 
-Fibres read_fibres(const Node& node) {
-  const TableReader table(node, fibres_keys(), "fibres");
-  static const std::vector<Body> no_bodies;  // their regions are those of this body alone
-  const Context context{{}, no_bodies, nullptr};
-  const auto region = [&](const Node& n) { return read_region(n, context); };
-  Fibres fibres;
-  fibres.where = node.where;
-  if (table.find("from") != nullptr || table.find("to") != nullptr) {
-    table.refuse({"direction", "array"}, "the fibres run between two regions");
-    fibres.along = FibresBetween{region(table.at("from")), region(table.at("to"))};
-    table.read("density", fibres.density);
-    return fibres;
-  }
-  table.exactly_one({"direction", "array"});
-  table.read("direction", fibres.along, read_direction);
-  table.read("array", fibres.along, [](const Node& n) { return FibreArray{read_text(n)}; });
-  if (std::holds_alternative<FibreArray>(fibres.along))
-    table.read("density", fibres.density);
-  else
-    table.refuse({"density"}, "fibres of one direction are alike everywhere");
-  return fibres;
-}
-
 std::vector<fem::PronyTerm> read_relaxation(const Node& node) {
   std::vector<fem::PronyTerm> terms;
   double sum = 0;
@@ -432,6 +400,50 @@ std::vector<fem::PronyTerm> read_relaxation(const Node& node) {
 
 }  // namespace
 
+const KeyTable& material_fibres_keys() {
+  static const KeyTable kTable = [] {
+    KeyTable table{"fibres", fibre_direction_keys()};
+    table.keys.push_back(
+        {"density",
+         {form::Choice{
+             {{"even", Fibres::Density::Even}, {"conserved", Fibres::Density::Conserved}}}},
+         standard("even"),
+         "the law's stress everywhere; or the same fibres from end to end: times the length of the "
+         "array's vectors, or the flux of the field, whose mean is 1"});
+    return table;
+  }();
+  return kTable;
+}
+
+const KeyTable& sheet_fibres_keys() {
+  static const KeyTable kTable{"fibres", fibre_direction_keys()};
+  return kTable;
+}
+
+Fibres read_fibres(const Node& node, const KeyTable& keys, const Context& context) {
+  const TableReader table(node, keys, "fibres");
+  const auto region = [&](const Node& n) { return read_region(n, context); };
+  Fibres fibres;
+  fibres.where = node.where;
+  const bool has_density = table.knows("density");
+  if (table.find("from") != nullptr || table.find("to") != nullptr) {
+    table.refuse({"direction", "array"}, "the fibres run between two regions");
+    fibres.along = FibresBetween{region(table.at("from")), region(table.at("to"))};
+    if (has_density) table.read("density", fibres.density);
+    return fibres;
+  }
+  table.exactly_one({"direction", "array"});
+  table.read("direction", fibres.along,
+             [&](const Node& n) { return context.point(read_direction(n)); });
+  table.read("array", fibres.along, [](const Node& n) { return FibreArray{read_text(n)}; });
+  if (!has_density) return fibres;
+  if (std::holds_alternative<FibreArray>(fibres.along))
+    table.read("density", fibres.density);
+  else
+    table.refuse({"density"}, "fibres of one direction are alike everywhere");
+  return fibres;
+}
+
 const form::Variants& material_variants() {
   static const form::Variants kVariants =
       variants_of_laws(std::make_index_sequence<std::size(kLaws)>());
@@ -441,6 +453,8 @@ const form::Variants& material_variants() {
 TissueMaterial read_material(const Node& node) {
   const TableReader table(node, material_variants(), "material");
   const Law law = read_law_name(table.at("law"));
+  static const std::vector<Body> no_bodies;  // regions of its fibres are those of this body alone
+  const Context of_this_body{{}, no_bodies, nullptr};
   TissueMaterial material;
   material.where = node.where;
   try {
@@ -449,7 +463,7 @@ TissueMaterial read_material(const Node& node) {
     throw InputError(node.where, fmt::format("material: {}", error.what()));
   }
   if (law == Law::TransverselyIsotropic || law == Law::Muscle)
-    material.fibres = read_fibres(table.at("fibres"));
+    material.fibres = read_fibres(table.at("fibres"), material_fibres_keys(), of_this_body);
   table.read("element", material.element);
   table.read("mass_damping", material.mass_damping);
   table.read("stiffness_damping", material.stiffness_damping);

@@ -17,6 +17,7 @@ struct Named {
   Names fibres;    // muscles made of a tissue's fibres
   Names wrapping;  // those that wrap around bodies
   Names muscles;   // with a line
+  Names sheets;
   const std::vector<Support>& supports;
 };
 
@@ -221,6 +222,15 @@ Target read_fibres_probe(const TableReader& table, const Context& context, const
   return FibresProbe{body.name};
 }
 
+Target read_sheet_probe(const TableReader& table, const Context& context, const Named& named) {
+  const Node& node = table.at("sheet");
+  const std::string sheet = context.name(read_text(node));
+  if (!is_in(sheet, named.sheets))
+    fail(node, fmt::format("no [[sheet]] has the name `{}`{}", one_line(sheet),
+                           suggestion(sheet, named.sheets)));
+  return SheetProbe{sheet};
+}
+
 Target read_contacts(const TableReader& table, const Context& context, const Named&) {
   ContactsProbe contacts{read_probe_names(table.at("of"), context)};
   read_sensor(table, contacts.sensor);
@@ -288,6 +298,8 @@ constexpr ProbeKind kProbeKinds[] = {
     {"reaction", read_reaction, true, "force and moment on what holds a body or tissue"},
     {"attachment", read_attachment, true, "force and moment of a tissue on a bone at tied nodes"},
     {"fibres", read_fibres_probe, true, "stretch of a tissue's fibres from their free length"},
+    {"sheet", read_sheet_probe, true,
+     "stretch of a sheet's fibres, and their pull by the sheet's width"},
     {"stress", read_stress, true, "stress in a tissue or a part of it"},
     {"extent", read_extent, false,
      "how far a tissue reaches along an axis that goes with a fixed or rigid body"},
@@ -321,6 +333,7 @@ std::vector<Key> own_keys(std::string_view kind) {
              kRequired,
              "of the body, at the start: the axis is shown where it is nearest to it"}};
   if (kind == "fibres") return {body};
+  if (kind == "sheet") return {{"sheet", {form::Text{"name of a sheet"}}, kRequired, "the sheet"}};
   if (kind == "angle")
     return {body, {"axis", {form::Direction{}}, standard({1, 0, 0}), "about which it turns"}};
   if (kind == "contact")
@@ -473,11 +486,12 @@ const form::Variants& probe_variants() {
 
 std::vector<Probe> read_probes(const TableReader& document, const Context& context,
                                const Scenario& read_so_far) {
-  Named named{{}, {}, {}, {}, read_so_far.supports};
+  Named named{{}, {}, {}, {}, {}, read_so_far.supports};
   for (const Muscle& muscle : read_so_far.muscles) {
     (muscle.tissue.empty() ? named.lines : named.fibres).push_back(muscle.name);
     if (muscle.tissue.empty()) named.muscles.push_back(muscle.name);
   }
+  for (const Sheet& sheet : read_so_far.sheets) named.sheets.push_back(sheet.name);
   for (const Ligament& ligament : read_so_far.ligaments) named.lines.push_back(ligament.name);
   for (const Bolus& bolus : read_so_far.boluses) named.lines.push_back(bolus.name);
   for (const Muscle& muscle : read_so_far.muscles)

@@ -76,6 +76,9 @@ std::pair<Vec3, Vec3> read_corners(const Node& node);
 
 Region read_region(const Node& node, const Context& context);
 
+/// Directions of fibres. @param keys  material_fibres_keys() or sheet_fibres_keys()
+Fibres read_fibres(const Node& node, const KeyTable& keys, const Context& context);
+
 /// `mesh` of a body, its `contact_meshes`, and its `geometry` with `place`.
 MeshFile read_mesh_file(const Node& node, const std::filesystem::path& folder);
 std::vector<MeshFile> read_contact_meshes(const Node& node, const std::filesystem::path& folder);
@@ -103,6 +106,7 @@ std::vector<double> read_times(const Node& node);
 std::vector<Body> read_bodies(const TableReader& document, const std::filesystem::path& folder);
 std::vector<Attachment> read_attachments(const TableReader& document, const Context& context);
 std::vector<Support> read_supports(const TableReader& document, const Context& context);
+std::vector<Sheet> read_sheets(const TableReader& document, const Context& context);
 std::vector<Muscle> read_muscles(const TableReader& document, const Context& context);
 std::vector<Ligament> read_ligaments(const TableReader& document, const Context& context,
                                      const std::vector<Muscle>& muscles);

@@ -10,8 +10,8 @@
 namespace articular::sim {
 
 /// The arrays of tables of a scenario: an override names one of their entries, it cannot add one.
-inline constexpr std::array<std::string_view, 10> kEntryLists{
-    "body",     "attach", "support", "muscle",  "muscle_table",
+inline constexpr std::array<std::string_view, 11> kEntryLists{
+    "body",     "attach", "support", "muscle",  "muscle_table", "sheet",
     "ligament", "bolus",  "load",    "contact", "probe"};
 
 /// One value that replaces another, or is added: "duration=0.1 s", "body.disc_left.density=1

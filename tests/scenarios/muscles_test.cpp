@@ -25,17 +25,17 @@ Vec3 vector(const ScenarioResults& results, const std::string& name, const std::
 
 struct OneMuscle {
   std::string name;
-  double least_pull;  // of that of the lines
+  double least_pull, most_pull;  // of that of the lines
 };
 class MuscleOfTissue : public testing::TestWithParam<OneMuscle> {};
 INSTANTIATE_TEST_SUITE_P(Jaw, MuscleOfTissue,
-                         testing::Values(OneMuscle{"masseter", 0.8},
-                                         OneMuscle{"medial_pterygoid", 0.75},
-                                         OneMuscle{"lateral_pterygoid", 0.9}),
+                         testing::Values(OneMuscle{"masseter", 0.95, 1.1},
+                                         OneMuscle{"medial_pterygoid", 0.75, 0.9},
+                                         OneMuscle{"lateral_pterygoid", 0.9, 1}),
                          [](const auto& muscle) { return muscle.param.name; });
 
-// It pulls both bones together with less than the lines, for its fibres bulge and are shorter in
-// the middle. More so where a longer tendon makes fibres short.
+// It pulls both bones together about as the lines do. It bulges and straightens, so its fibres are
+// shorter in the middle: the more so where it is bent, and where a longer tendon makes fibres short.
 TEST_P(MuscleOfTissue, PullsBothBonesTogetherAlongTheLines) {
   const auto run = [](const std::string& model) {
     return run_scenario(
@@ -48,7 +48,7 @@ TEST_P(MuscleOfTissue, PullsBothBonesTogetherAlongTheLines) {
              of_lines = vector(lines, "mandible.force", "N");
   EXPECT_LT((on_skull + on_mandible).norm(), 1e-4 * on_skull.norm());  // the balance of statics
   EXPECT_GT(on_mandible.norm(), GetParam().least_pull * of_lines.norm());
-  EXPECT_LT(on_mandible.norm(), of_lines.norm());
+  EXPECT_LT(on_mandible.norm(), GetParam().most_pull * of_lines.norm());
   EXPECT_GT(on_mandible.normalized().dot(of_lines.normalized()), std::cos(0.2));  // 11 degrees
 }
 

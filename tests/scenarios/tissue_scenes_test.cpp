@@ -42,6 +42,22 @@ TEST(TissueScenes, ABlockOfMusclePullsWithItsActiveStress) {
   EXPECT_GT(results.last("energy.muscle_work [J]"), 0);
 }
 
+// By the planar model, which the scenario's file has. Its fibres pull at aponeuroses: without these
+// most of them have nothing to pull at.
+TEST(TissueScenes, APennateMusclePullsAsThePlanarModelSays) {
+  const auto pull_of = [](const ScenarioResults& results, double time) {
+    return -results.at("insertion.force.x [N]", time);
+  };
+  const ScenarioResults results = run_scenario("verification/pennate_muscle.toml");
+  EXPECT_NEAR(pull_of(results, 0.2), 77.14, 0.02 * 77.14);
+  EXPECT_NEAR(pull_of(results, 1), 56.50, 0.025 * 56.50);
+  EXPECT_NEAR(results.last("fibres.stretch [-]"), 0.8102, 0.01);
+  EXPECT_LT(results.last("upper.largest_stretch [-]"), 1.002);
+  const ScenarioResults without =
+      run_scenario("verification/pennate_muscle.toml", {"choice.aponeuroses=off"});
+  EXPECT_LT(pull_of(without, 0.2), 0.4 * 77.14);
+}
+
 // The same muscle as a line: sigma_max over its cross-section, without elements.
 TEST(TissueScenes, AMuscleAsALinePullsAsMuchWithoutAnyUnknowns) {
   const ScenarioResults results =

@@ -49,9 +49,10 @@ Json explain_body(const sim::Model& model, const sim::BodyModel& body) {
     const auto free = std::count_if(tissue.nodes.begin(), tissue.nodes.end(),
                                     [](const sim::NodeRef& node) { return node.rigid < 0; });
     const bool smoothed = tissue.elements.smoothed() != nullptr;
-    json["modelled_as"] = fmt::format("tissue, {}{}{}", smoothed ? "smoothed" : "plain",
-                                      tissue.fibres.cols() > 0 ? ", fibres" : "",
-                                      tissue.relaxation ? ", relaxing" : "");
+    json["modelled_as"] =
+        fmt::format("tissue, {}{}{}{}", smoothed ? "smoothed" : "plain",
+                    tissue.fibres.cols() > 0 ? ", fibres" : "",
+                    tissue.sheets.empty() ? "" : ", sheets", tissue.relaxation ? ", relaxing" : "");
     json["tetrahedra"] = tissue.elements.num_elements();
     json["nodes"] = tissue.nodes.size();
     json["unknowns"] = 3 * free - sim::num_held_freedoms(model, tissue);
@@ -115,13 +116,16 @@ Json left_out(const sim::Model& model) {
   if (!any(model.tissues,
            [](const sim::Tissue& t) { return t.dashpots || t.mass_damping > 0 || t.relaxation; }))
     items.push_back("dampers and relaxation of tissue: the scene names none");
+  if (!any(model.tissues, [](const sim::Tissue& t) { return !t.sheets.empty(); }))
+    items.push_back("sheets on tissue: the scene has none");
   if (model.muscles.empty()) items.push_back("muscles: the scene has none");
   if (model.ligaments.empty()) items.push_back("ligaments: the scene has none");
   if (model.forces.empty() && model.moments.empty() && model.surface_loads.empty())
     items.push_back("forces: the scene has none");
   if (model.gravity.empty()) items.push_back("gravity: the scene has none");
-  if (any(model.tissues, [](const sim::Tissue& t) { return t.muscle >= 0; }))
-    items.push_back("force and velocity of fibres in tissue (muscle lines have it)");
+  if (!model.is_static &&
+      any(model.tissues, [](const sim::Tissue& t) { return t.muscle >= 0 && !t.fibre_drag; }))
+    items.push_back("force-velocity of fibres in a tissue whose law gives no `max_velocity`");
   items.push_back("fluid flow in cartilage (poroelasticity)");
   items.push_back("wrapping of muscles over tissue (over bone with `wrap`)");
   items.push_back("deformation of bone");

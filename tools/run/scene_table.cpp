@@ -151,6 +151,16 @@ std::string surface_loads(const sim::Model& model, const sim::Moment& start) {
   return text;
 }
 
+std::string sheets(const sim::Model& model) {
+  std::string text;
+  for (const sim::Tissue& tissue : model.tissues)
+    for (const sim::SheetModel& sheet : tissue.sheets)
+      text += fmt::format("  {:<20} sheet {:<17} {} faces, {:.4g} mm^2\n",
+                          model.bodies[static_cast<std::size_t>(tissue.body)].name, sheet.name,
+                          sheet.fibres.faces().cols(), 1e6 * sheet.fibres.area().sum());
+  return text.empty() ? text : "\n" + text;
+}
+
 }  // namespace
 
 std::string scene_table(const sim::Scenario& scenario, const sim::Model& model,
@@ -158,6 +168,7 @@ std::string scene_table(const sim::Scenario& scenario, const sim::Model& model,
   std::string text = bodies(model);
   if (!scenario.attachments.empty()) text += "\n" + attachments(scenario, model);
   if (!model.supports.empty()) text += "\n" + supports(scenario, model);
+  text += sheets(model);
   if (!model.surface_loads.empty()) text += "\n" + surface_loads(model, start.now());
   return text + line_table(model, start.now());
 }

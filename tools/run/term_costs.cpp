@@ -149,7 +149,21 @@ class Measurement {
                                 seconds_of([&] { tissue.dashpots->add_force(tissue.X, v, f); }),
                                 seconds_of([&] { tissue.dashpots->add_damping(tissue.X, 1, K); })});
       if (tissue.relaxation) measure_relaxation(tissue, name, f);
+      if (!tissue.sheets.empty()) measure_sheets(tissue, name, f);
     }
+  }
+
+  void measure_sheets(const sim::Tissue& tissue, const std::string& name, Positions& f) {
+    const auto each = [&](const auto& use) {
+      return seconds_of([&] {
+        for (const sim::SheetModel& sheet : tissue.sheets) use(sheet.fibres);
+      });
+    };
+    fem::BlockMatrix K = tissue.elements.make_plain_matrix();
+    costs_.terms.push_back(
+        {fmt::format("{} sheets on `{}`", tissue.sheets.size(), name), 0,
+         each([&](const fem::FibreSheet& sheet) { sheet.add_force(tissue.X, f); }),
+         each([&](const fem::FibreSheet& sheet) { sheet.add_stiffness(tissue.X, 1, K); })});
   }
 
   void measure_relaxation(const sim::Tissue& tissue, const std::string& name, Positions& f) {

@@ -76,10 +76,36 @@ std::vector<Finding> ligaments(const Laboratory& laboratory) {
                    kNineDigits)};
 }
 
+/// scenarios/verification/pennate_muscle.toml, whose file has the planar model. Ends of the block
+/// are free, so fibres there give way.
+std::vector<Finding> pennate_muscle(const Laboratory& laboratory) {
+  constexpr double kEnds = 0.025;
+  constexpr double area = 600, thickness = 10, along = 27.47;  // [mm²], [mm]
+  constexpr double stress = 0.4, ground = 0.02;                // [MPa]
+  const double fibre = std::hypot(along, thickness);           // [mm]
+  const Curves curves = run_scene(laboratory, shipped_scene("pennate_muscle", {}));
+  const auto pull = [&](double time, double shortening) {
+    const double now = std::hypot(along - shortening, thickness), stretch = now / fibre;
+    const double active = stress * (1 - 4 * (1 - stretch) * (1 - stretch)) * thickness / fibre *
+                          (along - shortening) / now;
+    return relative(fmt::format("pull, shortened by {:.3g} mm", shortening), "N",
+                    -area * (active - ground * shortening / thickness),
+                    curves.at("insertion.force.x [N]", time), kEnds);
+  };
+  const auto stretch = [&](double time, double shortening) {
+    return relative(fmt::format("stretch of fibres, shortened by {:.3g} mm", shortening), "-",
+                    std::hypot(along - shortening, thickness) / fibre,
+                    curves.at("fibres.stretch [-]", time), kEnds);
+  };
+  return {pull(0.2, 0), pull(0.6, 3), pull(1, 6), stretch(0.6, 3), stretch(1, 6)};
+}
+
 }  // namespace
 
 std::vector<Problem> line_problems() {
-  return {{"line/muscle", true, isometric_muscle}, {"line/ligament", true, ligaments}};
+  return {{"line/muscle", true, isometric_muscle},
+          {"line/ligament", true, ligaments},
+          {"line/pennate-muscle", true, pennate_muscle}};
 }
 
 }  // namespace articular::tools

@@ -207,6 +207,65 @@ TEST(Dynamics, TheNewtonMatrixIsTheDerivativeOfTheForces) {
   EXPECT_LT(matrix_error(scene, y, 1e-6), 1e-5);
 }
 
+/// A stretched block with sheets on two of its sides, in part on nodes that go with a bone.
+Scenario with_sheets(TissueMaterial::Element element) {
+  Scenario scenario = everything_apart();
+  scenario.muscles.clear();
+  scenario.ligaments.clear();
+  scenario.bodies[1].material->element = element;
+  const auto sheet = [](const char* name, const Vec3& low, const Vec3& high, const Vec3& along) {
+    Sheet made;
+    made.name = name;
+    made.at.tissue = "hung";
+    made.at.region.box = {low, high};
+    made.thickness = 1e-3;
+    made.young_modulus = 1e5;
+    made.toe_strain = 0.02;
+    made.fibres = Fibres{along};
+    return made;
+  };
+  const double side = 0.5 * kSide;
+  scenario.sheets = {sheet("side", {side - 1e-6, -1, -1}, {1, 1, 1}, Vec3(0, 1, 2).normalized()),
+                     sheet("below", {-1, -1, -1}, {1, 1, side + 1e-6}, Vec3::UnitX())};
+  return scenario;
+}
+
+// Sheets pull on nodes of plain and of smoothed elements, on free ones and on those of a bone. What
+// they add to the matrix is the derivative of what they add to the forces. As above, it lacks
+// [τ]×/2 of their moment τ on the bone.
+TEST(Dynamics, WithSheetsTheNewtonMatrixIsTheDerivativeOfTheForces) {
+  for (const auto element : {TissueMaterial::Element::Plain, TissueMaterial::Element::Smoothed}) {
+    Scenario bare = with_sheets(element);
+    bare.sheets.clear();
+    Forces with(with_sheets(element), 0), without(bare, 0);
+    Random random(5);
+    const Eigen::VectorXd y = random_state(with.model, 0.02, 0, random);
+    const int count = 3 * with.model.layout.num_unknown_blocks();
+    const auto pull = [&](const Eigen::VectorXd& there) -> Eigen::VectorXd {
+      return with.at(there).head(count) - without.at(there).head(count);
+    };
+    const int bone = 3 * with.model.rigid_bodies[0].block;
+    const Eigen::VectorXd force = pull(y);
+    ASSERT_GT(force.head(bone).norm(), 0.01);
+    ASSERT_GT(force.segment<3>(bone).norm(), 0.01);
+    const auto matrix_product = [&](Forces& scene, const Eigen::VectorXd& w) {
+      scene.at(y);
+      return dense_product(scene.dynamics.assemble({0, 0, 1}, fem::Tangent::Consistent).A, w);
+    };
+    for (int n = 0; n < 6; ++n) {
+      Eigen::VectorXd w = kSide * random.vector(count);
+      w.segment<3>(bone + 3) /= kSide;
+      Eigen::VectorXd K = matrix_product(with, w) - matrix_product(without, w);
+      K.segment<3>(bone + 3) += 0.5 * force.segment<3>(bone + 3).cross(w.segment<3>(bone + 3));
+      constexpr double kStep = 1e-6;
+      const Eigen::VectorXd numeric =
+          -(pull(moved(with.model, y, kStep * w)) - pull(moved(with.model, y, -kStep * w))) /
+          (2 * kStep);
+      EXPECT_LT((K - numeric).norm(), 1e-6 * numeric.norm());
+    }
+  }
+}
+
 // M + γ D + γ² K: D is half the difference of the matrices for γ and −γ, over γ.
 TEST(Dynamics, TheNewtonMatrixsDampingIsTheDerivativeByTheVelocities) {
   Forces scene(everything_apart(), 0);

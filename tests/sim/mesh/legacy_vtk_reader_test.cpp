@@ -58,6 +58,9 @@ TEST_P(Written, AGridIsReadWithItsVectors) {
     EXPECT_EQ(Vec3(values.col(0)), Vec3(0.5, -0.5, -1.5));
     EXPECT_EQ(Vec3(values.col(1)), Vec3(1.5, 0.5, -0.5));
   }
+  ASSERT_EQ(mesh.sets.size(), 1U);
+  EXPECT_EQ(mesh.sets[0].name, "rim");
+  EXPECT_EQ(mesh.sets[0].nodes, (std::vector<int>{3, 4}));
 }
 
 TEST_P(Written, ASurfaceIsReadWithItsPolygonsAndStrips) {

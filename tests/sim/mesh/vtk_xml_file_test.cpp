@@ -124,6 +124,9 @@ TEST_P(WrittenXml, AMeshHasItsTetrahedraTrianglesAndVectors) {
     ASSERT_EQ(values.cols(), 2);
     EXPECT_EQ(Vec3(values.col(1)), Vec3(1.5, 0.5, -0.5));  // of the fourth cell
   }
+  ASSERT_EQ(mesh.sets.size(), 1U);
+  EXPECT_EQ(mesh.sets[0].name, "rim");
+  EXPECT_EQ(mesh.sets[0].nodes, (std::vector<int>{3, 4}));
   EXPECT_EQ(read_mesh(surface(), 1).triangles.cols(), 4);
 }
 
@@ -266,7 +269,7 @@ TEST(VtkXml, CellsHaveTextsSuchAsTheNamesOfMuscles) {
   ASSERT_EQ(content.cell_texts.size(), 1U);
   EXPECT_EQ(content.cell_texts[0].name, "name");
   EXPECT_EQ(content.cell_texts[0].texts, (std::vector<std::string>{"m1"}));
-  EXPECT_TRUE(read_vtk_xml(with_texts("109 0"), VtkXmlFields::CellVectors).cell_texts.empty());
+  EXPECT_TRUE(read_vtk_xml(with_texts("109 0"), VtkXmlFields::OfMeshes).cell_texts.empty());
   EXPECT_THROW(read_vtk_xml(with_texts("109 0 110 0"), VtkXmlFields::All), InputError);
   EXPECT_THROW(read_vtk_xml(with_texts("300 0"), VtkXmlFields::All), InputError);
 }

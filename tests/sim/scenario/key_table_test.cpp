@@ -119,6 +119,29 @@ activation_time = "10 ms"
 deactivation_time = "40 ms"
 optimal_length = { m1 = "8 mm" }
 excitation = { masseter = { time = ["0 s"], value = [1] } }
+[[sheet]]
+name = "aponeurosis"
+body = "tissue"
+region = {}
+thickness = "0.5 mm"
+young_modulus = "100 MPa"
+toe_strain = 0.02
+fibres = { direction = [0, 0, 1] }
+mirror = "x"
+[[sheet]]
+name = "from cells"
+body = "tissue"
+region = {}
+thickness = "0.5 mm"
+young_modulus = "100 MPa"
+fibres = { array = "fibres" }
+[[sheet]]
+name = "between"
+body = "tissue"
+region = {}
+thickness = "0.5 mm"
+young_modulus = "100 MPa"
+fibres = { from = {}, to = {} }
 [[ligament]]
 name = "linear"
 path = [{ body = "skull", point = "1 0 0 mm" }, { body = "free", point = "0 0 9 mm" }]
@@ -293,6 +316,11 @@ mirror = "x"
 name = "fibres"
 kind = "fibres"
 body = "of transversely-isotropic"
+mirror = "x"
+[[probe]]
+name = "sheet"
+kind = "sheet"
+sheet = "aponeurosis_left"
 mirror = "x"
 [[probe]]
 name = "stress"

@@ -447,6 +447,25 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"FibresProbeOfTissueWithout",
                 kStart + "[[probe]]\nname = \"p\"\nkind = \"fibres\"\nbody = @\"disc_left\"\n",
                 "`body`: expected a tissue with fibres, body `disc_left` has none"},
+        Mistake{"SheetOnBone",
+                kStart + "[[sheet]]\nname = \"s\"\nbody = @\"skull\"\nregion = {}\nthickness = \"1 "
+                         "mm\"\nyoung_modulus = \"1 MPa\"\nfibres = { direction = [1, 0, 0] }\n",
+                "`body`: a sheet lies on the surface of a tissue, and body `skull` is none"},
+        Mistake{"SheetWithoutFibresOnTissueWithout",
+                kStart + "@[[sheet]]\nname = \"s\"\nbody = \"disc_left\"\nregion = {}\nthickness = "
+                         "\"1 mm\"\nyoung_modulus = \"1 MPa\"\n",
+                "sheet `s`: tissue `disc_left` has no fibres whose direction the sheet could have; "
+                "expected `fibres`"},
+        Mistake{"SheetWithDensityOfFibres",
+                kStart +
+                    "[[sheet]]\nname = \"s\"\nbody = \"disc_left\"\nregion = {}\nthickness = \"1 "
+                    "mm\"\nyoung_modulus = \"1 MPa\"\nfibres = { array = \"a\", @density = "
+                    "\"conserved\" }\n",
+                "fibres: unknown key `density`; expected one of `direction`, `array`, `from`, "
+                "`to`"},
+        Mistake{"SheetProbeOfNone",
+                kStart + "[[probe]]\nname = \"p\"\nkind = \"sheet\"\nsheet = @\"fascia\"\n",
+                "`sheet`: no [[sheet]] has the name `fascia`"},
         Mistake{"RadiusOnBone",
                 path("[{ body = \"skull\", point = \"0 0 0 m\", radius = @\"1 mm\" }, { body = "
                      "\"mandible\", point = \"0 0 1 m\" }]"),

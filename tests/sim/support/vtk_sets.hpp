@@ -12,6 +12,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <string>
@@ -46,6 +47,11 @@ inline void add_arrays(vtkDataSet& set) {
   add(cells, vtkNew<vtkIntArray>(), "label", 1, set.GetNumberOfCells());
   add(points, vtkNew<vtkFloatArray>(), "pressure with spaces", 1, set.GetNumberOfPoints());
   add(points, vtkNew<vtkDoubleArray>(), "stress", 9, set.GetNumberOfPoints());
+  add(points, vtkNew<vtkIntArray>(), "rounded", 1, set.GetNumberOfPoints());  // 0 to 2: no set
+  vtkNew<vtkUnsignedCharArray> rim;  // a set of the last three points
+  rim->SetName("rim");
+  for (vtkIdType i = 0; i < set.GetNumberOfPoints(); ++i) rim->InsertNextValue(i >= 3 ? 1 : 0);
+  points.AddArray(rim);
   points.SetActiveTensors("stress");
   cells.SetActiveVectors("direction");
   cells.SetActiveScalars("label");
