@@ -1,14 +1,16 @@
 #include "fem/element/fibre_sheet.hpp"
 
 #include <Eigen/Geometry>
+#include <sstream>
 #include <stdexcept>
-#include <string>
 
 namespace articular::fem {
 namespace {
 
-[[noreturn]] void refuse(Eigen::Index face, const char* why) {
-  throw std::invalid_argument("face " + std::to_string(face) + " of the sheet " + why);
+[[noreturn]] void refuse(const Mat3& corners, const char* why) {
+  std::ostringstream message;
+  message << "its face at (" << 1e3 * corners.rowwise().mean().transpose() << ") mm " << why;
+  throw std::invalid_argument(message.str());
 }
 
 }  // namespace
@@ -25,11 +27,11 @@ FibreSheet::FibreSheet(const Positions& X, const Triangles& faces, const Eigen::
     const Vec3 doubled_area =
         (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
     area_[i] = 0.5 * doubled_area.norm();
-    if (!(area_[i] > 0)) refuse(i, "has no area");
+    if (!(area_[i] > 0)) refuse(corners, "has no area");
     const Vec3 normal = doubled_area.normalized(), given = fibres.col(i);
     const Vec3 within = given - normal.dot(given) * normal;
     constexpr double kCrosses = 0.1;  // sine of the angle, below which rounding and mesh decide
-    if (!(within.norm() > kCrosses * given.norm())) refuse(i, "is crossed by its fibres");
+    if (!(within.norm() > kCrosses * given.norm())) refuse(corners, "is crossed by the fibres");
     for (int a = 0; a < 3; ++a) {
       const Vec3 opposite = corners.col((a + 2) % 3) - corners.col((a + 1) % 3);
       along_(a, i) = normal.cross(opposite).dot(within.normalized()) / (2 * area_[i]);

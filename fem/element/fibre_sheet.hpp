@@ -19,7 +19,7 @@ class FibreSheet {
   /// @param law     stiffness [Pa], by the area at rest
   /// @param matrix  what add_stiffness() will add to: one block row a node, with the couplings of
   ///                the elements at least
-  /// @throws std::invalid_argument naming a face that has no area, or that its fibres cross
+  /// @throws std::invalid_argument with the place of a face that has no area, or that fibres cross
   FibreSheet(const Positions& X, const Triangles& faces, const Eigen::Matrix3Xd& fibres,
              double thickness, const CrimpedFibre& law, const BlockMatrix& matrix);
 

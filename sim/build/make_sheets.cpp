@@ -32,31 +32,17 @@ std::vector<int> faces_in(const Sheet& sheet, int body, const Tissue& tissue,
   return faces;
 }
 
-/// The element of each face of a surface.
-std::vector<int> element_of_faces(const Triangles& faces, const Tetrahedra& tets, int num_nodes) {
-  std::vector<std::vector<int>> around(static_cast<std::size_t>(num_nodes));
-  for (int e = 0; e < tets.cols(); ++e)
-    for (const int node : tets.col(e)) around[static_cast<std::size_t>(node)].push_back(e);
-  std::vector<int> elements;
-  for (const auto& face : faces.colwise()) {
-    const std::vector<int>& near = around[static_cast<std::size_t>(face[0])];
-    elements.push_back(*std::ranges::find_if(near, [&](int e) {
-      return (tets.col(e).array() == face[1]).any() && (tets.col(e).array() == face[2]).any();
-    }));
-  }
-  return elements;
-}
-
 SheetModel make_sheet(const Sheet& sheet, const Body& body, int index, const Tissue& tissue,
                       const Surface& surface, const Model& model,
                       const std::vector<BodyGeometry>& geometry) {
-  const Triangles faces =
-      surface.faces(Eigen::all, faces_in(sheet, index, tissue, surface, model, geometry));
+  const std::vector<int> columns = faces_in(sheet, index, tissue, surface, model, geometry);
+  const Triangles faces = surface.faces(Eigen::all, columns);
   const FibreDirections fibres =
       sheet.fibres ? make_fibres(*sheet.fibres, body, index, model, geometry, surface)
                    : tissue.fibres;
-  const std::vector<int> elements =
-      element_of_faces(faces, tissue.elements.tets(), static_cast<int>(tissue.X.cols()));
+  std::vector<int> elements;  // under the faces
+  for (const int column : columns)
+    elements.push_back(surface.face_tet[static_cast<std::size_t>(column)]);
   try {
     return {sheet.name, fem::FibreSheet(tissue.X, faces, fibres(Eigen::all, elements),
                                         sheet.thickness, {sheet.young_modulus, sheet.toe_strain},
@@ -65,6 +51,28 @@ SheetModel make_sheet(const Sheet& sheet, const Body& body, int index, const Tis
     throw InputError(sheet.where, fmt::format("[[sheet]] `{}`: {}; expected `fibres` along the "
                                               "surface",
                                               sheet.name, error.what()));
+  }
+}
+
+bool have_common_faces(const fem::FibreSheet& p, const fem::FibreSheet& q) {
+  for (const auto& face : p.faces().colwise())
+    for (const auto& other : q.faces().colwise())
+      if (face == other) return true;
+  return false;
+}
+
+/// A sheet and its mirror image pull twice where they lie on the same faces.
+void refuse_own_image(const Scenario& scenario, const Sheet& sheet, const Tissue& tissue) {
+  for (const Sheet& other : scenario.sheets) {
+    if (&other == &sheet) return;
+    if (other.at.tissue != sheet.at.tissue || other.where.line != sheet.where.line) continue;
+    const auto image = std::ranges::find(tissue.sheets, other.name, &SheetModel::name);
+    if (have_common_faces(image->fibres, tissue.sheets.back().fibres))
+      throw InputError(sheet.where,
+                       fmt::format("[[sheet]] `{}`: it has faces in common with its image `{}`, "
+                                   "where both would pull; expected a region on one side of x = 0, "
+                                   "or no `mirror`",
+                                   sheet.name, other.name));
   }
 }
 
@@ -79,6 +87,7 @@ void make_sheets(const Scenario& scenario, const std::vector<BodyGeometry>& geom
     Tissue& tissue = model.tissues[t];
     tissue.sheets.push_back(
         make_sheet(sheet, scenario.bodies[b], body, tissue, surfaces[t], model, geometry));
+    refuse_own_image(scenario, sheet, tissue);
   });
 }
 

@@ -56,6 +56,7 @@ class Doubts {
       if (body.kind == Body::Kind::Tissue) look_at(body);
     look_at_overlaps();
     look_at_loads();
+    for (const Sheet& sheet : scenario_.sheets) look_at(sheet);
     look_at_contact_stiffness();
     for (const Load& load : scenario_.loads)
       if (const auto* motion = std::get_if<MotionLoad>(&load)) look_at(*motion);
@@ -182,6 +183,21 @@ class Doubts {
           fmt::format("every loaded {} of `{}` ({} in the region) is attached to a body: the "
                       "load acts on that body, and deforms nothing",
                       part, tissue, count));
+  }
+
+  void look_at(const Sheet& sheet) {
+    const Tissue& under = tissue(index(sheet.at.tissue));
+    const auto made = std::ranges::find(under.sheets, sheet.name, &SheetModel::name);
+    const auto rigid = [&](int node) { return under.nodes[static_cast<std::size_t>(node)].rigid; };
+    const auto goes_with_one = [&](const auto& face) {
+      return rigid(face[0]) >= 0 && rigid(face[1]) == rigid(face[0]) &&
+             rigid(face[2]) == rigid(face[0]);
+    };
+    const auto faces = made->fibres.faces().colwise();
+    if (std::all_of(faces.begin(), faces.end(), goes_with_one))
+      doubt(sheet.where, fmt::format("every face of sheet `{}` is attached to a body: it can't "
+                                     "stretch",
+                                     sheet.name));
   }
 
   void look_at(const LigamentModel& ligament) {

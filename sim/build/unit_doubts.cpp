@@ -24,11 +24,13 @@ struct Usual {
 // of about 500 Pa, tendon and plastics have less than 4e8 Pa (Young's modulus 1 GPa), bone has
 // more; the strongest muscle of a man has some thousand newtons, fibres pull with up to 1 MPa. The
 // whole patellar tendon has 4000 N/mm at most, and 2e5 N per unit of strain. Rubber has a friction
-// coefficient of 1 to 2, and ligaments tear at a strain of 0.1 to 0.3.
+// coefficient of 1 to 2, and ligaments tear at a strain of 0.1 to 0.3. A basement membrane is less
+// than 1 um thick, fasciae and aponeuroses up to 2 mm; skin has 0.1 MPa and more along its fibres.
 constexpr Usual kExtent{1e-4, 1}, kTissueDensity{100, 4000}, kRigidDensity{100, 25000},
     kShearModulus{10, 4e8}, kUsualForce{0, 2e4}, kUsualMoment{0, 2e3}, kUsualMass{0, 100},
     kFibreStress{0, 3e6}, kGravity{0.1, 50}, kSlackLength{0, 1}, kStiffness{0, 1e7},
-    kStiffnessPerStrain{0, 1e6}, kFriction{0, 2}, kToeStrain{0, 0.5}, kShift{0, 1};
+    kStiffnessPerStrain{0, 1e6}, kFriction{0, 2}, kToeStrain{0, 0.5}, kShift{0, 1},
+    kSheetThickness{1e-7, 5e-3}, kSheetModulus{1e4, 2e10};
 
 constexpr double kFarthest = 2;  // [m] of a line's end or a probe's point from its body's middle
 
@@ -84,6 +86,10 @@ void doubt_ratios(const Scenario& scenario, const Doubt& doubt) {
       doubt(ligament.where, fmt::format("ligament `{}` has a toe strain of {:.3g}, usual is up to "
                                         "{:g}",
                                         ligament.name, ligament.toe_strain, kToeStrain.most));
+  for (const Sheet& sheet : scenario.sheets)
+    if (!is_usual(sheet.toe_strain, kToeStrain))
+      doubt(sheet.where, fmt::format("sheet `{}` has a toe strain of {:.3g}, usual is up to {:g}",
+                                     sheet.name, sheet.toe_strain, kToeStrain.most));
 }
 
 double largest_factor(const Curve& profile) {
@@ -233,6 +239,21 @@ void doubt_ligaments(const Scenario& scenario, const Doubt& doubt) {
   }
 }
 
+template <class Doubt>
+void doubt_sheets(const Scenario& scenario, const Doubt& doubt) {
+  for (const Sheet& sheet : scenario.sheets) {
+    if (!is_usual(sheet.thickness, kSheetThickness))
+      doubt(sheet.where, fmt::format("sheet `{}` is {:.3g} mm thick, usual is {:g} to {:g} mm",
+                                     sheet.name, 1e3 * sheet.thickness, 1e3 * kSheetThickness.least,
+                                     1e3 * kSheetThickness.most));
+    if (!is_usual(sheet.young_modulus, kSheetModulus))
+      doubt(sheet.where,
+            fmt::format("sheet `{}` has a modulus of {:.3g} MPa, usual is {:g} to {:g} MPa",
+                        sheet.name, 1e-6 * sheet.young_modulus, 1e-6 * kSheetModulus.least,
+                        1e-6 * kSheetModulus.most));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& model) {
@@ -273,6 +294,7 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
       doubt(muscle.where, fmt::format("muscle `{}` has a largest force of {:.3g} N", muscle.name,
                                       muscle.max_force));
   doubt_ligaments(scenario, doubt);
+  doubt_sheets(scenario, doubt);
   doubt_points(scenario, model, doubt);
   for (const Load& load : scenario.loads) std::visit(DoubtLoad<decltype(doubt)>{doubt}, load);
   doubt_surface_loads(scenario, model, doubt);

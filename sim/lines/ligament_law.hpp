@@ -8,8 +8,8 @@ namespace articular::sim {
 ValueSlope linear_ligament(double length, double slack_length, double stiffness);
 double linear_ligament_energy(double length, double slack_length, double stiffness);
 
-/// Blankevoort's law (fem::CrimpedFibre) with strain e = l/l0 − 1, and a stiffness that is force per
-/// unit strain [N].
+/// Blankevoort's law (fem::CrimpedFibre) with strain e = l/l0 − 1, and a stiffness that is force
+/// per unit strain [N].
 ValueSlope blankevoort_ligament(double length, double slack_length, double stiffness,
                                 double toe_strain);
 double blankevoort_ligament_energy(double length, double slack_length, double stiffness,

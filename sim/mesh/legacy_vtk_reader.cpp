@@ -274,8 +274,7 @@ class LegacyVtkFile {
       }
       at_ = before;
       const NumberType type_of_field = number_type();
-      keep(name, components, type_of_field,
-           numbers(components * tuples, type_of_field, "a field"));
+      keep(name, components, type_of_field, numbers(components * tuples, type_of_field, "a field"));
     }
   }
 
@@ -402,10 +401,10 @@ class LegacyVtkFile {
   bool is_text_ = false, is_grid_ = false;
   CellCollector cells_;
   std::vector<double> points_;
-  Connectivity connectivity_;                                         // of a grid
-  std::vector<std::int64_t> types_;                                   // of a grid's cells
-  Data data_ = Data::None;                                            // whose attributes follow
-  std::uint64_t num_tuples_ = 0;                                      // of these
+  Connectivity connectivity_;        // of a grid
+  std::vector<std::int64_t> types_;  // of a grid's cells
+  Data data_ = Data::None;           // whose attributes follow
+  std::uint64_t num_tuples_ = 0;     // of these
   std::vector<std::pair<std::string, std::vector<double>>> point_numbers_;
   std::vector<std::pair<std::string, std::vector<double>>> vectors_;  // of cells
 };

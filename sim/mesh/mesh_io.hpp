@@ -47,8 +47,8 @@ MeshData read_mesh(const std::filesystem::path& file, double unit,
 inline constexpr const char* kTissueEndings =
     ".vtu, .vtk, .msh, .inp, .feb, .bdf, .nas, .mesh, .ele, .node";
 
-/// Writes tetrahedra (and triangles, if there are both) with their cell arrays as .vtu, or
-/// triangles alone as .vtp, and the nodes of sets as point arrays: binary, compressed, whole or not at all (write beside, then rename).
+/// Writes tetrahedra (and triangles, if both) with cell arrays as .vtu, or triangles alone as .vtp,
+/// with sets of nodes alone as point arrays: binary, compressed, whole or not at all.
 /// @throws SystemError when it can't be written, InputError when the file's ending is another
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh, double unit);
 

@@ -204,8 +204,9 @@ class VtkXmlReader {
     return decode(*array, encoding_, budget);
   }
 
-  /// Each field is there once, and in every piece.
-  void expect_whole(const VtkXmlContent& content) const {
+  /// Each field is there once, and in every piece. Of a mesh, points have fields that nobody may
+  /// have asked for: others are dropped.
+  void expect_whole(VtkXmlContent& content) const {
     const std::size_t num_points = content.points.size() / 3,
                       num_cells = content.cells.begin.size() + content.vertices.begin.size() +
                                   content.lines.begin.size() + content.strips.begin.size() +
@@ -215,6 +216,10 @@ class VtkXmlReader {
         if (field.values.size() != tuples * field.components)
           fail("`" + one_line(field.name) + "` is there twice, or not in all pieces");
     };
+    if (fields_ == VtkXmlFields::OfMeshes)
+      std::erase_if(content.point_fields, [num_points](const VtkXmlField& field) {
+        return field.values.size() != num_points;
+      });
     expect(content.point_fields, num_points);
     expect(content.cell_fields, num_cells);
   }
@@ -307,7 +312,9 @@ class VtkXmlReader {
     const auto found = piece.sections.find(section);
     if (found == piece.sections.end()) return;
     for (const VtkXmlArray& array : found->second) {
-      if (!is_wanted(array, section == std::string_view("CellData")) || array.holds_texts || array.name.empty()) continue;
+      if (!is_wanted(array, section == std::string_view("CellData")) || array.holds_texts ||
+          array.name.empty())
+        continue;
       const Numbers values = decode(array, encoding_, budget);
       expect_size(values, tuples, array.components, "`" + one_line(array.name) + "`");
       VtkXmlField& field = named(array.name, "fields", fields);

@@ -13,7 +13,8 @@ void write_mesh(const std::filesystem::path& file, const MeshData& mesh, double 
   const auto set = mesh.tets.cols() > 0 ? make_grid(mesh.X, unit, mesh.tets, mesh.triangles)
                                         : make_surface(mesh.X, unit, mesh.triangles);
   for (const auto& [name, values] : mesh.cell_vectors) add_cell_vectors(*set, name, values);
-  for (const MeshSet& nodes : mesh.sets) add_node_set(*set, nodes.name, nodes.nodes);
+  for (const MeshSet& nodes : mesh.sets)
+    if (nodes.faces.empty() && nodes.tets.empty()) add_node_set(*set, nodes.name, nodes.nodes);
   write_vtk_file(file, *set, Compressed::Yes);
 }
 

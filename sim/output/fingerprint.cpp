@@ -21,7 +21,16 @@ std::string fingerprint(const Scenario& scenario, const Model& model) {
     if (body.collider) put_numbers(body.collider->X);
     if (body.collider) put_numbers(body.collider->tets);
   }
-  for (const Tissue& tissue : model.tissues) put_numbers(tissue.elements.tets());
+  for (const Tissue& tissue : model.tissues) {
+    put_numbers(tissue.elements.tets());
+    put_numbers(tissue.fibres);
+    for (const SheetModel& sheet : tissue.sheets) {
+      put_numbers(sheet.fibres.faces());
+      // Where its fibres point shows in how far each is drawn out as the tissue is sheared.
+      const Mat3 sheared{{2, 1, 0}, {0, 3, 1}, {1, 0, 5}};
+      put_numbers(sheet.fibres.stretch(sheared * tissue.X));
+    }
+  }
   for (const RigidBody& rigid : model.rigid_bodies) put_numbers(rigid.rest.p);
   const auto put_motion = [&](const std::optional<Motion>& motion) {
     if (!motion) return;

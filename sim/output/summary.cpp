@@ -17,7 +17,11 @@ using Json = nlohmann::ordered_json;
 
 Json sizes(const Model& model) {
   std::int64_t elements = 0, collision_elements = 0;
-  for (const Tissue& tissue : model.tissues) elements += tissue.elements.num_elements();
+  std::size_t sheets = 0;
+  for (const Tissue& tissue : model.tissues) {
+    elements += tissue.elements.num_elements();
+    sheets += tissue.sheets.size();
+  }
   for (const BodyModel& body : model.bodies)
     if (body.collider) collision_elements += body.collider->tets.cols();
   return {{"bodies", model.bodies.size()},
@@ -27,6 +31,7 @@ Json sizes(const Model& model) {
           {"rigid_bones", model.layout.num_rigid},
           {"unknown_velocities", 3 * model.layout.num_unknown_blocks()},
           {"muscles", model.muscles.size()},
+          {"sheets", sheets},
           {"ligaments", model.ligaments.size()},
           {"boluses", model.boluses.size()},
           {"contact_pairs", model.contacts.size()}};

@@ -416,7 +416,7 @@ const KeyTable& material_fibres_keys() {
 }
 
 const KeyTable& sheet_fibres_keys() {
-  static const KeyTable kTable{"fibres", fibre_direction_keys()};
+  static const KeyTable kTable{"fibres of a sheet", fibre_direction_keys()};
   return kTable;
 }
 

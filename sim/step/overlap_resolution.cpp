@@ -20,8 +20,8 @@ constexpr int kMostHalvings = 3;
 constexpr double kLastRoundOff = 1e-9;
 /// Of an element: surfaces that lie flush are no deeper in each other.
 constexpr double kFlush = 1e-6;
-/// A solution moves things no farther than so many times the deepest overlap: what lies beyond has
-/// no need to move.
+/// A solution first moves things no farther than so many times the deepest overlap: farther ones
+/// may go astray where much may touch.
 constexpr double kReachOfOverlap = 4;
 /// Solutions in pseudo-time for one step.
 constexpr int kMostEquilibria = 50;
@@ -161,16 +161,20 @@ class OverlapResolver {
     return count;
   }
 
-  /// Moves bodies on from rest in pseudo-time, each solution by no more than an element and not far
-  /// beyond the overlaps, until what is deeper than this part of them is gone, or held by bodies
-  /// that can't give way.
+  /// Moves bodies on from rest in pseudo-time, each solution by no more than an element and at
+  /// first not far beyond the overlaps, until what is deeper than this part of them is gone, or
+  /// held by bodies that can't give way.
   bool relax(double allowed, Eigen::VectorXd& y) {
     allowances_ = {};
     for (const ResolvedOverlap& overlap : resolution_.overlaps)
       allowances_.add(overlap.contact, allowed * overlap.before);
-    const double reach = std::min(model_.trusted_motion, kReachOfOverlap * deepest().before);
-    return approach_in_pseudo_time(reach, kMostEquilibria,
-                                   [&](double motion) { return move_on(motion, y); });
+    const auto approach = [&](double reach) {
+      return approach_in_pseudo_time(reach, kMostEquilibria,
+                                     [&](double motion) { return move_on(motion, y); });
+    };
+    const double near = kReachOfOverlap * deepest().before;
+    // Some have to go farther: tissue that is prestressed, a body that has to turn.
+    return (near < model_.trusted_motion && approach(near)) || approach(model_.trusted_motion);
   }
 
   PseudoStep move_on(double motion, Eigen::VectorXd& y) {

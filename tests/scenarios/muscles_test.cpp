@@ -35,7 +35,8 @@ INSTANTIATE_TEST_SUITE_P(Jaw, MuscleOfTissue,
                          [](const auto& muscle) { return muscle.param.name; });
 
 // It pulls both bones together about as the lines do. It bulges and straightens, so its fibres are
-// shorter in the middle: the more so where it is bent, and where a longer tendon makes fibres short.
+// shorter in the middle: the more so where it is bent, and where a longer tendon makes fibres
+// short.
 TEST_P(MuscleOfTissue, PullsBothBonesTogetherAlongTheLines) {
   const auto run = [](const std::string& model) {
     return run_scenario(

@@ -79,6 +79,7 @@ Json scene_rows(const sim::Scenario& scenario) {
   add("bodies", scenario.bodies.size());
   add("attachments", scenario.attachments.size());
   add("supports", scenario.supports.size());
+  add("sheets", scenario.sheets.size());
   add("muscles", scenario.muscles.size());
   add("ligaments", scenario.ligaments.size());
   add("boluses", scenario.boluses.size());

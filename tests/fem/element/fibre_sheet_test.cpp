@@ -140,10 +140,12 @@ TEST(FibreSheet, RefusesWhatFibresCannotLieIn) {
     return std::string();
   };
   const TetMesh mesh = Block(Vec3::UnitX()).mesh;
-  EXPECT_EQ(message_of({0.01, 0, 1}, mesh.X), "face 0 of the sheet is crossed by its fibres");
+  EXPECT_NE(message_of({0.01, 0, 1}, mesh.X).find(" 0) mm is crossed by the fibres"),
+            std::string::npos);
   EXPECT_EQ(message_of({1, 0, 1}, mesh.X), "");
-  EXPECT_EQ(message_of(Vec3::UnitX(), Vec3(0, 1, 1).asDiagonal() * mesh.X),
-            "face 0 of the sheet has no area");
+  EXPECT_NE(
+      message_of(Vec3::UnitX(), Vec3(0, 1, 1).asDiagonal() * mesh.X).find(" 0) mm has no area"),
+      std::string::npos);
 }
 
 }  // namespace articular::fem::fibre_sheet_test

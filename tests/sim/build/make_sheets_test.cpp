@@ -8,6 +8,7 @@
 #include "sim/build/build_model.hpp"
 #include "sim/mesh/mesh_io.hpp"
 #include "sim/mesh/shapes.hpp"
+#include "sim/output/fingerprint.hpp"
 #include "tests/sim/support/probes.hpp"
 #include "tests/sim/support/temporary_folder.hpp"
 
@@ -138,14 +139,15 @@ TEST(Sheets, OfTheOtherSideAreMirrorImages) {
 }
 
 /// The bar as a file whose nodes at y = 2 mm are a set, and whose cells have fibres.
-std::string bar_of_file(const TemporaryFolder& folder) {
+std::string bar_of_file(const TemporaryFolder& folder, double front_is_at = 2e-3,
+                        const Vec3& fibre = Vec3(1, 3, 2)) {
   MeshData mesh = box_mesh({Vec3(0.02, 0.004, 0.004), {8, 2, 2}, Vec3::Zero()});
   MeshSet front;
   front.name = "front";
   for (int i = 0; i < mesh.X.cols(); ++i)
-    if (mesh.X(1, i) > 1.99e-3) front.nodes.push_back(i);
+    if (std::abs(mesh.X(1, i) - front_is_at) < 1e-6) front.nodes.push_back(i);
   mesh.sets = {front};
-  mesh.cell_vectors = {{"fibres", Vec3(1, 3, 2).replicate(1, mesh.tets.cols())}};
+  mesh.cell_vectors = {{"fibres", fibre.replicate(1, mesh.tets.cols())}};
   write_mesh(folder / "bar.vtu", mesh, 1e-3);
   return bar(R"(mesh = { file = "bar.vtu", unit = "mm" })", kStatic);
 }
@@ -163,6 +165,33 @@ TEST(Sheets, LieOnASetOfNodesAlongAnArray) {
   EXPECT_NEAR(front.stretch(x).maxCoeff(), std::hypot(1.5, 2) / std::hypot(1, 2), 1e-9);
 }
 
+// A run that is resumed has to have the sheets that it had.
+TEST(Sheets, OfAnotherFileAreAnotherRun) {
+  const TemporaryFolder folder;
+  const auto of = [&](double front_is_at, const Vec3& fibre) {
+    const std::string text = bar_of_file(folder, front_is_at, fibre) +
+                             sheet("front", R"({ set = "front" })", "array = \"fibres\"");
+    const Scenario scenario = read_scenario(folder.file("bar.toml", text));
+    return fingerprint(scenario, build_model(scenario));
+  };
+  const std::string first = of(2e-3, {1, 3, 2});
+  EXPECT_EQ(of(2e-3, {1, 3, 2}), first);
+  EXPECT_NE(of(-2e-3, {1, 3, 2}), first);
+  EXPECT_NE(of(2e-3, {1, 3, -2}), first);
+}
+
+// One that reaches across x = 0 would pull twice.
+TEST(Sheets, ThatAreTheirOwnImageAreRefused) {
+  const auto with = [](const std::string& region) {
+    return refusal_of(bar(kBox, kStatic) + sheet("front", region, kAlong, "mirror = \"x\""));
+  };
+  EXPECT_EQ(with(R"({ box = ["0.1 1.99 -3 mm", "11 2.01 3 mm"] })"), "");
+  const std::string across = with(R"({ box = ["-3 1.99 -3 mm", "11 2.01 3 mm"] })");
+  EXPECT_NE(across.find("`front_right`: it has faces in common with its image `front_left`"),
+            std::string::npos)
+      << across;
+}
+
 TEST(Sheets, WhereTheyCannotLieIsRefused) {
   const auto with = [](const std::string& region, const std::string& fibres) {
     return refusal_of(bar(kBox, kStatic) + sheet("front", region, fibres));
@@ -171,7 +200,7 @@ TEST(Sheets, WhereTheyCannotLieIsRefused) {
                 .find("no face of the surface of tissue `bar` has its middle in the region"),
             std::string::npos);
   EXPECT_NE(
-      with(kFront, "direction = [0, 1, 0]").find("is crossed by its fibres; expected `fibres`"),
+      with(kFront, "direction = [0, 1, 0]").find("is crossed by the fibres; expected `fibres`"),
       std::string::npos);
   EXPECT_NE(with(kFront, "array = \"a\"").find("its shape is made here"), std::string::npos)
       << with(kFront, "array = \"a\"");

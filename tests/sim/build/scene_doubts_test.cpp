@@ -78,6 +78,26 @@ TEST(SceneDoubts, AreOfLoadsOnNothingButWhatIsTied) {
   EXPECT_TRUE(says(doubt(s), "every loaded face of `cartilage` (32 in the region) is attached"));
 }
 
+TEST(SceneDoubts, AreOfASheetOnNothingButWhatIsTied) {
+  Scenario s = cartilage_on_bone(0);
+  const auto sheet = [](double low, double high) {
+    Sheet made;
+    made.name = "fascia";
+    made.at.tissue = "cartilage";
+    made.at.region.box = {Vec3(-1, -1, low), Vec3(1, 1, high)};
+    made.thickness = 1e-3;
+    made.young_modulus = 1e7;
+    made.fibres = Fibres{Vec3(1, 0, 1).normalized()};
+    return made;
+  };
+  s.sheets = {sheet(0.019, 0.021)};
+  EXPECT_EQ(doubt(s), "");
+  s.sheets = {sheet(-1e-6, 0.021)};  // sides too
+  EXPECT_EQ(doubt(s), "");
+  s.sheets = {sheet(-1e-6, 1e-6)};
+  EXPECT_TRUE(says(doubt(s), "every face of sheet `fascia` is attached to a body"));
+}
+
 TEST(SceneDoubts, AreOfALigamentThatStartsDrawnOut) {
   Scenario s = cartilage_on_bone(0);
   s.ligaments[0].slack_length = 0.0201;

@@ -223,6 +223,28 @@ TEST(UnitDoubts, AreOfFrictionInPerCent) {
   }
 }
 
+TEST(UnitDoubts, AreOfSheetsOfOtherUnits) {
+  const auto doubts_of = [](double thickness, double modulus, double toe) {
+    Scenario s = usual();
+    Sheet sheet;
+    sheet.name = "fascia";
+    sheet.at.tissue = "block";
+    sheet.thickness = thickness;
+    sheet.young_modulus = modulus;
+    sheet.toe_strain = toe;
+    sheet.fibres = Fibres{Vec3(1, 1, 1).normalized()};
+    s.sheets = {sheet};
+    return num_doubts(s);
+  };
+  EXPECT_EQ(doubts_of(0.5e-3, 3e8, 0.03), 0U);
+  EXPECT_EQ(doubts_of(1e-6, 1e4, 0.5), 0U);
+  EXPECT_EQ(doubts_of(0.5, 3e8, 0.03), 1U);      // m for mm
+  EXPECT_EQ(doubts_of(0.5e-3, 300, 0.03), 1U);   // Pa for MPa
+  EXPECT_EQ(doubts_of(0.5e-3, 3e11, 0.03), 1U);  // GPa for MPa
+  EXPECT_EQ(doubts_of(0.5e-3, 3e8, 3), 1U);      // in per cent
+  EXPECT_EQ(doubts_of(1e-8, 3e8, 0.03), 1U);
+}
+
 // A linear ligament has no toe, and none in the scenario.
 TEST(UnitDoubts, AreOfAToeStrainInPerCent) {
   for (const double strain : {0.03, 0.5, 3.0}) {
