@@ -40,9 +40,10 @@ SheetModel make_sheet(const Sheet& sheet, const Body& body, int index, const Tis
   const FibreDirections fibres =
       sheet.fibres ? make_fibres(*sheet.fibres, body, index, model, geometry, surface)
                    : tissue.fibres;
-  std::vector<int> elements;  // under the faces
-  for (const int column : columns)
-    elements.push_back(surface.face_tet[static_cast<std::size_t>(column)]);
+  std::vector<int> elements(columns.size());  // under the faces
+  std::ranges::transform(columns, elements.begin(), [&surface](int column) {
+    return surface.face_tet[static_cast<std::size_t>(column)];
+  });
   try {
     return {sheet.name, fem::FibreSheet(tissue.X, faces, fibres(Eigen::all, elements),
                                         sheet.thickness, {sheet.young_modulus, sheet.toe_strain},

@@ -356,8 +356,9 @@ class LegacyVtkFile {
   /// Only vectors of cells are asked for, and whole numbers of points.
   void keep(const std::string& name, std::uint64_t components, const NumberType& type,
             std::vector<double> values) {
-    if (data_ == Data::Cells && components == 3) vectors_.emplace_back(name, std::move(values));
-    if (data_ == Data::Points && components == 1 && type.kind != Real)
+    if (data_ == Data::Cells && components == 3)
+      vectors_.emplace_back(name, std::move(values));
+    else if (data_ == Data::Points && components == 1 && type.kind != Real)
       point_numbers_.emplace_back(name, std::move(values));
   }
 
