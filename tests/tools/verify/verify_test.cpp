@@ -194,8 +194,8 @@ TEST(VerifyProgram, TellsItsProgressOnStderrAndItsTableOnStdout) {
   const TemporaryFolder folder;
   const ProgramResult result = verify_in(folder, "--only line/");
   EXPECT_EQ(result.exit_code, 0) << result.out;
-  EXPECT_NE(result.err.find("2 of 2: line/ligament"), std::string::npos) << result.err;
-  EXPECT_NE(result.out.find("2 of 2 problems passed"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("2 of 3: line/ligament"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("3 of 3 problems passed"), std::string::npos) << result.out;
   EXPECT_EQ(verify_in(folder, "--only line/ligament --quiet").err, "");
 }
 
