@@ -14,28 +14,15 @@ namespace {
 
 using collision::Surface;
 
-/// Columns of the surface's faces.
-std::vector<int> faces_in(const Sheet& sheet, int body, const Tissue& tissue,
-                          const Surface& surface, const Model& model,
-                          const std::vector<BodyGeometry>& geometry) {
-  const RegionTest test(sheet.at.region, body, model, geometry);
-  std::vector<int> faces;
-  for (int i = 0; i < surface.faces.cols(); ++i) {
-    const Eigen::Vector3i nodes = surface.faces.col(i);
-    const Mat3 corners = tissue.X(Eigen::all, nodes);
-    if (test.contains_face(nodes, corners.rowwise().mean())) faces.push_back(i);
-  }
-  if (faces.empty())
-    throw InputError(sheet.where, fmt::format("[[sheet]] `{}`: no face of the surface of tissue "
-                                              "`{}` has its middle in the region",
-                                              sheet.name, sheet.at.tissue));
-  return faces;
-}
-
 SheetModel make_sheet(const Sheet& sheet, const Body& body, int index, const Tissue& tissue,
                       const Surface& surface, const Model& model,
                       const std::vector<BodyGeometry>& geometry) {
-  const std::vector<int> columns = faces_in(sheet, index, tissue, surface, model, geometry);
+  const std::vector<int> columns =
+      faces_in(sheet.at.region, index, model, geometry, tissue, surface.faces);
+  if (columns.empty())
+    throw InputError(sheet.where, fmt::format("[[sheet]] `{}`: no face of the surface of tissue "
+                                              "`{}` has its middle in the region",
+                                              sheet.name, sheet.at.tissue));
   const Triangles faces = surface.faces(Eigen::all, columns);
   const FibreDirections fibres =
       sheet.fibres ? make_fibres(*sheet.fibres, body, index, model, geometry, surface)

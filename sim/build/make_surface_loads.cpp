@@ -15,10 +15,10 @@ SurfaceLoadModel make_surface_load(const SurfaceLoad& load, int body, const Mode
       load.stress, load.profile, model.bodies[static_cast<std::size_t>(body)].tissue, {}, {}};
   const auto t = static_cast<std::size_t>(made.tissue);
   const Tissue& tissue = model.tissues[t];
-  const RegionTest test(load.at.region, body, model, geometry);
-  for (const auto& face : surfaces[t].faces.colwise()) {
+  const Triangles& surface = surfaces[t].faces;
+  for (const int i : faces_in(load.at.region, body, model, geometry, tissue, surface)) {
+    const Eigen::Vector3i face = surface.col(i);
     const Mat3 x = tissue.X(Eigen::all, face);
-    if (!test.contains_face(face, x.rowwise().mean())) continue;
     std::array<NodeRef, 3> corners;
     for (int a = 0; a < 3; ++a)
       corners[static_cast<std::size_t>(a)] = tissue.nodes[static_cast<std::size_t>(face[a])];

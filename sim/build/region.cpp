@@ -70,4 +70,17 @@ bool RegionTest::contains(const Vec3& x, bool on_surface) const {
   return !region_.near_body || near_.is_within(x, region_.near_body->second);
 }
 
+std::vector<int> faces_in(const Region& region, int body, const Model& model,
+                          const std::vector<BodyGeometry>& geometry, const Tissue& tissue,
+                          const Triangles& faces) {
+  const RegionTest test(region, body, model, geometry);
+  std::vector<int> columns;
+  for (int i = 0; i < faces.cols(); ++i) {
+    const Eigen::Vector3i nodes = faces.col(i);
+    const Mat3 corners = tissue.X(Eigen::all, nodes);
+    if (test.contains_face(nodes, corners.rowwise().mean())) columns.push_back(i);
+  }
+  return columns;
+}
+
 }  // namespace articular::sim

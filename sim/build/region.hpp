@@ -41,4 +41,9 @@ class RegionTest {
   std::set<std::array<int, 3>> faces_of_set_;  // nodes in ascending order; none: all by their nodes
 };
 
+/// Columns of the faces of a tissue's surface that a region contains.
+std::vector<int> faces_in(const Region& region, int body, const Model& model,
+                          const std::vector<BodyGeometry>& geometry, const Tissue& tissue,
+                          const Triangles& faces);
+
 }  // namespace articular::sim
