@@ -73,6 +73,33 @@ class Views(InFolder):
         self.assertEqual(len(x), 27)
 
 
+class Sheets(InFolder):
+    def test_stretch_and_pull_of_a_sheet_are_those_of_its_probe(self):
+        scenario = articular.Scenario(
+            "verification/pennate_muscle", set={"duration": "0.4 s", "integrator.step": "0.2 s"}
+        )
+        model = articular.Model(scenario)
+        self.assertEqual(model.sheets, ["upper", "lower"])
+        for step in model.steps():
+            pass
+        sheet = step.sheets["upper"]
+        self.assertEqual((sheet.name, sheet.body), ("upper", "muscle"))
+        stretches, tensions, areas = sheet.stretches, sheet.tensions, sheet.areas
+        # 60 of its 88 mm, 10 mm wide, on its upper side.
+        self.assertAlmostEqual(areas.sum(), 60e-3 * 10e-3, places=9)
+        corners = model.bodies["muscle"].positions[sheet.faces]
+        edges = corners[:, 1:] - corners[:, :1]
+        sizes = 0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
+        np.testing.assert_allclose(areas, sizes, rtol=1e-9)
+        probes = step.probes
+        np.testing.assert_allclose(
+            [np.average(stretches, weights=areas), stretches.max(), tensions.max()],
+            [probes[f"upper.{what}"] for what in ["stretch [-]", "largest_stretch [-]", "largest_tension [N/m]"]],
+            rtol=1e-12,
+        )
+        self.assertGreater(tensions.max(), 100)
+
+
 class Contacts(InFolder):
     def test_contacts_have_the_force_of_the_history(self):
         for step in articular.Model(block()).steps():

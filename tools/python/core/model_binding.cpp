@@ -74,6 +74,13 @@ std::vector<std::string> names_of_ligaments(const Scene& scene) {
   return names;
 }
 
+std::vector<std::string> names_of_sheets(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const sim::Tissue& tissue : scene.model.tissues)
+    for (const sim::SheetModel& sheet : tissue.sheets) names.push_back(sheet.name);
+  return names;
+}
+
 /// All that may meet.
 std::vector<std::pair<std::string, std::string>> contacts_of(const Scene& scene) {
   std::vector<std::pair<std::string, std::string>> pairs;
@@ -122,6 +129,7 @@ Raises InputError for what only the geometry can tell. Doubts about the scene ar
                              "All bodies by their names, in the scenario's order.")
       .def_property_readonly("muscles", names_of_muscles, "Names of muscles.")
       .def_property_readonly("ligaments", names_of_ligaments, "Names of ligaments.")
+      .def_property_readonly("sheets", names_of_sheets, "Names of sheets of fibres.")
       .def_property_readonly("contacts", contacts_of, "Names of each two bodies that may touch.")
       .def_property_readonly(
           "is_static", [](const Scene& self) { return self.model.is_static; },

@@ -34,6 +34,19 @@ struct LineOf {
 
 struct MuscleOf : LineOf {};
 
+/// A sheet of fibres on a tissue of a simulation, which it keeps alive.
+struct SheetOf {
+  std::shared_ptr<Simulation> simulation;
+  std::size_t tissue, sheet;
+
+  const sim::SheetModel& given() const { return simulation->model().tissues[tissue].sheets[sheet]; }
+  const std::string& body() const {
+    const int index = simulation->model().tissues[tissue].body;
+    return simulation->model().bodies[static_cast<std::size_t>(index)].name;
+  }
+  const Positions& x() const { return simulation->course().stepper().now().tissues[tissue].x; }
+};
+
 struct ContactState {
   std::string a, b;
   sim::ContactSummary summary;
@@ -114,6 +127,15 @@ py::dict ligaments(const std::shared_ptr<Simulation>& self) {
   return lines;
 }
 
+py::dict sheets(const std::shared_ptr<Simulation>& self) {
+  py::dict sheets;
+  const auto& tissues = self->model().tissues;
+  for (std::size_t t = 0; t < tissues.size(); ++t)
+    for (std::size_t s = 0; s < tissues[t].sheets.size(); ++s)
+      sheets[py::str(tissues[t].sheets[s].name)] = py::cast(SheetOf{self, t, s});
+  return sheets;
+}
+
 py::dict probes(Simulation& self) {
   py::dict values;
   const std::vector<double>& row = self.row();
@@ -171,11 +193,38 @@ muscle's time constants: set both to hold it. In a static analysis it is the exc
           "What drives it, 0 to 1. Set, it holds from now on until it is set again.");
 }
 
+void bind_sheets(py::module_& module) {
+  py::class_<SheetOf>(module, "Sheet",
+                      "A sheet of fibres on a tissue, at the step where its simulation is. One row "
+                      "or number a face.")
+      .def_property_readonly(
+          "name", [](const SheetOf& self) { return self.given().name; }, "Its name.")
+      .def_property_readonly("body", &SheetOf::body, "Name of the tissue that it lies on.")
+      .def_property_readonly(
+          "faces",
+          [](const py::object& self) {
+            return view_of(self.cast<const SheetOf&>().given().fibres.faces(), self);
+          },
+          "Nodes of the tissue: (K, 3), read-only.")
+      .def_property_readonly(
+          "areas", [](const SheetOf& self) { return copy_of(self.given().fibres.area()); },
+          "At rest [m^2]: (K,).")
+      .def_property_readonly(
+          "stretches",
+          [](const SheetOf& self) { return copy_of(self.given().fibres.stretch(self.x())); },
+          "Of its fibres now [-]: (K,).")
+      .def_property_readonly(
+          "tensions",
+          [](const SheetOf& self) { return copy_of(self.given().fibres.tension(self.x())); },
+          "Pull of its fibres now, by the width of the sheet [N/m]: (K,).");
+}
+
 }  // namespace
 
 void bind_simulation(py::module_& module) {
   bind_lines(module);
   bind_muscles(module);
+  bind_sheets(module);
   py::class_<ContactState>(module, "Contact",
                            "What two bodies press on each other with, at one step.")
       .def_readonly("a", &ContactState::a, "Name of the one body.")
@@ -249,6 +298,7 @@ Returns False at the end, where there is none. Raises SimulationError when it ca
                              "A ContactPairs for each two bodies that are near; copies.")
       .def_property_readonly("muscles", muscles, "Muscles by their names.")
       .def_property_readonly("ligaments", ligaments, "Ligaments by their names.")
+      .def_property_readonly("sheets", sheets, "Sheets of fibres by their names.")
       .def_property_readonly("probes", probes,
                              "What `history.csv` would have in a row now, by its columns.")
       .def_property_readonly("energies", energies,
