@@ -6,6 +6,7 @@
 
 #include "sim/base/available_memory.hpp"
 #include "sim/base/mistakes.hpp"
+#include "sim/base/place_text.hpp"
 #include "sim/build/body_collider.hpp"
 #include "sim/build/body_geometry.hpp"
 #include "sim/build/coincident_bodies.hpp"
@@ -178,25 +179,23 @@ class Builder {
   void tell_flat_elements(const Body& body, const MeshData& mesh) {
     const FlatElements flat = flat_elements(mesh.X, mesh.tets);
     if (flat.count == 0) return;
-    const Vec3 mm = 1e3 * flat.flattest;
     model_.warnings.push_back(
         prefix(body.where) +
         fmt::format("{} of {} tetrahedra of `{}` are flat (height below 1/50 of an edge), the "
-                    "flattest at ({:.3f} {:.3f} {:.3f}) mm: pressures beside them are uneven",
-                    flat.count, mesh.tets.cols(), body.name, mm.x(), mm.y(), mm.z()));
+                    "flattest at {}: pressures beside them are uneven",
+                    flat.count, mesh.tets.cols(), body.name, place_text(flat.flattest)));
   }
 
   /// A slit may be meant, so that this is no error.
   void tell_coincident_nodes(const Body& body, const MeshData& mesh) {
     const CoincidentNodes coincident = coincident_nodes(mesh.X);
     if (coincident.count == 0) return;
-    const Vec3 mm = 1e3 * coincident.place;
     model_.warnings.push_back(
         prefix(body.where) +
-        fmt::format("{} of {} nodes of `{}` lie where another of its nodes lies, one at ({:.3f} "
-                    "{:.3f} {:.3f}) mm: nothing holds the tissue together there; merge them unless "
-                    "a slit is meant",
-                    coincident.count, mesh.X.cols(), body.name, mm.x(), mm.y(), mm.z()));
+        fmt::format(
+            "{} of {} nodes of `{}` lie where another of its nodes lies, one at {}: nothing "
+            "holds the tissue together there; merge them unless a slit is meant",
+            coincident.count, mesh.X.cols(), body.name, place_text(coincident.place)));
   }
 
   /// The nodes in each region belong to a rigid body from now on.
@@ -224,10 +223,10 @@ class Builder {
       if (taken[i] != nullptr && taken[i]->to != attachment.to)
         throw InputError(
             attachment.where,
-            fmt::format("the node of `{}` at ({:.3f} {:.3f} {:.3f}) mm is attached to `{}` and, by "
+            fmt::format("the node of `{}` at {} is attached to `{}` and, by "
                         "the [[attach]] at {}:{}, to `{}`: expected regions without common nodes",
-                        attachment.body, 1e3 * x.x(), 1e3 * x.y(), 1e3 * x.z(), attachment.to,
-                        taken[i]->where.file, taken[i]->where.line, taken[i]->to));
+                        attachment.body, place_text(x), attachment.to, taken[i]->where.file,
+                        taken[i]->where.line, taken[i]->to));
       taken[i] = &attachment;
       tissue.nodes[i].rigid = rigid;
       tissue.nodes[i].local = x - model_.rigid_bodies[static_cast<std::size_t>(rigid)].rest.p;

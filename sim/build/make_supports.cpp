@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "sim/base/mistakes.hpp"
+#include "sim/base/place_text.hpp"
 #include "sim/build/region.hpp"
 #include "sim/build/weighted_points.hpp"
 
@@ -116,12 +117,10 @@ class Supporter {
           scenario_.supports[(is_first ? holders.back() : holders.front()).support].where;
       throw InputError(
           given.where,
-          fmt::format(
-              "support `{}` is driven, and its node of `{}` at ({:.3f} {:.3f} {:.3f}) mm is "
-              "held along the same direction by the [[support]] at {}:{} too: expected "
-              "regions without common nodes, or other axes",
-              given.name, given.body, 1e3 * x.x(), 1e3 * x.y(), 1e3 * x.z(), other.file,
-              other.line));
+          fmt::format("support `{}` is driven, and its node of `{}` at {} is "
+                      "held along the same direction by the [[support]] at {}:{} too: expected "
+                      "regions without common nodes, or other axes",
+                      given.name, given.body, place_text(x), other.file, other.line));
     }
   }
 
@@ -130,9 +129,9 @@ class Supporter {
     const Vec3 x = tissue.X.col(node);
     throw InputError(
         given.where,
-        fmt::format("the node of `{}` at ({:.3f} {:.3f} {:.3f}) mm is supported here and attached "
+        fmt::format("the node of `{}` at {} is supported here and attached "
                     "to {}: expected regions without common nodes",
-                    given.body, 1e3 * x.x(), 1e3 * x.y(), 1e3 * x.z(),
+                    given.body, place_text(x),
                     attachment_of(scenario_, model_, geometry_, tissue, node, on_surface)));
   }
 

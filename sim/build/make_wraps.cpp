@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/base/place_text.hpp"
 #include "sim/mesh/triangle_distance.hpp"
 #include "sim/mesh/winding_number.hpp"
 
@@ -44,12 +45,11 @@ StringEnd end_at(const std::vector<std::string>& names, const Vec3& x, const Wei
     const Nearest nearest = nearest_face(body, local);
     const bool inside = winding_number(body.X, body.surface.triangles, local) > 0.5;
     if (inside && nearest.distance > kDeepestInWrap * body.size) {
-      const Vec3 mm = 1e3 * x;
-      throw InputError(
-          where, fmt::format("`{}` wraps around `{}`, but its point ({:.3f} {:.3f} {:.3f}) mm lies "
-                             "{:.3g} mm inside: expected at most {:.3g} mm",
-                             line.name, names[k], mm.x(), mm.y(), mm.z(), 1e3 * nearest.distance,
-                             1e3 * kDeepestInWrap * body.size));
+      throw InputError(where,
+                       fmt::format("`{}` wraps around `{}`, but its point {} lies "
+                                   "{:.3g} mm inside: expected at most {:.3g} mm",
+                                   line.name, names[k], place_text(x), 1e3 * nearest.distance,
+                                   1e3 * kDeepestInWrap * body.size));
     }
     const bool moves_along = std::all_of(point.nodes.begin(), point.nodes.end(),
                                          [&](const NodeRef& n) { return n.rigid == body.rigid; });

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/place_text.hpp"
 #include "sim/build/region.hpp"
 #include "sim/mesh/triangle_tree.hpp"
 #include "sim/mesh/winding_number.hpp"
@@ -31,11 +32,10 @@ constexpr double kBesideBone = 0.1;
 void refuse_far(const Anchor& anchor, const std::string& body, double distance, double most,
                 const char* what) {
   if (!(distance > most)) return;
-  const Vec3 mm = 1e3 * anchor.point;
   throw InputError(anchor.where,
-                   fmt::format("the point ({:.3f} {:.3f} {:.3f}) mm lies {:.3g} mm from `{}`: "
+                   fmt::format("the point {} lies {:.3g} mm from `{}`: "
                                "expected one in it, or within {} ({:.3g} mm) of its surface",
-                               mm.x(), mm.y(), mm.z(), 1e3 * distance, body, what, 1e3 * most));
+                               place_text(anchor.point), 1e3 * distance, body, what, 1e3 * most));
 }
 
 /// Moves with the body wherever it lies.

@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "sim/base/place_text.hpp"
 #include "sim/contact/body_sweep.hpp"
 #include "sim/contact/contact_search.hpp"
 #include "sim/gap/passage.hpp"
@@ -396,9 +397,8 @@ std::int64_t CrossingSearch::pairs_looked_at() const { return search_->pairs; }
 
 std::string words_for(const Model& model, const Crossing& crossing) {
   const auto& body = model.bodies[static_cast<std::size_t>(crossing.body)].name;
-  const Vec3 mm = 1e3 * crossing.place;
-  const std::string where = fmt::format("at ({:.3f} {:.3f} {:.3f}) mm, by {:.3g} mm", mm.x(),
-                                        mm.y(), mm.z(), 1e3 * crossing.depth);
+  const std::string where =
+      fmt::format("at {}, by {:.3g} mm", place_text(crossing.place), 1e3 * crossing.depth);
   if (crossing.body == crossing.through)
     return fmt::format("`{}` goes through itself {}", body, where);
   return fmt::format("`{}` goes through `{}` {}", body,

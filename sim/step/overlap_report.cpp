@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "sim/base/place_text.hpp"
 #include "sim/contact/initial_overlap.hpp"
 #include "sim/step/overlap_resolution.hpp"
 
@@ -22,9 +23,8 @@ std::string pair_of(const Model& model, const ContactModel& contact) {
 
 /// By the surfaces as drawn.
 std::string as_drawn(const InitialOverlap& overlap) {
-  const Vec3 mm = 1e3 * overlap.place;
-  return fmt::format(" overlap at the start by {:.3g} mm, at ({:.3f} {:.3f} {:.3f}) mm, {} node{}",
-                     1e3 * overlap.depth, mm.x(), mm.y(), mm.z(), overlap.num_nodes,
+  return fmt::format(" overlap at the start by {:.3g} mm, at {}, {} node{}", 1e3 * overlap.depth,
+                     place_text(overlap.place), overlap.num_nodes,
                      overlap.num_nodes == 1 ? " of one in the other" : "s in the other body");
 }
 

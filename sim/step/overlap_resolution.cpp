@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/place_text.hpp"
 #include "sim/build/build_model.hpp"
 #include "sim/contact/initial_overlap.hpp"
 #include "sim/model/tied_bodies.hpp"
@@ -76,10 +77,9 @@ void refuse_lost_bodies(const Model& model, const ContactDepths& seen) {
     if (overlap.depth <= contact.max_penetration || are_tied(model, contact.a, contact.b)) continue;
     if (seen.of(overlap.contact) > 0) continue;
     throw SimulationError(
-        fmt::format("{} overlap at the start by {:.3g} mm, at ({:.3f} {:.3f} {:.3f}) mm, and "
+        fmt::format("{} overlap at the start by {:.3g} mm, at {}, and "
                     "contact can't tell the way out: move one of them",
-                    names(model, contact), 1e3 * overlap.depth, 1e3 * overlap.place.x(),
-                    1e3 * overlap.place.y(), 1e3 * overlap.place.z()));
+                    names(model, contact), 1e3 * overlap.depth, place_text(overlap.place)));
   }
 }
 

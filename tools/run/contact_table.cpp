@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/place_text.hpp"
 #include "sim/contact/contact_overview.hpp"
 
 namespace articular::tools {
@@ -55,9 +56,8 @@ std::string tied_row(const sim::Model& model, const sim::ContactOverview& overvi
 std::string surface_row(const sim::Model& model, const sim::SurfaceOverview& surface) {
   std::string flat = "-";
   if (surface.num_flat > 0) {
-    const sim::Vec3 mm = 1e3 * surface.flattest;
-    flat = fmt::format("{}, the flattest at ({:.3f} {:.3f} {:.3f}) mm", surface.num_flat, mm.x(),
-                       mm.y(), mm.z());
+    flat =
+        fmt::format("{}, the flattest at {}", surface.num_flat, sim::place_text(surface.flattest));
   }
   return fmt::format("  {:<20} {:>7} {:>9.3g} {:>9.3g}   {}\n", name(model, surface.body),
                      surface.num_faces, 1e3 * surface.edge, 1e3 * surface.height, flat);
