@@ -28,11 +28,17 @@ constexpr double kMostStiffening = 34;
 constexpr double kFarthestBeyond = 0.5, kLeastPart = 0.005, kFarthestCentre = 2,
                  kFarthestGyration = 20;
 
+/// Of a mass by the volume of the mesh [kg/m³]: a bone stands for a limb, or its mesh for a part.
+constexpr double kLeastDensity = 1, kMostDensity = 1e5;
+
 double volume_of(const MeshData& mesh) {
   double six_volumes = 0;
   for (const auto& tet : mesh.tets.colwise())
     six_volumes += fem::edge_matrix(mesh.X(Eigen::all, tet)).determinant();
-  return six_volumes / 6;
+  if (mesh.tets.cols() > 0) return six_volumes / 6;
+  for (const auto& triangle : mesh.triangles.colwise())
+    six_volumes += Mat3(mesh.X(Eigen::all, triangle)).determinant();
+  return std::abs(six_volumes) / 6;
 }
 
 std::string doubt_of_ball(const Body& body, const MeshData& mesh) {
@@ -89,8 +95,15 @@ std::string doubt_of_mass(const Body& body, const MeshData& mesh) {
         "the centre of mass of `{}` lies {:.3g} mm from the middle of its mesh, "
         "which is {:.3g} mm long",
         body.name, 1e3 * (*body.center_of_mass - middle).norm(), 1e3 * size);
-  if (!body.mass || !body.inertia) return "";
-  const double radius = std::sqrt(body.inertia->trace() / (2 * *body.mass));  // of gyration
+  const double volume = volume_of(mesh);
+  if (body.mass && volume > 0 &&
+      (*body.mass < kLeastDensity * volume || *body.mass > kMostDensity * volume))
+    return fmt::format(
+        "`{}` has a mass of {:.3g} kg, {:.2g} times that of as much water as its mesh holds",
+        body.name, *body.mass, *body.mass / (1000 * volume));
+  if (!body.inertia || !(body.mass || body.density)) return "";
+  const double mass = body.mass ? *body.mass : *body.density * volume;
+  const double radius = std::sqrt(body.inertia->trace() / (2 * mass));  // of gyration
   if (radius >= size / kFarthestGyration && radius <= kFarthestGyration * size) return "";
   return fmt::format(
       "with its mass and inertia `{}` has a radius of gyration of {:.3g} mm, and its "

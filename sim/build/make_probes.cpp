@@ -177,8 +177,27 @@ struct Resolver {
     return {rigid, point - rest.p, direction};
   }
 
+  bool pulls_on(const Line& line, int rigid) const {
+    const auto goes_with = [&](const NodeRef& node) { return node.rigid == rigid; };
+    return std::ranges::any_of(line.path,
+                               [&](const WeightedPoint& point) {
+                                 return std::ranges::any_of(point.nodes, goes_with);
+                               }) ||
+           std::ranges::any_of(line.wrap.bodies, [&](int wrapped) {
+             return model.wrap_bodies[static_cast<std::size_t>(wrapped)].rigid == rigid;
+           });
+  }
+
   Observed operator()(const MomentArmProbe& arm) const {
-    return ObservedMomentArm{line_called(arm.line), axis_of(arm.body, arm.point, arm.axis)};
+    const int line = line_called(arm.line);
+    if (!pulls_on(model.lines[static_cast<std::size_t>(line)], body(arm.body).rigid))
+      throw InputError(
+          probe.where,
+          fmt::format(
+              "[[probe]] `{}`: `{}` neither has a point on `{}` "
+              "nor wraps around it: its arm about it is 0; expected a body that it pulls on",
+              probe.name, arm.line, arm.body));
+    return ObservedMomentArm{line, axis_of(arm.body, arm.point, arm.axis)};
   }
 
   Observed operator()(const MuscleMomentProbe& net) const {

@@ -5,10 +5,28 @@
 #include <algorithm>
 #include <utility>
 
+#include "fem/material/any_material.hpp"
 #include "sim/base/error.hpp"
 
 namespace articular::sim {
 namespace {
+
+/// A muscle begins at less of its largest active force hardly by intent.
+constexpr double kLeastShareAtRest = 0.2;
+
+/// Of the largest active stress at any length; 1 of laws without a force-length curve.
+double active_share_at_rest(const fem::AnyMaterial& law) {
+  const std::optional<fem::MuscleFibre> fibre = fem::muscle_fibre(law);
+  if (!fibre) return 1;
+  const auto active = [&](double stretch) {
+    return fibre->tension(stretch, 1) - fibre->tension(stretch, 0);
+  };
+  constexpr double kLeast = 0.2, kMost = 1000, kFactor = 1.01;
+  double most = 0;
+  for (double stretch = kLeast; stretch < kMost; stretch *= kFactor)
+    most = std::max(most, active(stretch));
+  return most > 0 ? active(fem::prestretch(law)) / most : 0;
+}
 
 bool is_driven(const Muscle& muscle) { return !muscle.excitation.time.empty(); }
 
@@ -32,6 +50,12 @@ std::pair<std::string, Location> doubt_of_fibres(const Body& body, const Tissue&
     return {fmt::format("muscle `{}` has no `excitation`: the fibres of `{}` never pull",
                         muscle.name, body.name),
             muscle.where};
+  if (const double share = active_share_at_rest(*body.material->law); share < kLeastShareAtRest)
+    return {fmt::format("the fibres of `{}` can give only {:.1f} % of their active stress as they "
+                        "are drawn: are `optimal_stretch` and `tendon_ratio` the ones that were "
+                        "meant?",
+                        body.name, 100 * share),
+            body.material->where};
   return {};
 }
 

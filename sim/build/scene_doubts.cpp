@@ -15,6 +15,7 @@
 #include "sim/base/error.hpp"
 #include "sim/build/body_doubts.hpp"
 #include "sim/build/muscle_doubts.hpp"
+#include "sim/build/twin_doubts.hpp"
 #include "sim/mesh/chord_depth.hpp"
 #include "sim/mesh/extent.hpp"
 #include "sim/mesh/overlapping_parts.hpp"
@@ -25,8 +26,9 @@
 namespace articular::sim {
 namespace {
 
-/// Strain of a ligament at the start; they tear at a fifth of it.
-constexpr double kMostStrain = 0.5;
+/// Strains of a ligament at the start. They tear at half of the one; from the other on it gets taut
+/// only when its ends are twice as far apart.
+constexpr double kMostStrain = 0.4, kLeastStrain = -0.5;
 
 /// Between what is tied, of the longest side of the tissue's box: horns of a meniscus end above the
 /// tibia.
@@ -209,6 +211,12 @@ class Doubts {
                         "{:.4g} mm",
                         ligament.given.name, 100 * strain, 1e3 * ligament.slack_length,
                         1e3 * length));
+    if (strain < kLeastStrain)
+      doubt(ligament.given.where,
+            fmt::format("ligament `{}` is slack until it is {:.3g} times as long: its slack length "
+                        "is {:.4g} mm, and it starts with {:.4g} mm",
+                        ligament.given.name, ligament.slack_length / length,
+                        1e3 * ligament.slack_length, 1e3 * length));
   }
 
   void look_at(const Probe& probe, const JointProbe& joint) {
@@ -270,7 +278,8 @@ std::vector<std::string> scene_doubts(const Scenario& scenario, const Model& mod
                                       const std::vector<BodyGeometry>& geometry) {
   std::vector<std::string> doubts = Doubts(scenario, model, geometry).all();
   for (std::vector<std::string>& more :
-       std::array{muscle_doubts(scenario, model), body_doubts(scenario, geometry)})
+       std::array{muscle_doubts(scenario, model), body_doubts(scenario, geometry),
+                  twin_doubts(scenario, model)})
     std::move(more.begin(), more.end(), std::back_inserter(doubts));
   return doubts;
 }

@@ -28,11 +28,15 @@ struct Usual {
 // than 1 um thick, fasciae and aponeuroses up to 2 mm; skin has 0.1 MPa and more along its fibres.
 constexpr Usual kExtent{1e-4, 1}, kTissueDensity{100, 4000}, kRigidDensity{100, 25000},
     kShearModulus{10, 4e8}, kUsualForce{0, 2e4}, kUsualMoment{0, 2e3}, kUsualMass{0, 100},
-    kFibreStress{0, 3e6}, kGravity{0.1, 50}, kSlackLength{0, 1}, kStiffness{0, 1e7},
-    kStiffnessPerStrain{0, 1e6}, kFriction{0, 2}, kToeStrain{0, 0.5}, kShift{0, 1},
-    kSheetThickness{1e-7, 5e-3}, kSheetModulus{1e4, 2e10};
+    kFibreStress{1e3, 3e6}, kGravity{0.1, 50}, kSlackLength{0, 1}, kStiffness{1, 1e7},
+    kStiffnessPerStrain{1, 1e6}, kFriction{0, 2}, kToeStrain{0, 0.5}, kShift{0, 1},
+    kSheetThickness{1e-7, 5e-3}, kSheetModulus{1e4, 2e10}, kLayerThickness{1e-6, 2e-2},
+    kLayerModulus{1e3, 2e11}, kActivationTime{1e-4, 1}, kLengthRatio{1, 3}, kSpeed{0, 20};
 
 constexpr double kFarthest = 2;  // [m] of a line's end or a probe's point from its body's middle
+
+/// Of a bulk modulus by the shear modulus: below, Poisson's ratio is negative.
+constexpr double kAuxetic = 2.0 / 3 * (1 - 1e-9);
 
 constexpr double kWholeTurn = 2 * std::numbers::pi * (1 + 1e-9);  // [rad]
 
@@ -232,10 +236,41 @@ void doubt_ligaments(const Scenario& scenario, const Doubt& doubt) {
     const Usual& usual = by_length ? kStiffness : kStiffnessPerStrain;
     if (!is_usual(ligament.stiffness, usual))
       doubt(ligament.where,
-            fmt::format("ligament `{}` has a stiffness of {:.3g} {}, usual is up to "
-                        "{:g}",
+            fmt::format("ligament `{}` has a stiffness of {:.3g} {}, usual is {:g} to {:g}",
                         ligament.name, (by_length ? 1e-3 : 1) * ligament.stiffness,
-                        by_length ? "N/mm" : "N per strain", (by_length ? 1e-3 : 1) * usual.most));
+                        by_length ? "N/mm" : "N per strain", (by_length ? 1e-3 : 1) * usual.least,
+                        (by_length ? 1e-3 : 1) * usual.most));
+  }
+}
+
+template <class Doubt>
+void doubt_layer(const Body& body, const Doubt& doubt) {
+  const Layer& layer = *body.layer;
+  if (!is_usual(layer.thickness, kLayerThickness))
+    doubt(body.where, fmt::format("the layer of `{}` is {:.3g} mm thick, usual is {:g} to {:g} mm",
+                                  body.name, 1e3 * layer.thickness, 1e3 * kLayerThickness.least,
+                                  1e3 * kLayerThickness.most));
+  if (!is_usual(layer.young_modulus, kLayerModulus))
+    doubt(body.where, fmt::format("the layer of `{}` has a modulus of {:.3g} MPa, usual is {:g} to "
+                                  "{:g} MPa",
+                                  body.name, 1e-6 * layer.young_modulus, 1e-6 * kLayerModulus.least,
+                                  1e-6 * kLayerModulus.most));
+}
+
+template <class Doubt>
+void doubt_muscles(const Scenario& scenario, const Doubt& doubt) {
+  for (const Muscle& muscle : scenario.muscles) {
+    for (const auto& [time, what] : {std::pair(muscle.activation_time, "activation"),
+                                     std::pair(muscle.deactivation_time, "deactivation")})
+      if (scenario.analysis == Scenario::Analysis::Dynamic && !is_usual(time, kActivationTime))
+        doubt(muscle.where, fmt::format("muscle `{}` has a time constant of {} of {:.3g} ms, usual "
+                                        "is {:g} to {:g} ms",
+                                        muscle.name, what, 1e3 * time, 1e3 * kActivationTime.least,
+                                        1e3 * kActivationTime.most));
+    if (muscle.tissue.empty() && !is_usual(muscle.max_length_ratio, kLengthRatio))
+      doubt(muscle.where, fmt::format("the passive force of muscle `{}` is largest at {:.3g} times "
+                                      "its optimal length, usual is up to {:g}",
+                                      muscle.name, muscle.max_length_ratio, kLengthRatio.most));
   }
 }
 
@@ -264,6 +299,7 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
   for (std::size_t b = 0; b < scenario.bodies.size(); ++b) {
     const Body& body = scenario.bodies[b];
     const bool is_tissue = body.kind == Body::Kind::Tissue;
+    if (body.layer) doubt_layer(body, doubt);
     const bool is_made = !std::holds_alternative<MeshFile>(body.geometry);
     if (body.kind == Body::Kind::Fixed && is_made) continue;  // a floor may have any size
     const BodyModel& made = model.bodies[b];
@@ -284,11 +320,20 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
             fmt::format("`{}` has a shear modulus of {:.3g} Pa, usual is {:g} Pa to {:g} MPa",
                         body.name, tissue->shear_modulus, kShearModulus.least,
                         1e-6 * kShearModulus.most));
-    if (is_tissue && !is_usual(tissue->active_stress, kFibreStress))
+    if (is_tissue && tissue->active_stress > 0 && !is_usual(tissue->active_stress, kFibreStress))
       doubt(body.material->where,
-            fmt::format("fibres of `{}` pull with {:.3g} MPa, usual is up to 1 MPa", body.name,
+            fmt::format("fibres of `{}` pull with {:.3g} MPa, usual is 0.01 to 1 MPa", body.name,
                         1e-6 * tissue->active_stress));
+    if (is_tissue && tissue->bulk_modulus < kAuxetic * tissue->shear_modulus)
+      doubt(body.material->where,
+            fmt::format("`{}` has a bulk modulus of {:.3g} kPa and a shear modulus of {:.3g} kPa: "
+                        "drawn out it gets wider",
+                        body.name, 1e-3 * tissue->bulk_modulus, 1e-3 * tissue->shear_modulus));
+    if (!is_usual(body.velocity.norm(), kSpeed))
+      doubt(body.where,
+            fmt::format("`{}` starts with {:.3g} m/s", body.name, body.velocity.norm()));
   }
+  doubt_muscles(scenario, doubt);
   for (const Muscle& muscle : scenario.muscles)
     if (muscle.tissue.empty() && !is_usual(muscle.max_force, kUsualForce))
       doubt(muscle.where, fmt::format("muscle `{}` has a largest force of {:.3g} N", muscle.name,

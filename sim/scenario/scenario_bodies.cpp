@@ -90,7 +90,7 @@ Hold read_hold(const Node& node) {
          "one rotation alone cannot be held: hold two, which leaves a hinge, or three; of two "
          "bones that move against each other, one can be the hinge of the other's third rotation");
   table.read("at", hold.at);
-  hold.axes = rotation_matrix(table.get<Vec3>("turned"));
+  hold.axes = rotation_matrix(read_turn(table, "turned"));
   return hold;
 }
 

@@ -184,6 +184,10 @@ Target read_muscle_moment(const TableReader& table, const Context& context, cons
   MuscleMomentProbe net;
   const Node* muscles = table.find("muscles");
   net.muscles = muscles == nullptr ? named.muscles : muscles_that_fit(*muscles, context, named);
+  if (net.muscles.empty())
+    fail(table.node(),
+         "no muscle of the scene is a line, and fibres of tissue have no arm: expected "
+         "a probe \"attachment\" of the tissue and the bone");
   net.body = read_bone(table.at("body"), context);
   table.read("point", net.point);
   table.read("axis", net.axis);

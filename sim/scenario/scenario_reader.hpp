@@ -61,6 +61,10 @@ std::string_view freedom_name(std::size_t freedom);
 /// Which of them a list names.
 std::array<bool, 6> read_freedoms(const Node& node);
 
+/// A rotation vector [rad] of at most a whole turn: radians are written for degrees, and degrees
+/// for radians. @throws InputError  for more
+Vec3 read_turn(const TableReader& table, const char* key);
+
 /// The body that a node names. @throws InputError  if there is none, with the nearest name
 const Body& read_body_reference(const Node& node, const Context& context);
 

@@ -1,6 +1,7 @@
 // What the entries of a scenario have in common: names, references to bodies, points, regions,
 // curves.
 #include <algorithm>
+#include <numbers>
 
 #include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
@@ -95,10 +96,21 @@ const KeyTable& place_keys() {
   return kTable;
 }
 
+Vec3 read_turn(const TableReader& table, const char* key) {
+  constexpr double kWholeTurn = 2 * std::numbers::pi * (1 + 1e-9);  // [rad]
+  const Vec3 turn = table.get<Vec3>(key);
+  if (turn.norm() > kWholeTurn)
+    fail(table.at(key),
+         fmt::format("turns by {:.4g} degrees: expected at most 360; is the unit the "
+                     "one that was meant?",
+                     turn.norm() * 180 / std::numbers::pi));
+  return turn;
+}
+
 Placement read_placement(const Node& node) {
   const TableReader table(node, place_keys(), "place");
   Placement placement;
-  table.read("rotation", placement.rotation);
+  placement.rotation = read_turn(table, "rotation");
   table.read("about", placement.about);
   table.read("translation", placement.translation);
   table.read("scale", placement.scale);

@@ -10,7 +10,7 @@ namespace {
 void read_held_axes(const TableReader& table, Support& support) {
   const Node& freedoms = table.at("freedoms");
   const std::array<bool, 6> named = read_freedoms(freedoms);
-  const Mat3 axes = rotation_matrix(table.get<Vec3>("turned"));
+  const Mat3 axes = rotation_matrix(read_turn(table, "turned"));
   Eigen::Matrix3Xd& held = support.held;
   held.resize(3, 0);
   for (std::size_t i = 0; i < named.size(); ++i) {

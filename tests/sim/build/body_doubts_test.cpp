@@ -101,6 +101,36 @@ TEST(BodyDoubts, AreOfAMassThatIsNotThatOfItsMesh) {
   EXPECT_EQ(num(0, 0.32), 0U);
   EXPECT_EQ(num(0, 0.34), 1U);
   EXPECT_EQ(num(0, 0.0008), 1U);
+  bone.mass.reset();
+  bone.density = 12500;  // 0.1 kg too
+  bone.center_of_mass.reset();
+  for (const double gyration : {0.32, 0.34}) {
+    bone.inertia = 0.1 * gyration * gyration * Mat3::Identity();
+    EXPECT_EQ(doubts_of(bone).size(), gyration < 0.33 ? 0U : 1U) << gyration;
+  }
+}
+
+// 8 cm³ weigh 8 mg of next to nothing, or 800 kg of what no star is made of.
+TEST(BodyDoubts, AreOfAMassThatItsMeshCannotHold) {
+  for (const double mass : {7e-6, 9e-6, 0.79, 0.81}) {
+    Body bone = box_body("bone", Body::Kind::Rigid, Vec3::Constant(0.02), {0.1, 0, 0});
+    bone.density.reset();
+    bone.mass = mass;
+    EXPECT_EQ(doubts_of(bone).size(), mass > 8e-6 && mass < 0.8 ? 0U : 1U) << mass;
+  }
+  const TemporaryFolder folder;
+  const MeshData block = box_mesh({Vec3::Constant(0.02), {1, 1, 1}, Vec3(0.01, 0, 0)});
+  MeshData shell;
+  shell.X = block.X;
+  shell.triangles =
+      read_geometry(mesh_body("bone", Body::Kind::Rigid, block, folder)).mesh.triangles;
+  if (shell.triangles.cols() == 0) GTEST_SKIP();
+  Body bone = mesh_body("bone", Body::Kind::Rigid, shell, folder);
+  bone.density.reset();
+  bone.mass = 10.4;
+  ASSERT_EQ(doubts_of(bone).size(), 1U);
+  EXPECT_NE(doubts_of(bone)[0].find("1.3e+03 times that of as much water"), std::string::npos)
+      << doubts_of(bone)[0];
 }
 
 }  // namespace articular::sim::body_doubts_test

@@ -38,6 +38,26 @@ TEST(MakeProbes, ContactOfBodiesThatMayNotTouchIsRefused) {
     EXPECT_THROW(build_model(balls(first, second)), InputError) << first << second;
 }
 
+// A line turns only what it ends on or wraps around.
+TEST(MakeProbes, AnArmOnABodyThatALineDoesNotPullIsRefused) {
+  Scenario s = balls("left", "floor");
+  Ligament line;
+  line.name = "string";
+  line.path = {anchor("left", {-0.02, 0, 0.02}), anchor("wall", {0.1, 0, 0})};
+  line.stiffness = 1000;
+  s.ligaments = {line};
+  for (const auto& [body, is_pulled] :
+       {std::pair("left", true), std::pair("wall", true), std::pair("right", false)}) {
+    s.probes[0].what = MomentArmProbe{"string", body, Vec3::Zero()};
+    if (is_pulled)
+      EXPECT_NO_THROW(build_model(s)) << body;
+    else
+      EXPECT_THROW(build_model(s), InputError) << body;
+  }
+  s.ligaments[0].wrap = {"right"};
+  EXPECT_NO_THROW(build_model(s));
+}
+
 // Forces of 0 would look like a result.
 TEST(MakeProbes, ContactThatIsTurnedOffIsRefusedToo) {
   Scenario s = balls("left", "floor");

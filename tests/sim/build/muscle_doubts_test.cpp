@@ -37,7 +37,7 @@ Muscle of_fibres(const Curve& excitation) {
 Muscle line(const std::string& name, const Curve& excitation) {
   Muscle muscle;
   muscle.name = name;
-  muscle.path = {anchor("block", {0, 0, 0.01}), anchor("floor", {0, 0, 0.1})};
+  muscle.path = {anchor("block", {0, 0, 0.01}), anchor("floor", {0, 1e-4 * name[0], 0.1})};
   muscle.max_force = 100;
   muscle.excitation = excitation;
   muscle.where = {"scene.toml", 9, 1};
@@ -51,6 +51,23 @@ TEST(MuscleDoubts, AreNoneOfFibresThatPull) {
   s.muscles = {of_fibres(kPull)};
   EXPECT_EQ(doubt(s), "");
   EXPECT_EQ(doubt(fibres(0)), "");
+}
+
+// At n = (1/λ − r)/(1 − r) of its optimum fibre gives 9 (n − 0.4)² below 0.6.
+TEST(MuscleDoubts, AreOfFibresThatCannotPullAsTheyAreDrawn) {
+  for (const auto& [optimal, tendon, words] :
+       {std::tuple(1.09, 0.46, ""), std::tuple(1.8, 0.0, ""), std::tuple(92.0, 0.0, "only 0.0 %"),
+        std::tuple(1.92, 0.0, "only 13.1 %"), std::tuple(1.2, 0.9, "only 0.0 %")}) {
+    Scenario s = fibres(2e5);
+    s.bodies[0].material = material_of(fem::BlemkerMuscle<>(
+        fem::MuscleFibre({.optimal_stretch = optimal, .tendon_ratio = tendon}), {}));
+    s.bodies[0].material->fibres = Fibres{Vec3::UnitZ()};
+    s.bodies[0].material->element = TissueMaterial::Element::Smoothed;
+    s.muscles = {of_fibres(kPull)};
+    const std::string told = doubt(s);
+    EXPECT_TRUE(says(told, words)) << optimal << " " << tendon;
+    EXPECT_EQ(told.empty(), std::string_view(words).empty()) << optimal << " " << tendon;
+  }
 }
 
 TEST(MuscleDoubts, AreOfAMuscleWhoseMaterialCannotPull) {

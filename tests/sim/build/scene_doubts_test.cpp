@@ -100,10 +100,18 @@ TEST(SceneDoubts, AreOfASheetOnNothingButWhatIsTied) {
 
 TEST(SceneDoubts, AreOfALigamentThatStartsDrawnOut) {
   Scenario s = cartilage_on_bone(0);
-  s.ligaments[0].slack_length = 0.0201;
+  s.ligaments[0].slack_length = 0.03 / 1.39;
   EXPECT_EQ(doubt(s), "");
-  s.ligaments[0].slack_length = 0.015;
-  EXPECT_TRUE(says(doubt(s), "drawn out by 100 %"));
+  s.ligaments[0].slack_length = 0.03 / 1.41;
+  EXPECT_TRUE(says(doubt(s), "drawn out by 41 %"));
+}
+
+TEST(SceneDoubts, AreOfALigamentThatHardlyEverGetsTaut) {
+  Scenario s = cartilage_on_bone(0);
+  s.ligaments[0].slack_length = 1.9 * 0.03;
+  EXPECT_EQ(doubt(s), "");
+  s.ligaments[0].slack_length = 9.5 * 0.03;
+  EXPECT_TRUE(says(doubt(s), "is slack until it is 9.5 times as long"));
 }
 
 TEST(SceneDoubts, AreOfJointAxesThatPointOppositeWays) {

@@ -609,6 +609,11 @@ INSTANTIATE_TEST_SUITE_P(
                        "\"motion\"\nbody = @\"stand\"\n"
                        "time = [\"0 s\"]\nrotation = [\"0 0 1 deg\"]\n"),
                 "`body`: body `stand` already has a motion, at jaw.toml:21"},
+        Mistake{"TurnOfAHoldInRadians",
+                kStart + "[[body]]\nname = \"block\"\nkind = \"rigid\"\ndensity = \"1 "
+                         "g/cm^3\"\ngeometry = { box = { size = \"1 1 1 mm\" } }\nhold = { "
+                         "freedoms = [\"translation.x\"], turned = @\"0 0 90 rad\" }\n",
+                "turns by 5157 degrees: expected at most 360"},
         Mistake{"ContactOfOne", kStart + "[[contact]]\nbodies = @[\"skull\"]\n",
                 "`bodies`: expected the names of two bodies, found a list of 1"},
         Mistake{"RigidSelfContact", kStart + "[[contact]]\nself = @\"mandible\"\n",
