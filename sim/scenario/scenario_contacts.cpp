@@ -133,7 +133,7 @@ void read_contacts(const TableReader& document, const Context& context, Scenario
     return;
   }
   if (node->list() == nullptr)
-    fail(*node, fmt::format("expected false or entries that start with [[contact]], found {}",
+    fail(*node, fmt::format("expected true, false or entries that start with [[contact]], found {}",
                             found(*node)));
   std::map<std::pair<std::string, std::string>, Location> places;
   read_each(*node->list(), [&](const Node& element) {

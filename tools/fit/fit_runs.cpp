@@ -10,6 +10,7 @@
 #include "sim/base/error.hpp"
 #include "tools/fit/fit_values.hpp"
 #include "tools/fit/parameter_text.hpp"
+#include "tools/study/case_warnings.hpp"
 
 namespace articular::tools {
 namespace {
@@ -107,6 +108,8 @@ std::vector<TrialValues> run_trials(const Fit& fit, const std::vector<FitTrial>&
     for (const std::size_t run : runs)
       case_of_run[t][run] = cases.add(case_of(fit, fit.runs[run], trials[t]));
   const std::vector<CaseRecord> records = run_cases(study, cases.all(), options);
+  if (part == FitPart::All)  // what the fit begins and ends with
+    tell_warnings(case_warnings(cases.all(), records, options.directory), cases.all().size());
 
   const std::vector<FitMeasurement> measurements = measurements_of(fit, part);
   std::vector<TrialValues> results(trials.size());

@@ -45,7 +45,8 @@ std::string text_of(const sim::Node& document, std::string_view key, std::string
 std::string kind_of(const sim::Node& document) {
   const auto has = [&](std::string_view key) { return document.find(key) != nullptr; };
   if (has("population")) return "population";
-  if (has("scenario")) return has("target") ? "track" : has("parameter") ? "fit" : "study";
+  if (has("scenario"))
+    return has("target") ? "track" : has("parameter") || has("measurement") ? "fit" : "study";
   return has("duration") ? text_of(document, "analysis", "dynamic") : "";
 }
 

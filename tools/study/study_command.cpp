@@ -9,6 +9,7 @@
 #include "sim/output/frame_writer.hpp"
 #include "tools/process/interruption.hpp"
 #include "tools/shipped/shipped_scenarios.hpp"
+#include "tools/study/case_warnings.hpp"
 #include "tools/study/population_run.hpp"
 #include "tools/study/study_command.hpp"
 #include "tools/study/study_report.hpp"
@@ -53,19 +54,22 @@ void draw(const std::string& commands, const fs::path& directory, const fs::path
 int compare_settings(const Study& study, const StudyRunOptions& options, bool cpu_time) {
   const std::vector<StudyCase> cases = study_cases(study);
   const std::vector<CaseRecord> records = run_cases(study, cases, options);
+  const auto warnings = case_warnings(cases, records, options.directory);
+  const std::string warned = warnings_table(warnings, cases.size());
+  tell_warnings(warnings, cases.size());
   const fs::path table = options.directory / "study.csv", text = options.directory / "study.md",
                  picture = options.directory / "pareto.svg";
   if (study.is_sweep()) {
     const auto values = values_of_cases(study, cases, records, options.directory);
     sim::write_text_file(table, sweep_csv(study, cases, records, values));
-    sim::write_text_file(text, sweep_text(study, cases, records, values));
+    sim::write_text_file(text, sweep_text(study, cases, records, values) + warned);
     fmt::print("{}\n{}\n", text.string(), table.string());
     return 0;
   }
   const Assessment assessment =
       assess(study, cases, records, options.directory, cpu_time || options.jobs > 1);
   sim::write_text_file(table, study_csv(study, cases, records, assessment));
-  sim::write_text_file(text, study_text(study, cases, records, assessment));
+  sim::write_text_file(text, study_text(study, cases, records, assessment) + warned);
   fmt::print("{}\n{}\n", text.string(), table.string());
   draw(study_plot(cases, study.title, assessment, picture), options.directory, picture);
   return 0;

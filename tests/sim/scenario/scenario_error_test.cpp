@@ -610,10 +610,11 @@ INSTANTIATE_TEST_SUITE_P(
                        "time = [\"0 s\"]\nrotation = [\"0 0 1 deg\"]\n"),
                 "`body`: body `stand` already has a motion, at jaw.toml:21"},
         Mistake{"TurnOfAHoldInRadians",
-                kStart + "[[body]]\nname = \"block\"\nkind = \"rigid\"\ndensity = \"1 "
-                         "g/cm^3\"\ngeometry = { box = { size = \"1 1 1 mm\" } }\nhold = { "
-                         "freedoms = [\"translation.x\"], turned = @\"0 0 90 rad\" }\n",
-                "turns by 5157 degrees: expected at most 360"},
+                kStart + "[[body]]\nname = \"block\"\nkind = \"rigid\"\ndensity = \"1 g/cm^3\"\n"
+                         "geometry = { box = { size = \"1 1 1 mm\", cells = [1, 1, 1] } }\n"
+                         "hold = { freedoms = [\"translation.x\"], turned = @\"0 0 90 rad\" }\n",
+                "`turned`: turns by 5157 degrees: expected at most 360; is the unit the one that "
+                "was meant?"},
         Mistake{"ContactOfOne", kStart + "[[contact]]\nbodies = @[\"skull\"]\n",
                 "`bodies`: expected the names of two bodies, found a list of 1"},
         Mistake{"RigidSelfContact", kStart + "[[contact]]\nself = @\"mandible\"\n",
@@ -652,7 +653,8 @@ INSTANTIATE_TEST_SUITE_P(
                          "[\"mand*\", \"*\"]\n",
                 "[[contact]]: the pair `mand*`, `*` is given twice, first at jaw.toml:21"},
         Mistake{"ContactText", "contact = @\"none\"\n" + kStart,
-                "`contact`: expected false or entries that start with [[contact]], found \"none\""},
+                "`contact`: expected true, false or entries that start with [[contact]], found "
+                "\"none\""},
         Mistake{"ContactsTwice",
                 kStart + "[[probe]]\nname = \"p\"\nkind = \"contacts\"\nof = [\"a\", @\"a\"]\n",
                 "`of[1]`: probe `a` is named twice, and would count twice: expected each once"},

@@ -144,6 +144,15 @@ TEST(EquilibriumDiagnosis, CallsAMotionNearlyFreeByHowFarTheLargestForceCarriesI
   EXPECT_NE(
       diagnose_equilibrium(run.stepper.now(), softest, {}).cause.find("`plate` is nearly free"),
       std::string::npos);
+  const auto doubts_loads = [&] {
+    const std::string details = diagnose_equilibrium(run.stepper.now(), softest, {}).details;
+    EXPECT_NE(details.find("to add: "), std::string::npos) << details;
+    return details.find("to look at: the loads and their units; `slope` is tied") !=
+           std::string::npos;
+  };
+  EXPECT_FALSE(doubts_loads());  // nothing holds a plate that its spring does not
+  softest.bodies = {{0, 1, "shift along (1.00 0.00 0.00)"}};
+  EXPECT_TRUE(doubts_loads());
   softest.stiffness = force / 1e-6;
   EXPECT_EQ(diagnose_equilibrium(run.stepper.now(), softest, {}).cause.find("nearly free"),
             std::string::npos);
