@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "fem/material/any_material.hpp"
@@ -21,10 +22,12 @@ double active_share_at_rest(const fem::AnyMaterial& law) {
   const auto active = [&](double stretch) {
     return fibre->tension(stretch, 1) - fibre->tension(stretch, 0);
   };
-  constexpr double kLeast = 0.2, kMost = 1000, kFactor = 1.01;
+  constexpr double kLeast = 0.2, kMost = 1000;  // of the stretches to look at
+  constexpr int kSteps = 1000;
   double most = 0;
-  for (double stretch = kLeast; stretch < kMost; stretch *= kFactor)
-    most = std::max(most, active(stretch));
+  for (int i = 0; i <= kSteps; ++i)
+    most =
+        std::max(most, active(kLeast * std::pow(kMost / kLeast, static_cast<double>(i) / kSteps)));
   return most > 0 ? active(fem::prestretch(law)) / most : 0;
 }
 
