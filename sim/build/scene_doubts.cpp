@@ -22,6 +22,7 @@
 #include "sim/model/ignored_overlaps.hpp"
 #include "sim/model/tissue.hpp"
 #include "sim/scenario/driven_motion.hpp"
+#include "sim/scenario/name_pattern.hpp"
 
 namespace articular::sim {
 namespace {
@@ -59,6 +60,8 @@ class Doubts {
     look_at_overlaps();
     look_at_loads();
     for (const Sheet& sheet : scenario_.sheets) look_at(sheet);
+    for (const ContactPair& pair : scenario_.contacts)
+      if (!is_pattern(pair.a) && !is_pattern(pair.b)) look_at(pair);
     look_at_contact_stiffness();
     for (const Load& load : scenario_.loads)
       if (const auto* motion = std::get_if<MotionLoad>(&load)) look_at(*motion);
@@ -166,8 +169,7 @@ class Doubts {
       if (const auto* force = std::get_if<ForceLoad>(&load)) {
         const WeightedPoint& point = model_.forces[forces++].point;
         if (const auto* region = std::get_if<TissueRegion>(&force->at))
-          if (std::ranges::all_of(point.nodes, is_attached))
-            doubt_load(force->where, "node", point.nodes.size(), region->tissue);
+          look_at(*force, point.nodes, region->tissue);
       } else if (const auto* surface = std::get_if<SurfaceLoad>(&load)) {
         const auto& faces = model_.surface_loads[surfaces++].faces;
         if (std::ranges::all_of(
@@ -177,7 +179,36 @@ class Doubts {
     }
   }
 
+  template <class Nodes>
+  void look_at(const ForceLoad& load, const Nodes& nodes, const std::string& tissue) {
+    const auto is_held = [&](const NodeRef& node) { return is_held_along(node, load.force); };
+    if (std::ranges::all_of(nodes, is_attached))
+      doubt_load(load.where, "node", nodes.size(), tissue);
+    else if (std::ranges::all_of(nodes, is_held))
+      doubt(load.where,
+            fmt::format("every loaded node of `{}` ({} in the region) is held along the force by a "
+                        "support: it takes the load, which deforms nothing",
+                        tissue, nodes.size()));
+  }
+
   static bool is_attached(const NodeRef& node) { return node.rigid >= 0; }
+
+  bool is_held_along(const NodeRef& node, const Vec3& direction) const {
+    constexpr double kRoundOff = 1e-9;
+    if (is_attached(node)) return true;
+    const auto held = std::ranges::find(model_.held_blocks, node.block, &HeldBlock::block);
+    return held != model_.held_blocks.end() &&
+           (held->free * direction).norm() <= kRoundOff * direction.norm();
+  }
+
+  void look_at(const ContactPair& pair) {
+    if (pair.a == pair.b) return;
+    for (const std::string& name : {pair.a, pair.b})
+      if (model_.bodies[index(name)].kind != Body::Kind::Fixed) return;
+    doubt(pair.where, fmt::format("`{}` and `{}` are both fixed: nothing gives way where they "
+                                  "touch, and what no [[contact]] names does not touch",
+                                  pair.a, pair.b));
+  }
 
   void doubt_load(const Location& where, const char* part, std::size_t count,
                   const std::string& tissue) {

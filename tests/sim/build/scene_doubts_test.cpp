@@ -78,6 +78,46 @@ TEST(SceneDoubts, AreOfLoadsOnNothingButWhatIsTied) {
   EXPECT_TRUE(says(doubt(s), "every loaded face of `cartilage` (32 in the region) is attached"));
 }
 
+TEST(SceneDoubts, AreOfAForceThatASupportTakes) {
+  Scenario s = cartilage_on_bone(0);
+  Support roller;
+  roller.body = "cartilage";
+  roller.region.box = {Vec3(-1, -1, 0.019), Vec3(1, 1, 0.021)};
+  roller.held = Vec3::UnitZ();
+  s.supports = {roller};
+  ForceLoad load;
+  load.at = TissueRegion{"cartilage", roller.region};
+  for (const Vec3& force : {Vec3(0, 0, -1), Vec3(1, 0, -1), Vec3(0, 1, 0)}) {
+    load.force = force;
+    s.loads = {load};
+    const bool is_taken = force.x() == 0 && force.y() == 0;
+    EXPECT_EQ(doubt(s).find("every loaded node of `cartilage` (25 in the region) is held along") !=
+                  std::string::npos,
+              is_taken)
+        << force.transpose();
+  }
+  load.force = {0, 0, -1};
+  std::get<TissueRegion>(load.at).region.box->first.z() = 0.014;  // a row that is free
+  s.loads = {load};
+  EXPECT_EQ(doubt(s), "");
+}
+
+TEST(SceneDoubts, AreOfContactOfTwoFixedBodies) {
+  Scenario s = cartilage_on_bone(0);
+  s.attachments.clear();
+  s.contact = true;
+  s.bodies[2] = box_body("floor", Body::Kind::Fixed, {0.1, 0.1, 0.01}, {0, 0, -0.1});
+  s.bodies.push_back(box_body("wall", Body::Kind::Fixed, {0.1, 0.1, 0.01}, {0, 0, -0.2}));
+  s.ligaments.clear();
+  ContactPair pair;
+  pair.a = "cartilage";
+  pair.b = "floor";
+  s.contacts = {pair};
+  EXPECT_EQ(doubt(s), "");
+  s.contacts[0].a = "wall";
+  EXPECT_TRUE(says(doubt(s), "`wall` and `floor` are both fixed: nothing gives way"));
+}
+
 TEST(SceneDoubts, AreOfASheetOnNothingButWhatIsTied) {
   Scenario s = cartilage_on_bone(0);
   const auto sheet = [](double low, double high) {
