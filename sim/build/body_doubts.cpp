@@ -28,8 +28,8 @@ constexpr double kMostStiffening = 34;
 constexpr double kFarthestBeyond = 0.5, kLeastPart = 0.005, kFarthestCentre = 2,
                  kFarthestGyration = 20;
 
-/// Of a mass by the volume of the mesh [kg/m³]: a bone stands for a limb, or its mesh for a part.
-constexpr double kLeastDensity = 1, kMostDensity = 1e5;
+/// Of a mass by the volume of the mesh [kg/m³]: a bone stands for a limb, and a ball for a weight.
+constexpr double kLeastDensity = 1, kMostDensity = 1e6;
 
 double volume_of(const MeshData& mesh) {
   double six_volumes = 0;
