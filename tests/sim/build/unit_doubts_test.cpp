@@ -26,6 +26,14 @@ Scenario usual() {
   return s;
 }
 
+/// From the bone to the floor. @param length  [m]
+Ligament of_length(double length) {
+  Ligament ligament;
+  ligament.name = "acl";
+  ligament.path = {anchor("bone", {1, 0, 0}), anchor("floor", {1, 0, length})};
+  return ligament;
+}
+
 std::size_t num_doubts(const Scenario& s) { return build_model(s).warnings.size(); }
 
 TEST(UnitDoubts, AreNoneOfWhatIsUsual) { EXPECT_EQ(num_doubts(usual()), 0U); }
@@ -112,9 +120,7 @@ TEST(UnitDoubts, AreOfAMotionOfMetres) {
 TEST(UnitDoubts, AreOfALigamentsStiffnessByItsLaw) {
   for (const double stiffness : {0.9e6, 1.1e6, 0.9e7, 1.1e7}) {
     Scenario s = usual();
-    Ligament ligament;
-    ligament.name = "acl";
-    ligament.path = {anchor("bone", {1, 0, 0}), anchor("floor", {1, 0, 0.3})};
+    Ligament ligament = of_length(0.3);
     ligament.stiffness = stiffness;
     s.ligaments = {ligament};
     EXPECT_EQ(num_doubts(s), stiffness < 1e7 ? 0U : 1U) << stiffness;
@@ -126,9 +132,7 @@ TEST(UnitDoubts, AreOfALigamentsStiffnessByItsLaw) {
 TEST(UnitDoubts, AreOfALigamentThatIsSofterThanAThread) {
   for (const double stiffness : {0.9, 1.1}) {
     Scenario s = usual();
-    Ligament ligament;
-    ligament.name = "acl";
-    ligament.path = {anchor("bone", {1, 0, 0}), anchor("floor", {1, 0, 0.3})};
+    Ligament ligament = of_length(0.3);
     ligament.stiffness = stiffness;
     s.ligaments = {ligament};
     EXPECT_EQ(num_doubts(s), stiffness > 1 ? 0U : 1U) << stiffness;
@@ -209,9 +213,7 @@ TEST(UnitDoubts, AreOfAHoldFarFromItsBody) {
 TEST(UnitDoubts, AreOfALigamentsLength) {
   for (const double length : {0.9, 1.1}) {
     Scenario s = usual();
-    Ligament ligament;
-    ligament.name = "acl";
-    ligament.path = {anchor("bone", {1, 0, 0}), anchor("floor", {1, 0, 0.8})};
+    Ligament ligament = of_length(0.8);
     ligament.stiffness = 100;
     ligament.slack_length = length;
     s.ligaments = {ligament};
@@ -321,9 +323,7 @@ TEST(UnitDoubts, AreOfSheetsOfOtherUnits) {
 TEST(UnitDoubts, AreOfAToeStrainInPerCent) {
   for (const double strain : {0.03, 0.5, 3.0}) {
     Scenario s = usual();
-    Ligament ligament;
-    ligament.name = "acl";
-    ligament.path = {anchor("bone", {1, 0, 0}), anchor("floor", {1, 0, 0.3})};
+    Ligament ligament = of_length(0.3);
     ligament.law = Ligament::Law::Blankevoort;
     ligament.stiffness = 100;
     ligament.toe_strain = strain;
