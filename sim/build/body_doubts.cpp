@@ -10,6 +10,7 @@
 #include "fem/mesh/tetrahedron.hpp"
 #include "sim/base/error.hpp"
 #include "sim/mesh/extent.hpp"
+#include "sim/mesh/winding_number.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
@@ -35,10 +36,7 @@ double volume_of(const MeshData& mesh) {
   double six_volumes = 0;
   for (const auto& tet : mesh.tets.colwise())
     six_volumes += fem::edge_matrix(mesh.X(Eigen::all, tet)).determinant();
-  if (mesh.tets.cols() > 0) return six_volumes / 6;
-  for (const auto& triangle : mesh.triangles.colwise())
-    six_volumes += Mat3(mesh.X(Eigen::all, triangle)).determinant();
-  return std::abs(six_volumes) / 6;
+  return six_volumes / 6;
 }
 
 std::string doubt_of_ball(const Body& body, const MeshData& mesh) {
@@ -95,7 +93,8 @@ std::string doubt_of_mass(const Body& body, const MeshData& mesh) {
         "the centre of mass of `{}` lies {:.3g} mm from the middle of its mesh, "
         "which is {:.3g} mm long",
         body.name, 1e3 * (*body.center_of_mass - middle).norm(), 1e3 * size);
-  const double volume = volume_of(mesh);
+  const double volume =  // an open surface has none
+      is_closed(mesh.triangles) ? solid_mass_properties(mesh.X, mesh.triangles, 1).mass : 0;
   if (body.mass && volume > 0 &&
       (*body.mass < kLeastDensity * volume || *body.mass > kMostDensity * volume))
     return fmt::format(

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sim/base/error.hpp"
+#include "sim/scenario/scenario_reader.hpp"
 
 namespace articular::sim {
 namespace {
@@ -76,8 +77,6 @@ class TwinDoubts {
   std::vector<std::string> lines_;
 };
 
-std::string line_of(const Location& where) { return fmt::format("{}:{}", where.file, where.line); }
-
 template <class Kind>
 std::vector<const Kind*> loads_of(const Scenario& scenario) {
   std::vector<const Kind*> loads;
@@ -91,7 +90,7 @@ void look_at_loads(const Scenario& scenario, const Model& model, TwinDoubts& dou
       loads_of<GravityLoad>(scenario), [](auto* a, auto* b) { return are_twins(*a, *b); },
       [](auto* a, auto* b) {
         return prefix(b->where) +
-               fmt::format("the same gravity is there already, at {}: both act", line_of(a->where));
+               fmt::format("the same gravity is there already, at {}: both act", place(a->where));
       });
   struct SurfaceTwin {
     const SurfaceLoad* given;
@@ -107,7 +106,7 @@ void look_at_loads(const Scenario& scenario, const Model& model, TwinDoubts& dou
         return prefix(b.given->where) + fmt::format(
                                             "the same load on the same faces of `{}` is "
                                             "there already, at {}: both act",
-                                            b.given->at.tissue, line_of(a.given->where));
+                                            b.given->at.tissue, place(a.given->where));
       });
 }
 
@@ -117,7 +116,7 @@ void look_at_lines(const Lines& lines, const char* kind, TwinDoubts& doubts) {
       lines, [](const auto& a, const auto& b) { return are_twins(a, b); },
       [kind](const auto& a, const auto& b) {
         return prefix(b.where) + fmt::format("{} `{}` is the same as `{}`, at {}: both pull", kind,
-                                             b.name, a.name, line_of(a.where));
+                                             b.name, a.name, place(a.where));
       });
 }
 
@@ -136,7 +135,7 @@ void look_at_sheets(const Scenario& scenario, const Model& model, TwinDoubts& do
                  fmt::format(
                      "sheet `{}` lies on the same faces as `{}`, at {}, with the same "
                      "fibres: both pull",
-                     b.name, a.name, line_of(given(a).where));
+                     b.name, a.name, place(given(a).where));
         });
 }
 

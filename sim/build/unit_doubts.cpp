@@ -256,18 +256,27 @@ void doubt_ligaments(const Scenario& scenario, const Doubt& doubt) {
   }
 }
 
+/// @param what  has the thickness [m] and the modulus [Pa]
+template <class Doubt>
+void doubt_thickness(const Location& where, const std::string& what, double thickness,
+                     const Usual& usual, const Doubt& doubt) {
+  if (!is_usual(thickness, usual))
+    doubt(where, fmt::format("{} is {:.3g} mm thick, usual is {:g} to {:g} mm", what,
+                             1e3 * thickness, 1e3 * usual.least, 1e3 * usual.most));
+}
+template <class Doubt>
+void doubt_modulus(const Location& where, const std::string& what, double modulus,
+                   const Usual& usual, const Doubt& doubt) {
+  if (!is_usual(modulus, usual))
+    doubt(where, fmt::format("{} has a modulus of {:.3g} MPa, usual is {:g} to {:g} MPa", what,
+                             1e-6 * modulus, 1e-6 * usual.least, 1e-6 * usual.most));
+}
+
 template <class Doubt>
 void doubt_layer(const Body& body, const Doubt& doubt) {
-  const Layer& layer = *body.layer;
-  if (!is_usual(layer.thickness, kLayerThickness))
-    doubt(body.where, fmt::format("the layer of `{}` is {:.3g} mm thick, usual is {:g} to {:g} mm",
-                                  body.name, 1e3 * layer.thickness, 1e3 * kLayerThickness.least,
-                                  1e3 * kLayerThickness.most));
-  if (!is_usual(layer.young_modulus, kLayerModulus))
-    doubt(body.where, fmt::format("the layer of `{}` has a modulus of {:.3g} MPa, usual is {:g} to "
-                                  "{:g} MPa",
-                                  body.name, 1e-6 * layer.young_modulus, 1e-6 * kLayerModulus.least,
-                                  1e-6 * kLayerModulus.most));
+  const std::string what = fmt::format("the layer of `{}`", body.name);
+  doubt_thickness(body.where, what, body.layer->thickness, kLayerThickness, doubt);
+  doubt_modulus(body.where, what, body.layer->young_modulus, kLayerModulus, doubt);
 }
 
 template <class Doubt>
@@ -280,7 +289,11 @@ void doubt_muscles(const Scenario& scenario, const Doubt& doubt) {
                                         "is {:g} to {:g} ms",
                                         muscle.name, what, 1e3 * time, 1e3 * kActivationTime.least,
                                         1e3 * kActivationTime.most));
-    if (muscle.tissue.empty() && !is_usual(muscle.max_length_ratio, kLengthRatio))
+    if (!muscle.tissue.empty()) continue;
+    if (!is_usual(muscle.max_force, kUsualForce))
+      doubt(muscle.where, fmt::format("muscle `{}` has a largest force of {:.3g} N", muscle.name,
+                                      muscle.max_force));
+    if (!is_usual(muscle.max_length_ratio, kLengthRatio))
       doubt(muscle.where, fmt::format("the passive force of muscle `{}` is largest at {:.3g} times "
                                       "its optimal length, usual is up to {:g}",
                                       muscle.name, muscle.max_length_ratio, kLengthRatio.most));
@@ -290,15 +303,9 @@ void doubt_muscles(const Scenario& scenario, const Doubt& doubt) {
 template <class Doubt>
 void doubt_sheets(const Scenario& scenario, const Doubt& doubt) {
   for (const Sheet& sheet : scenario.sheets) {
-    if (!is_usual(sheet.thickness, kSheetThickness))
-      doubt(sheet.where, fmt::format("sheet `{}` is {:.3g} mm thick, usual is {:g} to {:g} mm",
-                                     sheet.name, 1e3 * sheet.thickness, 1e3 * kSheetThickness.least,
-                                     1e3 * kSheetThickness.most));
-    if (!is_usual(sheet.young_modulus, kSheetModulus))
-      doubt(sheet.where,
-            fmt::format("sheet `{}` has a modulus of {:.3g} MPa, usual is {:g} to {:g} MPa",
-                        sheet.name, 1e-6 * sheet.young_modulus, 1e-6 * kSheetModulus.least,
-                        1e-6 * kSheetModulus.most));
+    const std::string what = fmt::format("sheet `{}`", sheet.name);
+    doubt_thickness(sheet.where, what, sheet.thickness, kSheetThickness, doubt);
+    doubt_modulus(sheet.where, what, sheet.young_modulus, kSheetModulus, doubt);
   }
 }
 
@@ -348,10 +355,6 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
             fmt::format("`{}` starts with {:.3g} m/s", body.name, body.velocity.norm()));
   }
   doubt_muscles(scenario, doubt);
-  for (const Muscle& muscle : scenario.muscles)
-    if (muscle.tissue.empty() && !is_usual(muscle.max_force, kUsualForce))
-      doubt(muscle.where, fmt::format("muscle `{}` has a largest force of {:.3g} N", muscle.name,
-                                      muscle.max_force));
   doubt_ligaments(scenario, doubt);
   doubt_sheets(scenario, doubt);
   doubt_points(scenario, model, doubt);

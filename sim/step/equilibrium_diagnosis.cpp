@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/contact/contact_overview.hpp"
+#include "sim/model/tissue.hpp"
 
 namespace articular::sim {
 namespace {
@@ -119,12 +120,11 @@ std::string tied_and_pressed(const Model& model) {
   return words;
 }
 
-/// Whether a tissue has nodes that are attached or supported.
-bool is_tied(const Model& model, int body) {
+/// Whether it is tissue with nodes that are attached or supported.
+bool is_held_tissue(const Model& model, int body) {
   const int t = model.bodies[static_cast<std::size_t>(body)].tissue;
   if (t < 0) return false;
-  return std::ranges::any_of(model.tissues[static_cast<std::size_t>(t)].nodes,
-                             [](const NodeRef& node) { return node.rigid >= 0; }) ||
+  return is_tied(model.tissues[static_cast<std::size_t>(t)]) ||
          std::ranges::any_of(model.supports,
                              [t](const SupportModel& support) { return support.tissue == t; });
 }
@@ -151,11 +151,10 @@ EquilibriumDiagnosis diagnose_equilibrium(const Moment& now,
   const std::size_t last = std::min(kLastIterations, tries.size());
   diagnosis.details += what_flips(model, tries.last(last));
   diagnosis.details += tied_and_pressed(model);
-  if (diagnosis.is_nearly_free && is_tied(model, softest->bodies.front().body))
+  if (diagnosis.is_nearly_free && is_held_tissue(model, softest->bodies.front().body))
     diagnosis.details += fmt::format(
         "\n  to look at: the loads and their units; `{}` is tied, and these may be more than it "
-        "can "
-        "carry",
+        "can carry",
         body_name(model, softest->bodies.front().body));
   diagnosis.details +=
       diagnosis.is_nearly_free

@@ -109,7 +109,7 @@ std::vector<TrialValues> run_trials(const Fit& fit, const std::vector<FitTrial>&
       case_of_run[t][run] = cases.add(case_of(fit, fit.runs[run], trials[t]));
   const std::vector<CaseRecord> records = run_cases(study, cases.all(), options);
   if (part == FitPart::All)  // what the fit begins and ends with
-    tell_warnings(case_warnings(cases.all(), records, options.directory), cases.all().size());
+    tell_warnings(case_warnings(cases.all(), records, options.directory));
 
   const std::vector<FitMeasurement> measurements = measurements_of(fit, part);
   std::vector<TrialValues> results(trials.size());

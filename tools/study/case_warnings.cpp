@@ -33,41 +33,41 @@ std::string count_text(const CaseWarning& warning, std::size_t num_cases) {
 
 }  // namespace
 
-std::vector<CaseWarning> case_warnings(const std::vector<StudyCase>& cases,
-                                       const std::vector<CaseRecord>& records,
-                                       const std::filesystem::path& directory) {
-  std::vector<CaseWarning> found;
-  std::map<std::string, std::size_t> place;  // in `found`, by kind
+CaseWarnings case_warnings(const std::vector<StudyCase>& cases,
+                           const std::vector<CaseRecord>& records,
+                           const std::filesystem::path& directory) {
+  CaseWarnings found{{}, cases.size()};
+  std::map<std::string, std::size_t> place;  // among them, by kind
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (!records[i].succeeded()) continue;
     std::set<std::string> counted;
     for (const std::string& text : warnings_in(results_of(directory, cases[i]) / "summary.json")) {
       const std::string kind = kind_of(text);
       if (!counted.insert(kind).second) continue;
-      const auto [known, is_new] = place.try_emplace(kind, found.size());
-      if (is_new) found.push_back({text, cases[i].name});
-      ++found[known->second].num_cases;
+      const auto [known, is_new] = place.try_emplace(kind, found.kinds.size());
+      if (is_new) found.kinds.push_back({text, cases[i].name});
+      ++found.kinds[known->second].num_cases;
     }
   }
   return found;
 }
 
-std::string warnings_table(const std::vector<CaseWarning>& warnings, std::size_t num_cases) {
-  if (warnings.empty()) return "";
+std::string warnings_table(const CaseWarnings& warnings) {
+  if (warnings.kinds.empty()) return "";
   std::string text = "\n| Warned of | in | first in |\n| --- | --- | --- |\n";
-  for (const CaseWarning& warning : warnings) {
+  for (const CaseWarning& warning : warnings.kinds) {
     std::string words = warning.text;
     std::replace(words.begin(), words.end(), '|', '/');
-    text +=
-        fmt::format("| {} | {} | {} |\n", words, count_text(warning, num_cases), warning.case_name);
+    text += fmt::format("| {} | {} | {} |\n", words, count_text(warning, warnings.num_cases),
+                        warning.case_name);
   }
   return text;
 }
 
-void tell_warnings(const std::vector<CaseWarning>& warnings, std::size_t num_cases) {
-  for (const CaseWarning& warning : warnings)
+void tell_warnings(const CaseWarnings& warnings) {
+  for (const CaseWarning& warning : warnings.kinds)
     fmt::print(stderr, "articular: warning: in {}, first in `{}`: {}\n",
-               count_text(warning, num_cases), warning.case_name, warning.text);
+               count_text(warning, warnings.num_cases), warning.case_name, warning.text);
 }
 
 }  // namespace articular::tools

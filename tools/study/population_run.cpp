@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 int study_population(const Study& study, const StudyRunOptions& options) {
   const PopulationCases population = population_cases(study);
   const std::vector<CaseRecord> records = run_cases(study, population.cases, options);
-  const auto warnings = case_warnings(population.cases, records, options.directory);
-  tell_warnings(warnings, population.cases.size());
+  const CaseWarnings warnings = case_warnings(population.cases, records, options.directory);
+  tell_warnings(warnings);
   const auto values = values_of_cases(study, population.cases, records, options.directory);
   const PopulationResult result = population_result(study, population, records, values);
   const PopulationStudy all{study, population, records, result};
@@ -25,7 +25,7 @@ int study_population(const Study& study, const StudyRunOptions& options) {
     sim::write_text_file(file, text);
     fmt::print("{}\n", file.string());
   };
-  write("population.md", population_text(all) + warnings_table(warnings, population.cases.size()));
+  write("population.md", population_text(all) + warnings_table(warnings));
   write("population.csv", population_csv(all));
   try {
     write("population.html", population_page(all, draw_extremes(all, options.directory)));

@@ -54,9 +54,9 @@ void draw(const std::string& commands, const fs::path& directory, const fs::path
 int compare_settings(const Study& study, const StudyRunOptions& options, bool cpu_time) {
   const std::vector<StudyCase> cases = study_cases(study);
   const std::vector<CaseRecord> records = run_cases(study, cases, options);
-  const auto warnings = case_warnings(cases, records, options.directory);
-  const std::string warned = warnings_table(warnings, cases.size());
-  tell_warnings(warnings, cases.size());
+  const CaseWarnings warnings = case_warnings(cases, records, options.directory);
+  const std::string warned = warnings_table(warnings);
+  tell_warnings(warnings);
   const fs::path table = options.directory / "study.csv", text = options.directory / "study.md",
                  picture = options.directory / "pareto.svg";
   if (study.is_sweep()) {

@@ -43,13 +43,13 @@ TEST_F(CaseWarnings, ThatDifferInTheirNumbersAreOfOneKind) {
   warned(cases[2], {"nothing holds it"});
   const auto found =
       case_warnings(cases, {ended_with(0), ended_with(0), ended_with(3)}, folder_.path());
-  ASSERT_EQ(found.size(), 2U);  // what failed says so itself
-  EXPECT_EQ(found[0].text, "drawn out by 41.5 %");
-  EXPECT_EQ(found[0].case_name, "a");
-  EXPECT_EQ(found[0].num_cases, 2U);
-  EXPECT_EQ(found[1].text, "nothing holds it");
-  EXPECT_EQ(found[1].num_cases, 1U);
-  const std::string table = warnings_table(found, 3);
+  ASSERT_EQ(found.kinds.size(), 2U);  // what failed says so itself
+  EXPECT_EQ(found.kinds[0].text, "drawn out by 41.5 %");
+  EXPECT_EQ(found.kinds[0].case_name, "a");
+  EXPECT_EQ(found.kinds[0].num_cases, 2U);
+  EXPECT_EQ(found.kinds[1].text, "nothing holds it");
+  EXPECT_EQ(found.kinds[1].num_cases, 1U);
+  const std::string table = warnings_table(found);
   EXPECT_NE(table.find("| drawn out by 41.5 % | 2 of 3 runs | a |"), std::string::npos) << table;
 }
 
@@ -57,8 +57,8 @@ TEST_F(CaseWarnings, AreNoneOfRunsWithoutThemOrWithoutASummary) {
   const std::vector<StudyCase> cases = {case_called("a"), case_called("b")};
   warned(cases[0], {});
   const auto found = case_warnings(cases, {ended_with(0), ended_with(0)}, folder_.path());
-  EXPECT_TRUE(found.empty());
-  EXPECT_EQ(warnings_table(found, 2), "");
+  EXPECT_TRUE(found.kinds.empty());
+  EXPECT_EQ(warnings_table(found), "");
 }
 
 }  // namespace articular::tools::case_warnings_test
