@@ -67,7 +67,10 @@ class Doubts {
       if (const auto* motion = std::get_if<MotionLoad>(&load)) look_at(*motion);
     for (const LigamentModel& ligament : model_.ligaments) look_at(ligament);
     for (const Probe& probe : scenario_.probes)
-      if (const auto* joint = std::get_if<JointProbe>(&probe.what)) look_at(probe, *joint);
+      if (const auto* joint = std::get_if<JointProbe>(&probe.what))
+        look_at(probe, *joint);
+      else if (const auto* reaction = std::get_if<ReactionProbe>(&probe.what))
+        look_at(probe, *reaction);
     return std::move(lines_);
   }
 
@@ -248,6 +251,35 @@ class Doubts {
                         "is {:.4g} mm, and it starts with {:.4g} mm",
                         ligament.given.name, ligament.slack_length / length,
                         1e3 * ligament.slack_length, 1e3 * length));
+  }
+
+  void look_at(const Probe& probe, const ReactionProbe& reaction) {
+    if (is_loaded(index(reaction.body))) return;
+    doubt(probe.where, fmt::format("the reaction of `{}` is always 0: nothing touches it, is tied "
+                                   "to it or ends on it",
+                                   reaction.body));
+  }
+
+  /// Whether anything can push or pull on a fixed body.
+  bool is_loaded(std::size_t body) const {
+    const BodyModel& made = model_.bodies[body];
+    if (made.kind != Body::Kind::Fixed || model_.contacts.touches(static_cast<int>(body)))
+      return true;
+    const auto goes_with_it = [&](const NodeRef& node) { return node.rigid == made.rigid; };
+    const auto is_on_it = [&](const Anchor& anchor) { return anchor.body == made.name; };
+    const auto holds_it = [&](const auto& line) {
+      return std::ranges::any_of(line.path, is_on_it) ||
+             std::ranges::find(line.wrap, made.name) != line.wrap.end();
+    };
+    return std::ranges::any_of(model_.tissues,
+                               [&](const Tissue& tissue) {
+                                 return std::ranges::any_of(tissue.nodes, goes_with_it);
+                               }) ||
+           std::ranges::any_of(scenario_.muscles, holds_it) ||
+           std::ranges::any_of(scenario_.ligaments, holds_it) ||
+           std::ranges::any_of(scenario_.boluses, [&](const Bolus& bolus) {
+             return std::ranges::any_of(bolus.path, is_on_it);
+           });
   }
 
   void look_at(const Probe& probe, const JointProbe& joint) {

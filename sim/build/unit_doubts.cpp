@@ -33,7 +33,8 @@ constexpr Usual kExtent{1e-4, 1}, kTissueDensity{100, 4000}, kRigidDensity{100, 
     kFibreStress{1e3, 3e6}, kGravity{0.1, 50}, kSlackLength{0, 1}, kStiffness{1, 1e7},
     kStiffnessPerStrain{1, 1e6}, kFriction{0, 2}, kToeStrain{0, 0.5}, kShift{0, 1},
     kSheetThickness{1e-7, 5e-3}, kSheetModulus{1e4, 2e10}, kLayerThickness{1e-6, 2e-2},
-    kLayerModulus{1e3, 2e11}, kActivationTime{1e-4, 1}, kLengthRatio{1, 3}, kSpeed{0, 20};
+    kLayerModulus{1e3, 2e11}, kActivationTime{1e-4, 1}, kLengthRatio{1, 3}, kSpeed{0, 20},
+    kDampingTime{0, 1};
 
 constexpr double kFarthest = 2;  // [m] of a line's end or a probe's point from its body's middle
 
@@ -350,6 +351,12 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
                         "beside what else holds it together",
                         body.material->fibres ? " along its fibres" : "", body.name,
                         1e-3 * tissue->bulk_modulus));
+    if (is_tissue && scenario.analysis == Scenario::Analysis::Dynamic &&
+        !is_usual(body.material->stiffness_damping, kDampingTime))
+      doubt(body.material->where,
+            fmt::format("the `stiffness_damping` of `{}` is {:.3g} s, usual is up to {:g} s: the "
+                        "time that it takes to give way",
+                        body.name, body.material->stiffness_damping, kDampingTime.most));
     if (!is_usual(body.velocity.norm(), kSpeed))
       doubt(body.where,
             fmt::format("`{}` starts with {:.3g} m/s", body.name, body.velocity.norm()));

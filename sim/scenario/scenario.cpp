@@ -144,13 +144,13 @@ Scenario read_scenario(const std::filesystem::path& file,
   for (const Override& change : changes)
     if (sets_a_choice(change)) apply_override(root, change);
   std::set<std::string> named = named_curves(root);  // by entries that do not hold, too
-  const ChosenWords choices = apply_choices(root);
+  const Choices choices = apply_choices(root);
   for (const Override& change : changes)
     if (!sets_a_choice(change)) apply_override(root, change);
   const TableReader document(root, scenario_keys(), "scenario");
   refuse_settings_below_tables(root);
   Scenario scenario;
-  scenario.choices = choices;
+  scenario.choices = choices.words;
   scenario.file = file;
   scenario.name = file.stem().string();
   const std::filesystem::path folder = file.parent_path();
@@ -165,7 +165,7 @@ Scenario read_scenario(const std::filesystem::path& file,
         throw InputError(body.where, fmt::format("body `{}` has a velocity at the start, but the "
                                                  "analysis is static: there is no motion in it",
                                                  body.name));
-  const Context context{folder, scenario.bodies, check_curves(document)};
+  const Context context{folder, scenario.bodies, check_curves(document), choices.left_out};
   Mistakes on_bodies;  // what names them
   on_bodies.in([&] { scenario.attachments = read_attachments(document, context); });
   on_bodies.in([&] { scenario.supports = read_supports(document, context); });

@@ -54,12 +54,16 @@ bool holds(const Node& when, const ChosenWords& chosen, Mentioned& mentioned) {
   return all;
 }
 
-void filter(Node::List& entries, const ChosenWords& chosen, Mentioned& mentioned) {
+void filter(std::string_view list, Node::List& entries, Choices& choices, Mentioned& mentioned) {
   Node::List kept;
   for (Node& entry : entries) {
     const Node* when = entry.find("when");
     if (when != nullptr) {
-      if (!holds(*when, chosen, mentioned)) continue;
+      if (!holds(*when, choices.words, mentioned)) {
+        if (const Node* name = entry.find("name"); name != nullptr && name->text() != nullptr)
+          choices.left_out.push_back({std::string(list), *name->text(), entry.where});
+        continue;
+      }
       std::erase_if(entry.table()->members,
                     [](const Member& member) { return member.key == "when"; });
     }
@@ -91,20 +95,20 @@ void check_mentioned(const Node& choices, const Mentioned& mentioned) {
 
 }  // namespace
 
-ChosenWords apply_choices(Node& document) {
-  ChosenWords chosen;
+Choices apply_choices(Node& document) {
+  Choices chosen;
   const Node* choices = document.find("choice");
   if (choices != nullptr && choices->table() == nullptr)
     fail(*choices, fmt::format("expected a table [choice] of words, found {}", found(*choices)));
   if (choices != nullptr)
     for (const Member& choice : choices->table()->members)
-      chosen.emplace_back(choice.key, read_text(choice.node));
+      chosen.words.emplace_back(choice.key, read_text(choice.node));
   Mentioned mentioned;
   std::vector<std::string> emptied;
   for (const std::string_view key : kEntryLists) {
     Node* list = document.find(key);
     if (list == nullptr || list->list() == nullptr || list->list()->empty()) continue;
-    filter(*list->list(), chosen, mentioned);
+    filter(key, *list->list(), chosen, mentioned);
     if (list->list()->empty()) emptied.emplace_back(key);
   }
   if (choices != nullptr) check_mentioned(*choices, mentioned);

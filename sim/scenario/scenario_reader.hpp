@@ -3,12 +3,15 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "sim/base/mistakes.hpp"
 #include "sim/scenario/scenario.hpp"
+#include "sim/scenario/scenario_choices.hpp"
 #include "sim/scenario/toml_reader.hpp"
 
 /// The parts of read_scenario(): each reads one kind of entry and checks it against what was read
@@ -23,11 +26,17 @@ struct Context {
   std::filesystem::path folder;     // of the scenario file
   const std::vector<Body>& bodies;  // complete
   const Node* curves = nullptr;     // [curve], or nullptr
+  std::span<const LeftOut> left_out = {};
   Side side = Side::AsWritten;
 
   std::string name(const std::string& written) const;  // on this side
   Vec3 point(const Vec3& written) const;
 };
+
+/// "; the one of jaw.toml:84 is left out by its `when`" for messages that an entry of one of these
+/// lists is missed; "" where none of that name is left out.
+std::string left_out_hint(const Context& context, std::initializer_list<std::string_view> lists,
+                          std::string_view name);
 
 /// "body `skull`" for messages about an entry, or "[[body]]" if it has no name.
 std::string label(const Node& entry, std::string_view list);

@@ -111,6 +111,19 @@ Extent y_extent(const FigurePanel& panel, const AxisRange& x) {
   return y;
 }
 
+/// Whether a curve comes into the frame, be it between two of its points.
+bool shows_a_curve(const FigurePanel& panel, const AxisRange& x, const AxisRange& y) {
+  const auto is_beside = [&](const PlotPoint& p, const PlotPoint& q) {
+    return std::max(p.x, q.x) < x.low || std::min(p.x, q.x) > x.high ||
+           std::max(p.y, q.y) < y.low || std::min(p.y, q.y) > y.high;
+  };
+  for (const FigureCurve& curve : panel.curves)
+    for (const auto& piece : curve.pieces)
+      for (std::size_t i = 0; i < piece.size(); ++i)
+        if (!is_beside(piece[i], piece[std::min(i + 1, piece.size() - 1)])) return true;
+  return false;
+}
+
 /// The limits that --range gives each panel, in its unit.
 std::vector<std::optional<AxisRange>> given_ranges(const FigureRequest& request,
                                                    const CurvePlan& plan) {
@@ -186,6 +199,10 @@ ComposedFigure compose_figure(const FigureRequest& request) {
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const AxisRange y_range =
         given[p] ? *given[p] : with_room(y_extent(panels[p], x_range).range());
+    if ((given[p] || request.x_range) && !shows_a_curve(panels[p], x_range, y_range))
+      composed.remarks.push_back(
+          fmt::format("warning: no curve of {} comes into the range that was asked for",
+                      sim::in_ticks(panels[p].title)));
     set_axes(panels[p], x.name, x_unit, x_range, plan.units[p], y_range);
   }
   composed.figure.legend = curve_legend(request, plan);

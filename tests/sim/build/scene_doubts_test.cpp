@@ -50,6 +50,29 @@ TEST(SceneDoubts, AreOfTissueThatCannotDeform) {
   EXPECT_TRUE(says(doubt(s), "every node of `cartilage` is attached"));
 }
 
+TEST(SceneDoubts, AreOfTheReactionOfABodyThatNothingLoads) {
+  Scenario s = cartilage_on_bone(0);
+  s.bodies[2] = box_body("floor", Body::Kind::Fixed, {0.05, 0.05, 0.01}, {0, 0, 0.05});
+  s.bodies.push_back(stand("wall"));
+  s.ligaments[0].path[1].point = {0, 0, 0.045};
+  s.ligaments[0].slack_length = 0.045;
+  s.probes = {{"floor", ReactionProbe{"floor"}}};
+  EXPECT_EQ(doubt(s), "");  // the ligament ends on it
+  s.ligaments[0].path[1].body = "wall";
+  EXPECT_TRUE(says(doubt(s), "the reaction of `floor` is always 0"));
+  s.ligaments[0].wrap = {"floor"};
+  EXPECT_FALSE(says(doubt(s), "always 0"));
+  s.ligaments.clear();
+  s.attachments.push_back(attach("cartilage", "floor", {-1, -1, 0.02}, {1, 1, 1}));
+  EXPECT_FALSE(says(doubt(s), "always 0"));
+  s.attachments.pop_back();
+  s.contact = true;
+  s.contacts = {{"floor", "bone", {}}};
+  EXPECT_FALSE(says(doubt(s), "always 0"));
+  s.contacts = {{"cartilage", "bone", {}}};
+  EXPECT_TRUE(says(doubt(s), "the reaction of `floor` is always 0"));
+}
+
 TEST(SceneDoubts, AreOfLoadsOnNothingButWhatIsTied) {
   const auto between = [](double low, double high) {
     TissueRegion at{"cartilage", {}};

@@ -80,6 +80,16 @@ TEST(UnitDoubts, AreOfTheStressOfFibres) {
   }
 }
 
+TEST(UnitDoubts, AreOfDampingOfSeconds) {
+  Scenario s = usual();
+  s.bodies[0].material->stiffness_damping = 0.9;
+  EXPECT_EQ(num_doubts(s), 0U);
+  s.bodies[0].material->stiffness_damping = 5;
+  EXPECT_EQ(num_doubts(s), 1U);
+  s.analysis = Scenario::Analysis::Static;  // no damping there
+  EXPECT_EQ(num_doubts(s), 0U);
+}
+
 TEST(UnitDoubts, AreOfAMass) {
   for (const double mass : {99.0, 101.0}) {
     Scenario s = usual();

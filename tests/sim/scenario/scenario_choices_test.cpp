@@ -77,6 +77,43 @@ TEST_F(ScenarioChoices, NamesOfAMillionLettersAreRefusedAtOnce) {
   EXPECT_NE(message.find("there is no choice"), std::string::npos) << message.substr(0, 200);
 }
 
+// A reference to it says so, and where it stands.
+TEST_F(ScenarioChoices, WhoNamesWhatIsLeftOutIsToldWhere) {
+  const std::string text = std::string(kText) + R"([[probe]]
+name = "held"
+kind = "reaction"
+body = "stand"
+[[ligament]]
+name = "cord"
+path = [{ body = "skull", point = "0 0 0 m" }, { body = "disc", point = "0 0 0.1 m" }]
+stiffness = "1 N/mm"
+mirror = "x"
+when = { side = "right" }
+[[probe]]
+name = "pulled"
+kind = "line"
+line = "LINE"
+)";
+  const auto line_of = [&](const std::string& words) {
+    return ":" +
+           std::to_string(1 + std::count(text.begin(),
+                                         text.begin() + static_cast<long>(text.find(words)), '\n'));
+  };
+  const std::string stand = refusal(text);
+  EXPECT_NE(stand.find("no body is called `stand`; the one of "), std::string::npos) << stand;
+  EXPECT_NE(stand.find(line_of("[[body]]\nname = \"stand\"") + " is left out by its `when`"),
+            std::string::npos)
+      << stand;
+  for (const std::string line : {"cord", "cord_left"}) {
+    std::string probed = text;
+    probed.replace(probed.find("body = \"stand\""), 14, "body = \"skull\"");
+    probed.replace(probed.find("LINE"), 4, line);
+    const std::string cord = refusal(probed);
+    EXPECT_NE(cord.find(line_of("[[ligament]]") + " is left out by its `when`"), std::string::npos)
+        << cord;
+  }
+}
+
 // What is left out is as if it were not written: to overrides, to checkpoints, to the record.
 TEST_F(ScenarioChoices, NobodyElseSeesWhatIsLeftOut) {
   const Scenario rigid = read(kText, {"body.disc.density=1300 kg/m^3", " choice.disc = rigid"});

@@ -196,6 +196,20 @@ TEST_F(Plot, ABandOfAComponentLiesInThePanelOfItsVector) {
   expect_refused("a tip --band 'tip.position.w=-1..0 mm'", 2, "no panel shows a probe");
 }
 
+TEST_F(Plot, ARangeBesideAllCurvesIsWarnedOf) {
+  run("a", 2);  // ramp.force goes from 0 to 1 N in half a second
+  const std::string warning = "no curve of `ramp.force` comes into the range";
+  for (const char* beside : {"--range '5..9 N'", "--x-range '2..3 s'", "--range '-3..-1 N'"}) {
+    const ProgramResult result = plot(std::string("a ramp ") + beside);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find(warning), std::string::npos) << beside << result.err;
+  }
+  // Between two points of the curve, too.
+  for (const char* within : {"--range '0.501..0.502 N'", "--x-range '0.2..0.3 s'"})
+    EXPECT_EQ(plot(std::string("a ramp ") + within).err.find("comes into"), std::string::npos)
+        << within;
+}
+
 TEST_F(Plot, TheLastValueHasItsErrorBar) {
   run("a", 2);
   folder_.file("a/error_bars.csv",
