@@ -224,9 +224,9 @@ class Builder {
         throw InputError(
             attachment.where,
             fmt::format("the node of `{}` at {} is attached to `{}` and, by "
-                        "the [[attach]] at {}:{}, to `{}`: expected regions without common nodes",
-                        attachment.body, place_text(x), attachment.to, taken[i]->where.file,
-                        taken[i]->where.line, taken[i]->to));
+                        "the [[attach]] at {}, to `{}`: expected regions without common nodes",
+                        attachment.body, place_text(x), attachment.to, place_text(taken[i]->where),
+                        taken[i]->to));
       taken[i] = &attachment;
       tissue.nodes[i].rigid = rigid;
       tissue.nodes[i].local = x - model_.rigid_bodies[static_cast<std::size_t>(rigid)].rest.p;

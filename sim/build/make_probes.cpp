@@ -11,6 +11,7 @@
 
 #include "sim/build/region.hpp"
 #include "sim/build/weighted_points.hpp"
+#include "sim/model/tied_bodies.hpp"
 
 namespace articular::sim {
 namespace {
@@ -223,9 +224,7 @@ struct Resolver {
 
   Observed operator()(const AttachmentProbe& attachment) const {
     const int tissue = body(attachment.tissue).tissue, rigid = body(attachment.rigid).rigid;
-    const auto& nodes = model.tissues[static_cast<std::size_t>(tissue)].nodes;
-    const auto is_tied = [&](const NodeRef& node) { return node.rigid == rigid; };
-    if (std::none_of(nodes.begin(), nodes.end(), is_tied))
+    if (!is_tied_to(model.tissues[static_cast<std::size_t>(tissue)], rigid))
       throw InputError(probe.where,
                        fmt::format("[[probe]] `{}`: no node of `{}` is attached to `{}`",
                                    probe.name, attachment.tissue, attachment.rigid));

@@ -47,8 +47,8 @@ std::string attachment_of(const Scenario& scenario, const Model& model,
     if (body_index(scenario, attachment.body) == tissue.body && model.bodies[to].rigid == rigid &&
         RegionTest(attachment.region, tissue.body, model, geometry)
             .contains_node(node, tissue.X.col(node), on_surface))
-      return fmt::format("`{}`, by the [[attach]] at {}:{}", attachment.to, attachment.where.file,
-                         attachment.where.line);
+      return fmt::format("`{}`, by the [[attach]] at {}", attachment.to,
+                         place_text(attachment.where));
   }
   return "a body";
 }
@@ -118,9 +118,9 @@ class Supporter {
       throw InputError(
           given.where,
           fmt::format("support `{}` is driven, and its node of `{}` at {} is "
-                      "held along the same direction by the [[support]] at {}:{} too: expected "
+                      "held along the same direction by the [[support]] at {} too: expected "
                       "regions without common nodes, or other axes",
-                      given.name, given.body, place_text(x), other.file, other.line));
+                      given.name, given.body, place_text(x), place_text(other)));
     }
   }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "sim/base/error.hpp"
+#include "sim/base/place_text.hpp"
 #include "sim/build/body_doubts.hpp"
 #include "sim/build/muscle_doubts.hpp"
 #include "sim/build/twin_doubts.hpp"
@@ -20,6 +21,7 @@
 #include "sim/mesh/extent.hpp"
 #include "sim/mesh/overlapping_parts.hpp"
 #include "sim/model/ignored_overlaps.hpp"
+#include "sim/model/tied_bodies.hpp"
 #include "sim/model/tissue.hpp"
 #include "sim/scenario/driven_motion.hpp"
 #include "sim/scenario/name_pattern.hpp"
@@ -148,7 +150,7 @@ class Doubts {
             fmt::format("`{}` lies in `{}` at the start, to {:.3g} mm at {}, and nothing will part "
                         "them: no [[contact]] names `{}`; expected one, `collides = false`, or "
                         "another place",
-                        name(inner), name(outer), 1e3 * depth, millimetres(x), name(forgotten)));
+                        name(inner), name(outer), 1e3 * depth, place_text(x), name(forgotten)));
     }
     for (const Tissue& tissue : model_.tissues)
       if (const auto found = deepest_in_another_part(tissue.X, tissue.elements.tets(),
@@ -157,10 +159,7 @@ class Doubts {
               fmt::format("the mesh of `{}` has parts that share no node and lie in each other, to "
                           "{:.3g} mm at {}: what is there twice is as stiff and as heavy as two; "
                           "expected one mesh, or a body for each part",
-                          name(tissue.body), 1e3 * found->depth, millimetres(found->x)));
-  }
-  static std::string millimetres(const Vec3& x) {
-    return fmt::format("({:.4g} {:.4g} {:.4g}) mm", 1e3 * x.x(), 1e3 * x.y(), 1e3 * x.z());
+                          name(tissue.body), 1e3 * found->depth, place_text(found->x)));
   }
   const std::string& name(int body) const {
     return model_.bodies[static_cast<std::size_t>(body)].name;
@@ -265,16 +264,13 @@ class Doubts {
     const BodyModel& made = model_.bodies[body];
     if (made.kind != Body::Kind::Fixed || model_.contacts.touches(static_cast<int>(body)))
       return true;
-    const auto goes_with_it = [&](const NodeRef& node) { return node.rigid == made.rigid; };
     const auto is_on_it = [&](const Anchor& anchor) { return anchor.body == made.name; };
     const auto holds_it = [&](const auto& line) {
       return std::ranges::any_of(line.path, is_on_it) ||
              std::ranges::find(line.wrap, made.name) != line.wrap.end();
     };
-    return std::ranges::any_of(model_.tissues,
-                               [&](const Tissue& tissue) {
-                                 return std::ranges::any_of(tissue.nodes, goes_with_it);
-                               }) ||
+    const auto is_tied = [&](const Tissue& tissue) { return is_tied_to(tissue, made.rigid); };
+    return std::ranges::any_of(model_.tissues, is_tied) ||
            std::ranges::any_of(scenario_.muscles, holds_it) ||
            std::ranges::any_of(scenario_.ligaments, holds_it) ||
            std::ranges::any_of(scenario_.boluses, [&](const Bolus& bolus) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "sim/base/error.hpp"
-#include "sim/scenario/scenario_reader.hpp"
+#include "sim/base/place_text.hpp"
 
 namespace articular::sim {
 namespace {
@@ -89,8 +89,8 @@ void look_at_loads(const Scenario& scenario, const Model& model, TwinDoubts& dou
   doubts.look_at(
       loads_of<GravityLoad>(scenario), [](auto* a, auto* b) { return are_twins(*a, *b); },
       [](auto* a, auto* b) {
-        return prefix(b->where) +
-               fmt::format("the same gravity is there already, at {}: both act", place(a->where));
+        return prefix(b->where) + fmt::format("the same gravity is there already, at {}: both act",
+                                              place_text(a->where));
       });
   struct SurfaceTwin {
     const SurfaceLoad* given;
@@ -106,7 +106,7 @@ void look_at_loads(const Scenario& scenario, const Model& model, TwinDoubts& dou
         return prefix(b.given->where) + fmt::format(
                                             "the same load on the same faces of `{}` is "
                                             "there already, at {}: both act",
-                                            b.given->at.tissue, place(a.given->where));
+                                            b.given->at.tissue, place_text(a.given->where));
       });
 }
 
@@ -116,7 +116,7 @@ void look_at_lines(const Lines& lines, const char* kind, TwinDoubts& doubts) {
       lines, [](const auto& a, const auto& b) { return are_twins(a, b); },
       [kind](const auto& a, const auto& b) {
         return prefix(b.where) + fmt::format("{} `{}` is the same as `{}`, at {}: both pull", kind,
-                                             b.name, a.name, place(a.where));
+                                             b.name, a.name, place_text(a.where));
       });
 }
 
@@ -135,7 +135,7 @@ void look_at_sheets(const Scenario& scenario, const Model& model, TwinDoubts& do
                  fmt::format(
                      "sheet `{}` lies on the same faces as `{}`, at {}, with the same "
                      "fibres: both pull",
-                     b.name, a.name, place(given(a).where));
+                     b.name, a.name, place_text(given(a).where));
         });
 }
 

@@ -12,6 +12,7 @@
 #include "fem/material/any_material.hpp"
 #include "fem/material/point_law.hpp"
 #include "sim/base/error.hpp"
+#include "sim/base/whole_turn.hpp"
 #include "sim/mesh/extent.hpp"
 #include "sim/model/tissue.hpp"
 
@@ -37,8 +38,6 @@ constexpr Usual kExtent{1e-4, 1}, kTissueDensity{100, 4000}, kRigidDensity{100, 
     kDampingTime{0, 1};
 
 constexpr double kFarthest = 2;  // [m] of a line's end or a probe's point from its body's middle
-
-constexpr double kWholeTurn = 2 * std::numbers::pi * (1 + 1e-9);  // [rad]
 
 /// Whether tissue that is drawn out, along its fibres if it has some, pushes outwards where its
 /// width is held. Small bulk moduli let it swell, and fibres that count the stretch at constant

@@ -6,16 +6,21 @@
 
 namespace articular::sim {
 
+/// Whether a node of the tissue goes with this rigid body, an index into Model::rigid_bodies.
+inline bool is_tied_to(const Tissue& tissue, int rigid) {
+  return std::ranges::any_of(tissue.nodes,
+                             [&](const NodeRef& node) { return node.rigid == rigid; });
+}
+
 /// Whether tissue of one body is tied to the other: then it belongs there.
 inline bool are_tied(const Model& model, int a, int b) {
-  const auto is_tied_to = [&](int tissue, int rigid) {
+  const auto belongs_to = [&](int tissue, int rigid) {
     const BodyModel &body = model.bodies[static_cast<std::size_t>(tissue)],
                     &other = model.bodies[static_cast<std::size_t>(rigid)];
-    if (body.tissue < 0 || other.rigid < 0) return false;
-    return std::ranges::any_of(model.tissues[static_cast<std::size_t>(body.tissue)].nodes,
-                               [&](const NodeRef& node) { return node.rigid == other.rigid; });
+    return body.tissue >= 0 && other.rigid >= 0 &&
+           is_tied_to(model.tissues[static_cast<std::size_t>(body.tissue)], other.rigid);
   };
-  return is_tied_to(a, b) || is_tied_to(b, a);
+  return belongs_to(a, b) || belongs_to(b, a);
 }
 
 }  // namespace articular::sim

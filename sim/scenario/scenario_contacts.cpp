@@ -142,7 +142,7 @@ void read_contacts(const TableReader& document, const Context& context, Scenario
       if (!is_new)
         throw InputError(element.where,
                          fmt::format("[[contact]]: the pair `{}`, `{}` is given twice, first at {}",
-                                     pair.a, pair.b, place(known->second)));
+                                     pair.a, pair.b, place_text(known->second)));
       scenario.contacts.push_back(std::move(pair));
     }
   });

@@ -408,7 +408,7 @@ void check_not_driven(const Node& node, const MotionLoad& motion, const std::vec
         other != nullptr && other->body == motion.body && other->support == motion.support)
       fail(*node.find(is_of_body ? "body" : "support"),
            fmt::format("{} `{}` already has a motion, at {}", is_of_body ? "body" : "support",
-                       is_of_body ? motion.body : motion.support, place(other->where)));
+                       is_of_body ? motion.body : motion.support, place_text(other->where)));
 }
 
 }  // namespace

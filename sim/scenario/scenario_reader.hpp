@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/base/mistakes.hpp"
+#include "sim/base/place_text.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/scenario_choices.hpp"
 #include "sim/scenario/toml_reader.hpp"
@@ -45,9 +46,6 @@ std::string label(const Node& entry, std::string_view list);
 /// names and table headers.
 std::string read_name(const Node& node);
 
-/// "jaw.toml:12", for messages that point at a second place.
-std::string place(const Location& where);
-
 /// Throws at `node` if one of the entries so far has the name.
 template <class Entry>
 void check_new_name(const Node& node, std::string_view what, const std::string& name,
@@ -55,7 +53,7 @@ void check_new_name(const Node& node, std::string_view what, const std::string& 
   for (const Entry& entry : so_far)
     if (entry.name == name)
       fail(node, fmt::format("a second {} is called `{}`, the first is at {}", what, name,
-                             place(entry.where)));
+                             place_text(entry.where)));
 }
 
 /// The sides on which an entry exists: as written, and mirrored if it has `mirror = "x"`.

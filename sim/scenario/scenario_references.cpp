@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "sim/base/whole_turn.hpp"
 #include "sim/scenario/scenario_keys.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 
@@ -40,7 +41,7 @@ std::string left_out_hint(const Context& context, std::initializer_list<std::str
                                name == entry.name + std::string(kRight);  // `mirror`
     if ((name == entry.name || is_one_of_two) &&
         std::find(lists.begin(), lists.end(), entry.list) != lists.end())
-      return fmt::format("; the one of {} is left out by its `when`", place(entry.where));
+      return fmt::format("; the one of {} is left out by its `when`", place_text(entry.where));
   }
   return "";
 }
@@ -49,10 +50,6 @@ std::string label(const Node& entry, std::string_view list) {
   const Node* name = entry.find("name");
   if (name == nullptr || name->text() == nullptr) return fmt::format("[[{}]]", list);
   return fmt::format("{} `{}`", list, one_line(*name->text()));
-}
-
-std::string place(const Location& where) {
-  return where.line > 0 ? fmt::format("{}:{}", where.file, where.line) : where.file;
 }
 
 std::string read_name(const Node& node) {
@@ -110,7 +107,6 @@ const KeyTable& place_keys() {
 }
 
 Vec3 read_turn(const TableReader& table, const char* key) {
-  constexpr double kWholeTurn = 2 * std::numbers::pi * (1 + 1e-9);  // [rad]
   const Vec3 turn = table.get<Vec3>(key);
   if (turn.norm() > kWholeTurn)
     fail(table.at(key),
