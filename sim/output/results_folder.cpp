@@ -46,15 +46,21 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-/// The scenario that results in a folder are of; "" where nothing tells.
-std::string scenario_of_results(const fs::path& folder) {
+/// Name and folder of the scenario that results are of; "" where nothing tells.
+struct Origin {
+  std::string scenario, folder;
+};
+
+Origin origin_of(const fs::path& folder) {
   std::ifstream in(folder / "summary.json");
   const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (json.is_object() && json.contains("scenario") && json["scenario"].is_string())
-    return json["scenario"];
+  const auto text = [&](const char* key) -> std::string {
+    return json.is_object() && json.contains(key) && json[key].is_string() ? json[key] : "";
+  };
+  if (std::string name = text("scenario"); !name.empty()) return {name, text("scenario_folder")};
   for (const fs::path& file : files_in(folder))
-    if (file.extension() == ".pvd") return file.stem().string() + ".toml";
-  return "";
+    if (file.extension() == ".pvd") return {file.stem().string() + ".toml", ""};
+  return {};
 }
 
 void refuse_link(const fs::path& file) {
@@ -89,11 +95,19 @@ ResultsFolder::ResultsFolder(const fs::path& folder) {
 
 ResultsFolder::~ResultsFolder() { ::close(descriptor_); }
 
-void clear_results(const fs::path& folder, const std::string& scenario, bool overwrite) {
-  std::string other = scenario_of_results(folder);
+std::string folder_of(const fs::path& scenario) {
+  std::error_code none;
+  return fs::weakly_canonical(scenario, none).parent_path().string();
+}
+
+void clear_results(const fs::path& folder, const fs::path& scenario, bool overwrite) {
+  auto [other, home] = origin_of(folder);
   if (other.empty() && fs::exists(folder / "history.csv")) other = "an unknown scenario";
-  if (!overwrite && !other.empty() && other != scenario)
+  const std::string name = scenario.filename().string();
+  const bool is_elsewhere = other == name && !home.empty() && home != folder_of(scenario);
+  if (!overwrite && !other.empty() && (other != name || is_elsewhere))
     throw InputError({folder.string()}, "holds results of " + other +
+                                            (is_elsewhere ? " in " + home : "") +
                                             "; choose another --out, or replace them with "
                                             "--overwrite");
   std::vector<fs::path> checkpoints, files;
@@ -101,8 +115,8 @@ void clear_results(const fs::path& folder, const std::string& scenario, bool ove
     checkpoints.push_back(folder / "checkpoint" / name);
   for (const char* const name : {"history.csv", "convergence.csv", "error_bars.csv"})
     files.push_back(folder / name);
-  for (const std::string& name : {scenario, other})
-    files.push_back(folder / (fs::path(name).stem().string() + ".pvd"));
+  for (const std::string& of : {name, other})
+    files.push_back(folder / (fs::path(of).stem().string() + ".pvd"));
   for (const fs::path& file : files_in(folder / "frames"))
     if (is_frame(file)) files.push_back(file);
   for (const char* const name : {"checkpoint", "frames", "summary.json"})
@@ -118,8 +132,10 @@ void clear_results(const fs::path& folder, const std::string& scenario, bool ove
   for (const fs::path& file : files) delete_file(file);
 }
 
-void write_unfinished_summary(const fs::path& folder, const std::string& scenario) {
-  const nlohmann::json summary = {{"outcome", "unfinished"}, {"scenario", scenario}};
+void write_unfinished_summary(const fs::path& folder, const fs::path& scenario) {
+  const nlohmann::json summary = {{"outcome", "unfinished"},
+                                  {"scenario", scenario.filename().string()},
+                                  {"scenario_folder", folder_of(scenario)}};
   write_text_file(folder / "summary.json", summary.dump(2) + "\n");
 }
 

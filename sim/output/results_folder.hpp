@@ -22,14 +22,18 @@ class ResultsFolder {
 
 /// What runs write, and nothing else, is removed: history, frames, series, checkpoints. The summary
 /// says "unfinished" before anything is.
-/// @param scenario   name of the file that the new results are of
-/// @param overwrite  also those of another scenario
+/// @param scenario   the file that the new results are of
+/// @param overwrite  also those of another scenario, by its name or folder
 /// @throws InputError where they are of another one, or a symbolic link stands in their place
 /// @throws SystemError where they can't be removed
-void clear_results(const std::filesystem::path& folder, const std::string& scenario,
+void clear_results(const std::filesystem::path& folder, const std::filesystem::path& scenario,
                    bool overwrite);
 
+/// Where a scenario lies, as summary.json says it: whole, so that it is the same from everywhere.
+std::string folder_of(const std::filesystem::path& scenario);
+
 /// A summary for as long as the run goes on; a killed one leaves it. @throws SystemError
-void write_unfinished_summary(const std::filesystem::path& folder, const std::string& scenario);
+void write_unfinished_summary(const std::filesystem::path& folder,
+                              const std::filesystem::path& scenario);
 
 }  // namespace articular::sim

@@ -8,6 +8,7 @@
 
 #include "sim/assembly/solver_setup.hpp"
 #include "sim/output/fingerprint.hpp"
+#include "sim/output/results_folder.hpp"
 #include "sim/output/run_warnings.hpp"
 
 namespace articular::sim {
@@ -128,6 +129,7 @@ std::string summary_json(const Scenario& scenario, const Model& model, const Sta
   Json json = {
       {"outcome", outcome},
       {"scenario", scenario.file.filename().string()},
+      {"scenario_folder", folder_of(scenario.file)},
       {"simulated_time_s", state.t},
       {"settings", Json::parse(scenario.settings_json)},
       {"size", sizes(model)},

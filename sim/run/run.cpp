@@ -84,7 +84,6 @@ class Run {
 
  private:
   std::filesystem::path checkpoints() const { return options_.directory / "checkpoint"; }
-  std::string scenario_name() const { return scenario_.file.filename().string(); }
 
   void begin() {
     inputs_ = input_files(scenario_);
@@ -99,7 +98,7 @@ class Run {
     }
     course_.begin();
     refuse_more_than_fits(estimated_output(scenario_, model_), options_.directory);
-    clear_results(options_.directory, scenario_name(), options_.overwrite);
+    clear_results(options_.directory, scenario_.file, options_.overwrite);
     open_tables({}, {});
     if (set_apart() && options_.after_overlap_resolution)
       options_.after_overlap_resolution(state().overlap_resolution);
@@ -117,7 +116,7 @@ class Run {
     course_.go_on(std::move(from.state));
     open_tables(from.history, from.convergence);
     // Before anything is cut: results that were whole are not from here on.
-    write_unfinished_summary(options_.directory, scenario_name());
+    write_unfinished_summary(options_.directory, scenario_.file);
     if (from.series.bytes > 0) writer_.resume_at(from.series);
     steer();
   }

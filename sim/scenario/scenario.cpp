@@ -189,7 +189,7 @@ Scenario read_scenario(const std::filesystem::path& file,
   named.merge(named_curves(root));
   scenario.doubts = unnamed_curve_doubts(root, named);
   if (std::ranges::none_of(changes, sets_the_duration))  // who shortens a run knows it
-    for (std::string& doubt : cut_off_doubts(root, scenario.duration))
+    for (std::string& doubt : cut_off_doubts(root, scenario))
       scenario.doubts.push_back(std::move(doubt));
   return scenario;
 }

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <set>
+
 #include "sim/base/message_text.hpp"
 #include "sim/mesh/mesh_readers.hpp"
 #include "tools/import/toml_entry.hpp"
@@ -33,21 +37,41 @@ class Translator {
     const XmlElement& element = *material_.element;
     MaterialText text;
     text.density = toml_quantity(number_or(element, "density", 1), units_.density());
-    if (element.child("density") == nullptr && element.child("elastic") != nullptr)
+    if (part(element, "density") == nullptr && part(element, "elastic") != nullptr)
       text.density =
-          toml_quantity(number_or(*element.child("elastic"), "density", 1), units_.density());
+          toml_quantity(number_or(*part(element, "elastic"), "density", 1), units_.density());
     const std::optional<std::string> keys = material_.type == "uncoupled viscoelastic"
                                                 ? relaxing(element)
                                                 : law(material_.type, element, 1, text.activation);
     if (!keys) return std::nullopt;
+    lose_unread(element);
     text.table = fmt::format("{{ {} }}", *keys);
     return text;
   }
 
  private:
+  const XmlElement* part(const XmlElement& element, std::string_view name) const {
+    const XmlElement* const found = element.child(name);
+    read_.insert(found);
+    return found;
+  }
+
+  /// What no law asked for, such as a prestrain. Axes of a law without fibres say nothing, nor do
+  /// the tolerances of an augmentation.
+  void lose_unread(const XmlElement& element) {
+    constexpr std::array<std::string_view, 4> kIdle{"fiber", "mat_axis", "atol", "augtol"};
+    for (const XmlElement& inner : element.children) {
+      if (inner.name == "elastic")
+        lose_unread(inner);
+      else if (!read_.contains(&inner) && std::ranges::find(kIdle, inner.name) == kIdle.end())
+        lose(inner, fmt::format("{} of the material {}", sim::in_ticks(inner.name),
+                                sim::in_ticks(material_.name)));
+    }
+  }
+
   /// A number in a child. @throws NoConstant
   double number(const XmlElement& element, std::string_view name) const {
-    const XmlElement* const child = element.child(name);
+    const XmlElement* const child = part(element, name);
     if (child == nullptr)
       throw NoConstant{element.line, fmt::format("it has no constant `{}`", name)};
     const std::optional<double> value = sim::parse_number(child->text);
@@ -56,7 +80,7 @@ class Translator {
     return *value;
   }
   double number_or(const XmlElement& element, std::string_view name, double otherwise) const {
-    return element.child(name) != nullptr ? number(element, name) : otherwise;
+    return part(element, name) != nullptr ? number(element, name) : otherwise;
   }
 
   /// "c10 = "2 kPa"". A scale belongs to the stress of the distortion.
@@ -74,7 +98,7 @@ class Translator {
 
   /// U(J) of an uncoupled law is k/2 (ln J)² unless `pressure_model` says otherwise.
   std::string bulk(const XmlElement& element) {
-    const XmlElement* const model = element.child("pressure_model");
+    const XmlElement* const model = part(element, "pressure_model");
     std::string_view word = "logarithmic";
     if (model != nullptr && (model->text == "2" || model->text == "Abaqus"))
       word = "quadratic";
@@ -82,7 +106,7 @@ class Translator {
       lose(*model,
            fmt::format("pressure_model {}: the change of volume has the energy k/2 (ln J)^2",
                        sim::in_quotes(model->text)));
-    if (const XmlElement* const augmented = element.child("laugon");
+    if (const XmlElement* const augmented = part(element, "laugon");
         augmented && augmented->text != "0")
       lose(*augmented,
            "the augmented incompressibility (`laugon`): the bulk modulus k alone counts");
@@ -140,7 +164,7 @@ class Translator {
   }
 
   std::string transversely_isotropic(const XmlElement& element, double scale) {
-    if (const XmlElement* const active = element.child("active_contraction"))
+    if (const XmlElement* const active = part(element, "active_contraction"))
       lose(*active, "the active contraction of the fibres");
     return fmt::format(
         "law = \"transversely-isotropic\", {}, {}, {}, {}, {}, {}, {}, {}",
@@ -153,7 +177,7 @@ class Translator {
 
   std::string muscle(const XmlElement& element, std::optional<FebioValue>& activation) {
     for (const char* const name : {"activation", "alpha"})
-      if (const XmlElement* const child = element.child(name)) {
+      if (const XmlElement* const child = part(element, name)) {
         const std::optional<double> value = sim::parse_number(child->text);
         if (!value) throw NoConstant{child->line, "its activation is no number"};
         activation = FebioValue{*value, child->attribute("lc") ? *child->attribute("lc") : ""};
@@ -162,7 +186,7 @@ class Translator {
                "the activation at once: it follows its curve with the muscle's time constants");
       }
     if (number_or(element, "g3", 0) != 0)
-      lose(*element.child("g3"), "the constant g3 of the muscle");
+      lose(*part(element, "g3"), "the constant g3 of the muscle");
     const double optimal = number(element, "Lofl");
     return fmt::format(
         "law = \"muscle\", {}, {}, {}, {}, {}, {}, {}, {}, {}",
@@ -174,9 +198,9 @@ class Translator {
 
   /// A direction, else the mesh's, else x: that is FEBio's default.
   std::string fibres(const XmlElement& element) {
-    const XmlElement* fibre = element.child("fiber");
-    if (fibre == nullptr && element.child("mat_axis") != nullptr)
-      fibre = element.child("mat_axis")->child("a");
+    const XmlElement* fibre = part(element, "fiber");
+    if (fibre == nullptr && part(element, "mat_axis") != nullptr)
+      fibre = part(element, "mat_axis")->child("a");
     if (fibre != nullptr) {
       std::string numbers;
       int count = 0;
@@ -202,7 +226,7 @@ class Translator {
   /// FEBio's law holds for what does not relax: at once it is (g0 + Σ g) times as stiff. Only the
   /// distortion relaxes, in both programs.
   std::optional<std::string> relaxing(const XmlElement& element) {
-    const XmlElement* const elastic = element.child("elastic");
+    const XmlElement* const elastic = part(element, "elastic");
     if (elastic == nullptr) throw NoConstant{element.line, "it has no <elastic>"};
     double sum = number_or(element, "g0", 1);
     for (int i = 1; i <= kMostTerms; ++i) sum += number_or(element, fmt::format("g{}", i), 0);
@@ -224,6 +248,7 @@ class Translator {
   std::string fibre_array_;
   bool is_dynamic_;
   std::vector<Loss>& losses_;
+  mutable std::set<const XmlElement*> read_;  // children that were asked for
 };
 
 }  // namespace

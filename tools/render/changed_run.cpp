@@ -97,6 +97,8 @@ DrawnRun difference(DrawnRun first, DrawnRun second) {
     const Frame other = second.read(other_entry);
     for (Part& part : frame.parts) {
       const Part& there = part_of(second.series, other, part.name);
+      require_same_unit(second.series, text_of(*part.set, "coordinates.unit"),
+                        text_of(*there.set, "coordinates.unit"));
       require_same_mesh(first.series, frame, part, there, "--difference compares node by node");
       // As second minus first: the first one's arrays are taken from the second one's.
       vtkSmartPointer<vtkPointSet> result;

@@ -1,5 +1,6 @@
 #include "tools/render/survey.hpp"
 
+#include <fmt/format.h>
 #include <vtkCellData.h>
 #include <vtkPolyData.h>
 
@@ -120,11 +121,21 @@ Vec3 middle_of(const Frame& frame, const ViewAxes& axes, const std::string& focu
   return box.middle();
 }
 
+void require_same_unit(const Series& series, const std::string& expected,
+                       const std::string& found) {
+  if (found != expected)
+    throw sim::InputError({series.directory.string()},
+                          fmt::format("its lengths are in {}, and those beside it in {}: expected "
+                                      "runs with the same `output.length_unit`",
+                                      found, expected));
+}
+
 Survey survey(const std::vector<DrawnRun>& runs, const Colouring& colouring,
               const std::string& focus, const ViewAxes& axes) {
   Survey result;
   ViewBox everything(axes);
   bool is_of_tissue = false;
+  std::string seen_unit;
   for (const DrawnRun& run : runs) {
     check_focus(run.series, focus);
     for (const FrameEntry& entry : run.series.frames) {
@@ -135,8 +146,10 @@ Survey survey(const std::vector<DrawnRun>& runs, const Colouring& colouring,
       }
       ViewBox seen(axes);
       for (const Part& part : frame.parts) {
-        if (const std::string unit = text_of(*part.set, "coordinates.unit"); !unit.empty())
-          result.length_unit = unit;
+        if (const std::string unit = text_of(*part.set, "coordinates.unit"); !unit.empty()) {
+          require_same_unit(run.series, seen_unit.empty() ? unit : seen_unit, unit);
+          result.length_unit = seen_unit = unit;
+        }
         everything.add(*part.set);
         if (part.name == focus) seen.add(*part.set);
         if (part.kind == PartKind::Lines) add_lines(part, result);

@@ -23,6 +23,9 @@ struct DrawnRun {
 /// The frames as they were written.
 DrawnRun as_written(Series series);
 
+/// What is drawn together has one unit of length. @throws sim::InputError
+void require_same_unit(const Series& series, const std::string& expected, const std::string& found);
+
 /// What colours what.
 struct Colouring {
   std::string field;             // "": von_mises, else contact_pressure, else the first there is

@@ -130,9 +130,15 @@ Json history_of(const fs::path& folder) {
 
 Json pictures_of(const fs::path& folder, double room) {
   Json json = {{"pictures", Json::array()}, {"remarks", Json::array()}};
+  std::error_code none;
+  const auto results = fs::last_write_time(folder / "summary.json", none);
   for (const fs::path& file : picture_files(folder)) {
     const std::string name = file.lexically_relative(folder).string();
     std::error_code ignored;
+    if (fs::last_write_time(file, ignored) < results) {
+      json["remarks"].push_back(name + " is left out: it was drawn of earlier results");
+      continue;
+    }
     const auto size = 4.0 / 3 * static_cast<double>(fs::file_size(file, ignored));
     if (size > room) {
       json["remarks"].push_back(name + " is left out, to keep this page small");

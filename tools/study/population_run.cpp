@@ -32,7 +32,7 @@ int study_population(const Study& study, const StudyRunOptions& options) {
   } catch (const sim::SystemError& error) {
     fmt::print(stderr, "articular: no page: {}\n", error.what());
   }
-  return 0;
+  return exit_code_of(records);
 }
 
 }  // namespace articular::tools

@@ -50,6 +50,23 @@ void draw(const std::string& commands, const fs::path& directory, const fs::path
   fmt::print(stderr, "articular: no picture: {}; its commands are in {}\n", why, script.string());
 }
 
+/// Of two references the finer one takes longer. Where it does not, `size` is hardly what was
+/// meant, and what is extrapolated from them lies on the wrong side.
+void doubt_sizes(const Study& study, const std::vector<StudyCase>& cases,
+                 const std::vector<CaseRecord>& records) {
+  constexpr double kAtLeast = 0.7;  // of the coarser one's time
+  std::vector<double> time(study.references.size());
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    if (cases[i].reference >= 0 && records[i].succeeded())
+      time[static_cast<std::size_t>(cases[i].reference)] = records[i].cpu();
+  for (std::size_t k = 0; k + 1 < time.size(); ++k)
+    if (time[k] < kAtLeast * time[k + 1])
+      fmt::print(stderr,
+                 "articular: warning: the reference of size {:g} took {:.2g} s, and that of size "
+                 "{:g} took {:.2g} s: is the smaller `size` that of the finer one?\n",
+                 study.references[k].size, time[k], study.references[k + 1].size, time[k + 1]);
+}
+
 /// Runs what the knobs make of the scenario, and says what each setting costs and buys.
 int compare_settings(const Study& study, const StudyRunOptions& options, bool cpu_time) {
   const std::vector<StudyCase> cases = study_cases(study);
@@ -57,6 +74,7 @@ int compare_settings(const Study& study, const StudyRunOptions& options, bool cp
   const CaseWarnings warnings = case_warnings(cases, records, options.directory);
   const std::string warned = warnings_table(warnings);
   tell_warnings(warnings);
+  doubt_sizes(study, cases, records);
   const fs::path table = options.directory / "study.csv", text = options.directory / "study.md",
                  picture = options.directory / "pareto.svg";
   if (study.is_sweep()) {
@@ -64,7 +82,7 @@ int compare_settings(const Study& study, const StudyRunOptions& options, bool cp
     sim::write_text_file(table, sweep_csv(study, cases, records, values));
     sim::write_text_file(text, sweep_text(study, cases, records, values) + warned);
     fmt::print("{}\n{}\n", text.string(), table.string());
-    return 0;
+    return exit_code_of(records);
   }
   const Assessment assessment =
       assess(study, cases, records, options.directory, cpu_time || options.jobs > 1);
@@ -72,7 +90,7 @@ int compare_settings(const Study& study, const StudyRunOptions& options, bool cp
   sim::write_text_file(text, study_text(study, cases, records, assessment) + warned);
   fmt::print("{}\n{}\n", text.string(), table.string());
   draw(study_plot(cases, study.title, assessment, picture), options.directory, picture);
-  return 0;
+  return exit_code_of(records);
 }
 
 void check_engine(const EngineOptions& engine) {

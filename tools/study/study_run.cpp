@@ -293,6 +293,15 @@ fs::path results_of(const fs::path& directory, const StudyCase& c) {
   return folder_of(directory, c) / "results";
 }
 
+int exit_code_of(const std::vector<CaseRecord>& records) {
+  constexpr int kCouldNotGoOn = 3;
+  if (records.empty() || std::ranges::any_of(records, &CaseRecord::succeeded)) return 0;
+  const CaseRecord& first = records.front();
+  fmt::print(stderr, "articular: no case succeeded, the first one: {}{}{}\n", first.outcome(),
+             first.message.empty() ? "" : ": ", first.message);
+  return kCouldNotGoOn;
+}
+
 std::vector<CaseRecord> run_cases(const Study& study, const std::vector<StudyCase>& cases,
                                   const StudyRunOptions& options) {
   CaseRunner runner(study, options);

@@ -100,6 +100,7 @@ class Tracker {
                         target.value.time.front(), duration_));
     interval_ = track.interval.value_or(model_.is_static ? scenario_.integrator.step
                                                          : scenario_.output.interval);
+    for (const TrackTarget& target : track.targets) check_times(target);
   }
 
   TrackResult go() {
@@ -149,6 +150,31 @@ class Tracker {
   double next_time(double t) const {
     const double next = interval_ * (std::floor(t / interval_ + 1e-6) + 1);
     return next > duration_ - 0.1 * interval_ ? duration_ : next;
+  }
+
+  /// A target counts somewhere, and does not go on to where the run has long ended.
+  void check_times(const TrackTarget& target) const {
+    const sim::Curve& curve = target.value;
+    if (curve.time.size() < 2) return;
+    bool counts = false;
+    for (double t = 0; t < duration_ && !counts;) {
+      t = next_time(t);
+      counts = counts_at(target, t);
+    }
+    if (!counts)
+      throw sim::InputError(
+          target.where,
+          fmt::format("target `{}` counts from {:g} to {:g} s, and excitations are found every "
+                      "{:g} s: at none of these times",
+                      target.name, curve.time.front(), curve.time.back(), interval_));
+    const double end = sim::value_at(curve, duration_);
+    bool changes_later = false;
+    for (std::size_t i = 0; i < curve.time.size(); ++i)
+      changes_later |= curve.time[i] > duration_ && curve.value[i] != end;
+    if (changes_later && options_.warn)
+      options_.warn(sim::prefix(target.where) +
+                    fmt::format("target `{}` changes until {:g} s, and the run ends at {:g} s",
+                                target.name, curve.time.back(), duration_));
   }
 
   VectorXd first_guess(double time) const {

@@ -1,6 +1,7 @@
 #include "tools/track/track_file.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "sim/scenario/csv_table.hpp"
 #include "sim/scenario/data_path.hpp"
@@ -28,6 +29,22 @@ sim::Curve read_number_or_curve(const Node& node, const sim::Range& range) {
   return sim::read_curve(node, range, {{}, kNoBodies});
 }
 
+/// "mm" of "tip.position.x [mm]"; "" where it has none.
+std::string_view unit_of(std::string_view column) {
+  const std::size_t open = column.rfind('[');
+  if (open == std::string_view::npos || !column.ends_with(']')) return "";
+  return column.substr(open + 1, column.size() - open - 2);
+}
+
+/// What is compared has one unit, where both have one.
+void check_units(const Node& node, const std::string& in_file, const std::string& of_probe) {
+  const std::string_view file = unit_of(in_file), probe = unit_of(of_probe);
+  if (!file.empty() && !probe.empty() && file != probe)
+    sim::fail(node,
+              fmt::format("the file's column is in {}, and `{}` in {}: expected the same unit",
+                          file, sim::one_line(of_probe), probe));
+}
+
 /// A column of a table over time, such as history.csv of a run.
 sim::Curve read_column(const std::filesystem::path& file, const std::string& column,
                        const Node& reference) {
@@ -40,7 +57,9 @@ sim::Curve read_column(const std::filesystem::path& file, const std::string& col
           if (found == headers.fields.end())
             throw sim::InputError(
                 headers.where,
-                fmt::format("no column `{}`{}", name, sim::suggestion(name, headers.fields)));
+                fmt::format("no column `{}`{}", name,
+                            name == kTimeColumn ? ", which has the times in seconds"
+                                                : sim::suggestion(name, headers.fields)));
           return static_cast<std::size_t>(found - headers.fields.begin());
         };
         time = find(kTimeColumn);
@@ -100,6 +119,7 @@ TrackTarget read_target(const Node& node, const std::filesystem::path& folder) {
     if (table.find("file_column") == nullptr && target.columns.size() > 1)
       sim::fail(value, "of several columns the sum is fitted: expected `file_column` beside it");
     table.read("file_column", column);
+    check_units(value, column, target.columns.front());
     target.value = read_column(sim::read_path(value, folder), column, value);
   }
   table.read("spread", target.spread);

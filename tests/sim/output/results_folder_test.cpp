@@ -9,7 +9,7 @@ namespace articular::sim::results_folder_test {
 
 namespace fs = std::filesystem;
 
-std::string refusal(const fs::path& folder, const std::string& scenario) {
+std::string refusal(const fs::path& folder, const fs::path& scenario) {
   try {
     clear_results(folder, scenario, false);
   } catch (const InputError& error) {
@@ -63,6 +63,19 @@ TEST_F(Results, OfAnotherScenarioAreReplacedOnlyWhenAskedFor) {
   for (const std::string& name : kWritten) EXPECT_TRUE(fs::exists(folder_ / name)) << name;
   clear_results(folder_.path(), "jaw.toml", true);
   expect_cleared();
+}
+
+TEST_F(Results, OfAScenarioOfThatNameInAnotherFolderAreThoseOfAnotherOne) {
+  const fs::path here = folder_ / "here/knee.toml", there = folder_ / "there/knee.toml";
+  for (const fs::path& scenario : {here, there}) fs::create_directories(scenario.parent_path());
+  write_unfinished_summary(folder_.path(), here);
+  EXPECT_EQ(refusal(folder_.path(), folder_ / "there/../here/knee.toml"), "");
+  EXPECT_NE(
+      refusal(folder_.path(), there)
+          .find("holds results of knee.toml in " + folder_of(here) + "; choose another --out"),
+      std::string::npos);
+  clear_results(folder_.path(), there, true);
+  EXPECT_EQ(refusal(folder_.path(), there), "");
 }
 
 TEST_F(Results, WithoutASummaryAreKnownByTheirSeries) {

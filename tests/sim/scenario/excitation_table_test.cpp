@@ -33,6 +33,20 @@ TEST_F(ExcitationTable, ReplacesThoseOfItsMusclesAndNoOthers) {
   EXPECT_EQ(scenario.muscles[1].excitation.value, (std::vector<double>{0, 0.25}));
 }
 
+TEST_F(ExcitationTable, ChangesAfterTheEndOfTheRunAreTold) {
+  const auto doubts = [&](const std::string& csv, const std::vector<std::string>& overrides = {}) {
+    write("e.csv", csv);
+    return read(scene_ + table_, overrides).doubts;
+  };
+  EXPECT_TRUE(doubts("pull_left,time [s]\n0,0\n0.25,100\n", {"duration=1 s"}).empty());
+  const std::vector<std::string> late = doubts("pull_left,time [s]\n0,0\n0.25,100\n");
+  ASSERT_EQ(late.size(), 1U);
+  EXPECT_NE(late[0].find("the excitation of `pull_left` changes until 100 s, and the run ends at"),
+            std::string::npos)
+      << late[0];
+  EXPECT_TRUE(doubts("pull_left,time [s]\n0.25,0\n0.25,100\n").empty());
+}
+
 TEST_F(ExcitationTable, CanBeGivenByAnOverride) {
   const std::string file = write("e.csv", "time [s],pull_left\n0,1\n").string();
   const Scenario scenario = read(scene_, {"excitations.file=" + file});

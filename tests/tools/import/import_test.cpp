@@ -166,6 +166,9 @@ TEST(Import, WhatOfAMaterialHasNoCounterpartIsTold) {
       {"Mooney-Rivlin", "<c1>1</c1><c2>2</c2><k>100</k><pressure_model>1</pressure_model>",
        "pressure_model"},
       {"Mooney-Rivlin", "<c1>1</c1><c2>2</c2><k>100</k><laugon>1</laugon>", "incompressibility"},
+      {"neo-Hookean", "<E>1</E><v>0.3</v><prestress>5</prestress>", "`prestress` of the material"},
+      {"neo-Hookean", "<E>1</E><E>2</E><v>0.3</v><mat_axis type=\"vector\"/>", "`E` of the"},
+      {"Mooney-Rivlin", "<c1>1</c1><k>100</k><prestrain type=\"in-situ\"/>", "`prestrain` of"},
       {"trans iso Mooney-Rivlin",
        "<c1>1</c1><c3>3</c3><c4>4</c4><c5>5</c5><lam_max>1.05</lam_max><k>100</k>"
        "<fiber type=\"local\">1,2</fiber>",

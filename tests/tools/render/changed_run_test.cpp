@@ -11,8 +11,8 @@ namespace articular::tools::render_test {
 /// Two frames of a tetrahedron that moves by (1, 0, 0) mm, with a stress of 10 i `scale` in frame
 /// i.
 void write_moving(const std::filesystem::path& folder, double scale, double interval,
-                  Eigen::Index num_tets = 1) {
-  sim::FrameWriter writer(folder, "moving", {1e-3, "mm"});
+                  Eigen::Index num_tets = 1, const sim::LengthUnit& unit = {1e-3, "mm"}) {
+  sim::FrameWriter writer(folder, "moving", unit);
   const Tetrahedra tets = Eigen::Vector4i(0, 1, 2, 3).replicate(1, num_tets);
   Positions rest(3, 4);
   rest << 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2;
@@ -53,10 +53,11 @@ TEST(Difference, IsTheSecondRunMinusTheFirst) {
 }
 
 TEST(Difference, NeedsTheSameMeshesAndTimes) {
-  const TemporaryFolder one, other_mesh, other_times;
+  const TemporaryFolder one, other_mesh, other_times, other_unit;
   write_moving(one.path(), 1, 0.1);
   write_moving(other_mesh.path(), 1, 0.1, 2);
   write_moving(other_times.path(), 1, 0.2);
+  write_moving(other_unit.path(), 1, 0.1, 1, {1, "m"});
   const auto error = [&](const TemporaryFolder& other) -> std::string {
     const DrawnRun run = difference(run_in(one), run_in(other));
     try {
@@ -66,6 +67,15 @@ TEST(Difference, NeedsTheSameMeshesAndTimes) {
     }
     return "no error";
   };
+  EXPECT_NE(error(other_unit).find("its lengths are in m, and those beside it in mm"),
+            std::string::npos)
+      << error(other_unit);
+  try {
+    survey({run_in(one), run_in(other_unit)}, {}, "", {});
+    ADD_FAILURE() << "runs in mm and m were drawn side by side";
+  } catch (const sim::InputError& found) {
+    EXPECT_NE(std::string(found.what()).find("its lengths are in m"), std::string::npos);
+  }
   EXPECT_NE(error(other_mesh).find("`block` has 4 points and 1 cells in frame 1, there 4 and 2"),
             std::string::npos)
       << error(other_mesh);

@@ -127,6 +127,19 @@ TEST_F(Report, HasPicturesThatLieInTheFolder) {
   EXPECT_EQ(page["remarks"][0], "plot/huge.png is left out, to keep this page small");
 }
 
+TEST_F(Report, LeavesOutPicturesOfEarlierResults) {
+  fs::create_directories(folder_ / "block/plot");
+  for (const char* name : {"block/plot/new.svg", "block/plot/old.svg"})
+    folder_.file(name, "<svg xmlns='http://www.w3.org/2000/svg'/>");
+  fs::last_write_time(
+      folder_ / "block/plot/old.svg",
+      fs::last_write_time(folder_ / "block/summary.json") - std::chrono::seconds(1));
+  const nlohmann::json page = data();
+  ASSERT_EQ(page["pictures"].size(), 1U);
+  EXPECT_EQ(page["pictures"][0]["name"], "plot/new.svg");
+  EXPECT_EQ(page["remarks"][0], "plot/old.svg is left out: it was drawn of earlier results");
+}
+
 TEST_F(Report, HasErrorBarsWhereTheyAreThere) {
   EXPECT_TRUE(data()["error_bars"].is_null());
   folder_.file("block/error_bars.csv",

@@ -156,6 +156,32 @@ TEST(Study, ACaseThatTakesTooLongIsStopped) {
   EXPECT_NE(content(folder / "out/s/study.csv").find("\nendless,time limit,"), std::string::npos);
 }
 
+TEST(Study, ReferencesWhoseSizesAreTheWrongWayRoundAreDoubted) {
+  const TemporaryFolder folder;
+  const auto warning = [&](const char* finer, const char* coarser) {
+    const auto reference = [](const char* size, const char* cells) {
+      return std::string("[[reference]]\nsize = ") + size +
+             "\nset = { 'body.beam.geometry.box.cells' = " + cells + " }\n";
+    };
+    folder.file("s.toml", kHead + reference("1", finer) + reference("3", coarser) + kCells + kEnd);
+    return run_program(folder, "study s.toml --quiet --fresh").err;
+  };
+  const char* const few = "[1, 1, 5]";
+  const char* const many = "[8, 8, 60]";
+  EXPECT_NE(warning(few, many).find("is the smaller `size` that of the finer one?"),
+            std::string::npos);
+  EXPECT_EQ(warning(many, few).find("smaller `size`"), std::string::npos);
+}
+
+TEST(Study, WhereNoCaseSucceedsItSaysSo) {
+  const TemporaryFolder folder;
+  folder.file("s.toml", kHead + "time_limit = '1 us'\n" + kCells + kEnd);
+  const ProgramResult result = run_program(folder, "study s.toml --quiet");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("no case succeeded, the first one: time limit"), std::string::npos)
+      << result.err;
+}
+
 TEST(Study, InterruptedItGoesOnWithWhatIsMissing) {
   const TemporaryFolder folder;
   folder.file("s.toml", kHead +

@@ -74,6 +74,25 @@ TEST_F(TrackFile, TakesTargetsFromTables) {
             (std::vector<double>{9, 9}));
   EXPECT_EQ(refusal(kHead + kMuscle + target + "file_column = \"othr [N]\"\n"),
             "h.csv:1: no column `othr [N]`; did you mean `other [N]`?");
+  folder_.file("ms.csv", "time [ms],bite.force.z [N]\n0,1\n500,2\n");
+  std::string in_ms = target;
+  in_ms.replace(in_ms.find("h.csv"), 5, "ms.csv");
+  EXPECT_EQ(refusal(kHead + kMuscle + in_ms),
+            "ms.csv:1: no column `time [s]`, which has the times in seconds");
+}
+
+TEST_F(TrackFile, RefusesATableInAnotherUnit) {
+  folder_.file("h.csv", "time [s],force [kN],plain,way [mm]\n0,1,2,3\n0.5,1,2,3\n");
+  const std::string target =
+      "[[target]]\ncolumn = \"bite.force.z [N]\"\nfile = \"h.csv\"\nspread = 1\n";
+  const auto with = [&](const std::string& column) {
+    return kHead + kMuscle + target + "file_column = \"" + column + "\"\n";
+  };
+  EXPECT_NE(refusal(with("force [kN]"))
+                .find("the file's column is in kN, and `bite.force.z [N]` in N: expected the same"),
+            std::string::npos);
+  EXPECT_NE(refusal(with("way [mm]")).find("is in mm"), std::string::npos);
+  EXPECT_EQ(read(with("plain")).targets[0].value.value, (std::vector<double>{2, 2}));
 }
 
 TEST_F(TrackFile, SaysWhatIsWrongAndWhere) {

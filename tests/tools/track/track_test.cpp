@@ -223,6 +223,27 @@ TEST_F(Track, RefusesATargetThatBeginsWhenTheRunIsOver) {
       << late.err;
 }
 
+TEST_F(Track, RefusesATargetThatCountsAtNoTime) {
+  const auto with = [&](const std::string& times) {
+    return track(kStatic + kTwoMuscles +
+                 "[[target]]\nname = \"way\"\ncolumn = \"bone.position.y [mm]\"\nspread = 1\n"
+                 "value = { time = [" +
+                 times + "], value = [0, 0.1] }\n");
+  };
+  const ProgramResult between = with("\"0 s\", \"0.2 s\"");  // excitations are found every 0.25 s
+  EXPECT_EQ(between.exit_code, 2);
+  EXPECT_NE(between.err.find("target `way` counts from 0 to 0.2 s, and excitations are found every "
+                             "0.25 s: at none of these times"),
+            std::string::npos)
+      << between.err;
+  EXPECT_EQ(with("\"0.2 s\", \"0.3 s\"").exit_code, 0);
+  const ProgramResult late = with("\"0 s\", \"90 s\"");
+  EXPECT_EQ(late.exit_code, 0) << late.err;
+  EXPECT_NE(late.err.find("target `way` changes until 90 s, and the run ends at 1 s"),
+            std::string::npos)
+      << late.err;
+}
+
 // Three tenths of a second are 0.30000000000000004 in binary.
 TEST_F(Track, TimesOfTheTableHaveNoRoundOff) {
   make_twin();
