@@ -263,12 +263,12 @@ TEST(Population, WhatAProgramSaidLastIsWhyItFailed) {
   const TemporaryFolder folder;
   const std::string rest = "[[output]]\ncolumn = 'y [mm]'\n[population]\nsamples = 2\n" + kUniform;
   folder.file("a.toml", "command = ['sh', '-c', 'echo too thin: {x}; exit 3']\n" + rest);
-  EXPECT_EQ(run_program(folder, "study a.toml").exit_code, 0);
+  EXPECT_EQ(run_program(folder, "study a.toml").exit_code, 3);
   const std::string text = content(folder / "out/a/population.md");
   EXPECT_NE(text.find("0 of 2 cases succeeded"), std::string::npos) << text;
   EXPECT_NE(text.find("| could not go on | too thin: 0."), std::string::npos) << text;
   folder.file("b.toml", "command = ['no-such-program', '{x}']\n" + rest);
-  EXPECT_EQ(run_program(folder, "study b.toml").exit_code, 0);
+  EXPECT_EQ(run_program(folder, "study b.toml").exit_code, 3);
   EXPECT_NE(content(folder / "out/b/population.md").find("| can't start no-such-program |"),
             std::string::npos);
 }
