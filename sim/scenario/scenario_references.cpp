@@ -107,7 +107,7 @@ const KeyTable& place_keys() {
 }
 
 Vec3 read_turn(const TableReader& table, const char* key) {
-  const Vec3 turn = table.get<Vec3>(key);
+  Vec3 turn = table.get<Vec3>(key);
   if (turn.norm() > kWholeTurn)
     fail(table.at(key),
          fmt::format("turns by {:.4g} degrees: expected at most 360; is the unit the "

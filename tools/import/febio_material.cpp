@@ -257,7 +257,7 @@ std::optional<MaterialText> material_text(const FebioMaterial& material, const U
                                           const std::string& fibre_array, bool is_dynamic,
                                           std::vector<Loss>& losses) {
   try {
-    const std::optional<MaterialText> text =
+    std::optional<MaterialText> text =
         Translator(material, units, fibre_array, is_dynamic, losses).translate();
     if (!text)
       losses.push_back({material.element->line,

@@ -57,6 +57,7 @@ struct Iterate {
 std::vector<sim::Curve> own_excitations(const sim::Model& model,
                                         const std::vector<TrackUnknown>& unknowns) {
   std::vector<sim::Curve> own;
+  own.reserve(unknowns.size());
   for (const TrackUnknown& unknown : unknowns)
     own.push_back(
         model.muscles[static_cast<std::size_t>(unknown.muscles.front())].given.excitation);
