@@ -178,20 +178,9 @@ struct Resolver {
     return {rigid, point - rest.p, direction};
   }
 
-  bool pulls_on(const Line& line, int rigid) const {
-    const auto goes_with = [&](const NodeRef& node) { return node.rigid == rigid; };
-    return std::ranges::any_of(line.path,
-                               [&](const WeightedPoint& point) {
-                                 return std::ranges::any_of(point.nodes, goes_with);
-                               }) ||
-           std::ranges::any_of(line.wrap.bodies, [&](int wrapped) {
-             return model.wrap_bodies[static_cast<std::size_t>(wrapped)].rigid == rigid;
-           });
-  }
-
   Observed operator()(const MomentArmProbe& arm) const {
     const int line = line_called(arm.line);
-    if (!pulls_on(model.lines[static_cast<std::size_t>(line)], body(arm.body).rigid))
+    if (!pulls_on(model, model.lines[static_cast<std::size_t>(line)], body(arm.body).rigid))
       throw InputError(
           probe.where,
           fmt::format(

@@ -264,18 +264,9 @@ class Doubts {
     const BodyModel& made = model_.bodies[body];
     if (made.kind != Body::Kind::Fixed || model_.contacts.touches(static_cast<int>(body)))
       return true;
-    const auto is_on_it = [&](const Anchor& anchor) { return anchor.body == made.name; };
-    const auto holds_it = [&](const auto& line) {
-      return std::ranges::any_of(line.path, is_on_it) ||
-             std::ranges::find(line.wrap, made.name) != line.wrap.end();
-    };
     const auto is_tied = [&](const Tissue& tissue) { return is_tied_to(tissue, made.rigid); };
-    return std::ranges::any_of(model_.tissues, is_tied) ||
-           std::ranges::any_of(scenario_.muscles, holds_it) ||
-           std::ranges::any_of(scenario_.ligaments, holds_it) ||
-           std::ranges::any_of(scenario_.boluses, [&](const Bolus& bolus) {
-             return std::ranges::any_of(bolus.path, is_on_it);
-           });
+    const auto pulls = [&](const Line& line) { return pulls_on(model_, line, made.rigid); };
+    return std::ranges::any_of(model_.tissues, is_tied) || std::ranges::any_of(model_.lines, pulls);
   }
 
   void look_at(const Probe& probe, const JointProbe& joint) {

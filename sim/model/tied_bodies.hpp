@@ -12,6 +12,18 @@ inline bool is_tied_to(const Tissue& tissue, int rigid) {
                              [&](const NodeRef& node) { return node.rigid == rigid; });
 }
 
+/// Whether a line has a point that goes with this rigid body, or wraps around it.
+inline bool pulls_on(const Model& model, const Line& line, int rigid) {
+  const auto goes_with = [&](const NodeRef& node) { return node.rigid == rigid; };
+  return std::ranges::any_of(line.path,
+                             [&](const WeightedPoint& point) {
+                               return std::ranges::any_of(point.nodes, goes_with);
+                             }) ||
+         std::ranges::any_of(line.wrap.bodies, [&](int wrapped) {
+           return model.wrap_bodies[static_cast<std::size_t>(wrapped)].rigid == rigid;
+         });
+}
+
 /// Whether tissue of one body is tied to the other: then it belongs there.
 inline bool are_tied(const Model& model, int a, int b) {
   const auto belongs_to = [&](int tissue, int rigid) {

@@ -29,4 +29,11 @@ double slope_at(const Curve& curve, double t) {
   return (curve.value[i] - curve.value[i - 1]) / (curve.time[i] - curve.time[i - 1]);
 }
 
+bool changes_after(const Curve& curve, double t) {
+  const double then = value_at(curve, t);
+  for (std::size_t i = 0; i < curve.time.size(); ++i)
+    if (curve.time[i] > t && curve.value[i] != then) return true;
+  return false;
+}
+
 }  // namespace articular::sim

@@ -10,4 +10,7 @@ double value_at(const Curve& curve, double t);
 /// Its change per second; at a time of the curve that of the part which begins there.
 double slope_at(const Curve& curve, double t);
 
+/// Whether it has another value later than it has then.
+bool changes_after(const Curve& curve, double t);
+
 }  // namespace articular::sim

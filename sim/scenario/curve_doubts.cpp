@@ -6,7 +6,6 @@
 
 #include "sim/base/error.hpp"
 #include "sim/base/message_text.hpp"
-#include "sim/scenario/curve.hpp"
 #include "sim/scenario/scenario_reader.hpp"
 #include "sim/scenario/toml_walk.hpp"
 
@@ -38,25 +37,6 @@ void doubt_later_changes(const Node& node, double duration, std::vector<std::str
                                in_ticks(node.name), times.back(), duration));
 }
 
-/// Of a file, whose curves have one time axis.
-void doubt_later_excitations(const Node& file, const Scenario& scenario,
-                             std::vector<std::string>& doubts) {
-  for (const Muscle& muscle : scenario.muscles) {
-    const Curve& curve = muscle.excitation;
-    if (curve.time.empty() || curve.time.back() <= scenario.duration) continue;
-    const double end = value_at(curve, scenario.duration);
-    for (std::size_t i = 0; i < curve.time.size(); ++i) {
-      if (curve.time[i] <= scenario.duration || curve.value[i] == end) continue;
-      doubts.push_back(
-          prefix(file.where) +
-          fmt::format("the excitation of `{}` changes until {:.6g} s, and the run ends "
-                      "at {:.6g} s: what comes later is not computed",
-                      muscle.name, curve.time.back(), scenario.duration));
-      return;
-    }
-  }
-}
-
 }  // namespace
 
 std::set<std::string> named_curves(const Node& root) {
@@ -83,11 +63,9 @@ std::vector<std::string> unnamed_curve_doubts(const Node& root,
   return doubts;
 }
 
-std::vector<std::string> cut_off_doubts(const Node& root, const Scenario& scenario) {
+std::vector<std::string> cut_off_doubts(const Node& root, double duration) {
   std::vector<std::string> doubts;
-  const auto doubt = [&](const Node& node) {
-    doubt_later_changes(node, scenario.duration, doubts);
-  };
+  const auto doubt = [&](const Node& node) { doubt_later_changes(node, duration, doubts); };
   const std::set<std::string> named = named_curves(root);
   for (const Member& member : root.table()->members) {
     if (member.key != "curve") {
@@ -97,8 +75,6 @@ std::vector<std::string> cut_off_doubts(const Node& root, const Scenario& scenar
     for (const Member& curve : member.node.table()->members)
       if (named.contains(curve.key)) doubt(curve.node);
   }
-  if (const Node* const file = root.find("excitations"))
-    doubt_later_excitations(*file, scenario, doubts);
   return doubts;
 }
 

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/scenario/scenario.hpp"
 #include "sim/scenario/toml_document.hpp"
 
 /// What curves of a scenario's document are hardly meant to be.
@@ -17,9 +16,9 @@ std::set<std::string> named_curves(const Node& root);
 std::vector<std::string> unnamed_curve_doubts(const Node& root, const std::set<std::string>& named);
 
 /// Tables of `time` and values, those of [curve] that are named among them, whose values change
-/// after the end of the run, and a file of excitations that does. The document has to be valid.
-/// @param scenario  what was read of it
+/// after the end of the run. The document has to be valid.
+/// @param duration  [s]
 /// @return          one line each, with its place
-std::vector<std::string> cut_off_doubts(const Node& root, const Scenario& scenario);
+std::vector<std::string> cut_off_doubts(const Node& root, double duration);
 
 }  // namespace articular::sim

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sim/scenario/csv_table.hpp"
+#include "sim/scenario/curve.hpp"
 #include "sim/scenario/data_path.hpp"
 #include "sim/scenario/range.hpp"
 #include "sim/scenario/scenario_keys.hpp"
@@ -59,16 +60,19 @@ const KeyTable& excitations_keys() {
   return kTable;
 }
 
-void replace_excitations(const Node* node, const Context& context, std::vector<Muscle>& muscles) {
-  if (node == nullptr) return;
+std::vector<std::size_t> replace_excitations(const Node* node, const Context& context,
+                                             std::vector<Muscle>& muscles) {
+  if (node == nullptr) return {};
   const TableReader reader(*node, excitations_keys(), "[excitations]");
   const Node& file = reader.at("file");
   MuscleOfColumn muscle;
   const CsvTable table =
       read_csv(read_path(file, context.folder), "the table of excitations", file.where,
                [&](const CsvRow& headers) { muscle = muscles_of_columns(headers, muscles); });
+  std::vector<std::size_t> replaced;
   for (const std::optional<std::size_t>& m : muscle)
-    if (m) muscles[*m].excitation = {};
+    if (m) replaced.push_back(*m);
+  for (const std::size_t m : replaced) muscles[m].excitation = {};
   const auto time = static_cast<std::size_t>(std::find(muscle.begin(), muscle.end(), std::nullopt) -
                                              muscle.begin());
   std::optional<double> before;
@@ -85,6 +89,19 @@ void replace_excitations(const Node* node, const Context& context, std::vector<M
       curve.value.push_back(excitation_in(row.fields[c], table.columns.fields[c], row.where));
     }
   }
+  return replaced;
+}
+
+std::string late_excitation_doubt(const Node* node, const std::vector<Muscle>& muscles,
+                                  const std::vector<std::size_t>& replaced, double duration) {
+  for (const std::size_t m : replaced)
+    if (changes_after(muscles[m].excitation, duration))
+      return prefix(node->where) +
+             fmt::format(
+                 "the excitation of `{}` changes until {:.6g} s, and the run ends at "
+                 "{:.6g} s: what comes later is not computed",
+                 muscles[m].name, muscles[m].excitation.time.back(), duration);
+  return "";
 }
 
 }  // namespace articular::sim

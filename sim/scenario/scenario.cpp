@@ -166,13 +166,15 @@ Scenario read_scenario(const std::filesystem::path& file,
                                                  "analysis is static: there is no motion in it",
                                                  body.name));
   const Context context{folder, scenario.bodies, check_curves(document), choices.left_out};
+  const Node* const excitations = document.find("excitations");
+  std::vector<std::size_t> from_table;
   Mistakes on_bodies;  // what names them
   on_bodies.in([&] { scenario.attachments = read_attachments(document, context); });
   on_bodies.in([&] { scenario.supports = read_supports(document, context); });
   on_bodies.in([&] { scenario.sheets = read_sheets(document, context); });
   on_bodies.in([&] {
     scenario.muscles = read_muscles(document, context);
-    replace_excitations(document.find("excitations"), context, scenario.muscles);
+    from_table = replace_excitations(excitations, context, scenario.muscles);
   });
   on_bodies.in([&] { scenario.ligaments = read_ligaments(document, context, scenario.muscles); });
   on_bodies.in([&] {
@@ -188,9 +190,13 @@ Scenario read_scenario(const std::filesystem::path& file,
   scenario.content = plain_text(root);
   named.merge(named_curves(root));
   scenario.doubts = unnamed_curve_doubts(root, named);
-  if (std::ranges::none_of(changes, sets_the_duration))  // who shortens a run knows it
-    for (std::string& doubt : cut_off_doubts(root, scenario))
+  if (std::ranges::none_of(changes, sets_the_duration)) {  // who shortens a run knows it
+    for (std::string& doubt : cut_off_doubts(root, scenario.duration))
       scenario.doubts.push_back(std::move(doubt));
+    std::string doubt =
+        late_excitation_doubt(excitations, scenario.muscles, from_table, scenario.duration);
+    if (!doubt.empty()) scenario.doubts.push_back(std::move(doubt));
+  }
   return scenario;
 }
 

@@ -47,11 +47,9 @@ std::string read_line_reference(const Node& node, const Context& context, const 
     fail(node, fmt::format("muscle `{}` is made of a tissue's fibres and has no line; expected "
                            "one with a `path`",
                            line));
-  if (!is_in(line, named.lines)) {
-    const std::string left_out = left_out_hint(context, {"muscle", "ligament"}, line);
+  if (!is_in(line, named.lines))
     fail(node, fmt::format("no muscle or ligament is called `{}`{}", one_line(line),
-                           left_out.empty() ? suggestion(line, named.lines) : left_out));
-  }
+                           missing_hint(context, {"muscle", "ligament"}, line, named.lines)));
   return line;
 }
 

@@ -34,10 +34,10 @@ struct Context {
   Vec3 point(const Vec3& written) const;
 };
 
-/// "; the one of jaw.toml:84 is left out by its `when`" for messages that an entry of one of these
-/// lists is missed; "" where none of that name is left out.
-std::string left_out_hint(const Context& context, std::initializer_list<std::string_view> lists,
-                          std::string_view name);
+/// What to append where an entry of one of these lists is missed: "; the one of jaw.toml:84 is left
+/// out by its `when`", else the suggestion() among these names.
+std::string missing_hint(const Context& context, std::initializer_list<std::string_view> lists,
+                         std::string_view name, const std::vector<std::string>& names);
 
 /// "body `skull`" for messages about an entry, or "[[body]]" if it has no name.
 std::string label(const Node& entry, std::string_view list);

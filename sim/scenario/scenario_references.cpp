@@ -34,8 +34,8 @@ Vec3 Context::point(const Vec3& written) const {
   return side == Side::AsWritten ? written : Vec3(-written.x(), written.y(), written.z());
 }
 
-std::string left_out_hint(const Context& context, std::initializer_list<std::string_view> lists,
-                          std::string_view name) {
+std::string missing_hint(const Context& context, std::initializer_list<std::string_view> lists,
+                         std::string_view name, const std::vector<std::string>& names) {
   for (const LeftOut& entry : context.left_out) {
     const bool is_one_of_two = name == entry.name + std::string(kLeft) ||
                                name == entry.name + std::string(kRight);  // `mirror`
@@ -43,7 +43,7 @@ std::string left_out_hint(const Context& context, std::initializer_list<std::str
         std::find(lists.begin(), lists.end(), entry.list) != lists.end())
       return fmt::format("; the one of {} is left out by its `when`", place_text(entry.where));
   }
-  return "";
+  return suggestion(name, names);
 }
 
 std::string label(const Node& entry, std::string_view list) {
@@ -84,9 +84,8 @@ const Body& read_body_reference(const Node& node, const Context& context) {
   std::vector<std::string> names;
   for (const Body& body : context.bodies) names.push_back(body.name);
   const std::string image = name == written ? "" : fmt::format(" (mirror image of `{}`)", written);
-  const std::string left_out = left_out_hint(context, {"body"}, name);
   fail(node, fmt::format("no body is called `{}`{}{}", one_line(name), image,
-                         left_out.empty() ? suggestion(name, names) : left_out));
+                         missing_hint(context, {"body"}, name, names)));
 }
 
 bool has_surface(const Body& body) {

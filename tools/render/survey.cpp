@@ -147,8 +147,8 @@ Survey survey(const std::vector<DrawnRun>& runs, const Colouring& colouring,
       ViewBox seen(axes);
       for (const Part& part : frame.parts) {
         if (const std::string unit = text_of(*part.set, "coordinates.unit"); !unit.empty()) {
-          require_same_unit(run.series, seen_unit.empty() ? unit : seen_unit, unit);
-          result.length_unit = seen_unit = unit;
+          if (seen_unit.empty()) seen_unit = unit;
+          require_same_unit(run.series, seen_unit, unit);
         }
         everything.add(*part.set);
         if (part.name == focus) seen.add(*part.set);
@@ -161,6 +161,7 @@ Survey survey(const std::vector<DrawnRun>& runs, const Colouring& colouring,
   if (colouring.each_cell_alone && result.coloured.empty() && !result.field.empty())
     throw sim::InputError("--flat: " + result.field +
                           " has values at nodes only; expected a field of elements or faces");
+  if (!seen_unit.empty()) result.length_unit = seen_unit;
   if (everything.is_empty()) throw sim::InputError("the parts to draw have no points");
   result.diagonal = everything.size().norm();
   if (focus.empty()) {

@@ -32,7 +32,8 @@ int study_population(const Study& study, const StudyRunOptions& options) {
   } catch (const sim::SystemError& error) {
     fmt::print(stderr, "articular: no page: {}\n", error.what());
   }
-  return exit_code_of(records);
+  require_success(records);
+  return 0;
 }
 
 }  // namespace articular::tools

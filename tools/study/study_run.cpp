@@ -293,13 +293,12 @@ fs::path results_of(const fs::path& directory, const StudyCase& c) {
   return folder_of(directory, c) / "results";
 }
 
-int exit_code_of(const std::vector<CaseRecord>& records) {
-  constexpr int kCouldNotGoOn = 3;
-  if (records.empty() || std::ranges::any_of(records, &CaseRecord::succeeded)) return 0;
+void require_success(const std::vector<CaseRecord>& records) {
+  if (records.empty() || std::ranges::any_of(records, &CaseRecord::succeeded)) return;
   const CaseRecord& first = records.front();
-  fmt::print(stderr, "articular: no case succeeded, the first one: {}{}{}\n", first.outcome(),
-             first.message.empty() ? "" : ": ", first.message);
-  return kCouldNotGoOn;
+  throw sim::SimulationError(fmt::format("no case succeeded, the first one: {}{}{}",
+                                         first.outcome(), first.message.empty() ? "" : ": ",
+                                         first.message));
 }
 
 std::vector<CaseRecord> run_cases(const Study& study, const std::vector<StudyCase>& cases,

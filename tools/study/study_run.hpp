@@ -24,8 +24,8 @@ struct CaseRecord {
   double memory() const;  // largest [MB]
 };
 
-/// 0; where no case succeeded 3, and stderr says so.
-int exit_code_of(const std::vector<CaseRecord>& records);
+/// @throws sim::SimulationError  where no case succeeded
+void require_success(const std::vector<CaseRecord>& records);
 
 struct StudyRunOptions {
   std::filesystem::path directory;

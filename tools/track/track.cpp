@@ -168,11 +168,7 @@ class Tracker {
           fmt::format("target `{}` counts from {:g} to {:g} s, and excitations are found every "
                       "{:g} s: at none of these times",
                       target.name, curve.time.front(), curve.time.back(), interval_));
-    const double end = sim::value_at(curve, duration_);
-    bool changes_later = false;
-    for (std::size_t i = 0; i < curve.time.size(); ++i)
-      changes_later |= curve.time[i] > duration_ && curve.value[i] != end;
-    if (changes_later && options_.warn)
+    if (options_.warn && sim::changes_after(curve, duration_))
       options_.warn(sim::prefix(target.where) +
                     fmt::format("target `{}` changes until {:g} s, and the run ends at {:g} s",
                                 target.name, curve.time.back(), duration_));

@@ -1,8 +1,8 @@
 #include "tools/track/track_file.hpp"
 
 #include <algorithm>
-#include <string_view>
 
+#include "sim/output/history_column.hpp"
 #include "sim/scenario/csv_table.hpp"
 #include "sim/scenario/data_path.hpp"
 #include "sim/scenario/scenario_keys.hpp"
@@ -29,16 +29,10 @@ sim::Curve read_number_or_curve(const Node& node, const sim::Range& range) {
   return sim::read_curve(node, range, {{}, kNoBodies});
 }
 
-/// "mm" of "tip.position.x [mm]"; "" where it has none.
-std::string_view unit_of(std::string_view column) {
-  const std::size_t open = column.rfind('[');
-  if (open == std::string_view::npos || !column.ends_with(']')) return "";
-  return column.substr(open + 1, column.size() - open - 2);
-}
-
 /// What is compared has one unit, where both have one.
 void check_units(const Node& node, const std::string& in_file, const std::string& of_probe) {
-  const std::string_view file = unit_of(in_file), probe = unit_of(of_probe);
+  const std::string file = sim::history_column(in_file).unit,
+                    probe = sim::history_column(of_probe).unit;
   if (!file.empty() && !probe.empty() && file != probe)
     sim::fail(node,
               fmt::format("the file's column is in {}, and `{}` in {}: expected the same unit",

@@ -45,6 +45,12 @@ TEST_F(ExcitationTable, ChangesAfterTheEndOfTheRunAreTold) {
             std::string::npos)
       << late[0];
   EXPECT_TRUE(doubts("pull_left,time [s]\n0.25,0\n0.25,100\n").empty());
+  // Excitations of the scenario's own are told at their place, and not as the table's.
+  std::string own = scene_;
+  own.replace(own.find("[\"0 s\"], value = [0.5]"), 23, "[\"0 s\", \"90 s\"], value = [0, 1]");
+  const std::vector<std::string> told = read(own + table_).doubts;
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].find("the excitation of"), std::string::npos) << told[0];
 }
 
 TEST_F(ExcitationTable, CanBeGivenByAnOverride) {
