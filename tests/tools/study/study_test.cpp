@@ -146,13 +146,14 @@ TEST(Study, AMistypedColumnEndsItAtTheFirstCase) {
       << result.err;
 }
 
+// The limit leaves the scenario as it is, the other case, time even with sanitizers.
 TEST(Study, ACaseThatTakesTooLongIsStopped) {
   const TemporaryFolder folder;
   folder.file("s.toml", kHead +
-                            "time_limit = '0.3 s'\n[[case]]\nname = 'endless'\nset = { analysis "
-                            "= 'dynamic', duration = '1000 s' }\n" +
+                            "time_limit = '4 s'\n[[case]]\nname = 'endless'\nset = { analysis "
+                            "= 'dynamic', duration = '1000 s', 'integrator.step' = '1 ms' }\n" +
                             kEnd + kExact);
-  EXPECT_EQ(run_program(folder, "study s.toml").exit_code, 3) << "the only case has no result";
+  EXPECT_EQ(run_program(folder, "study s.toml").exit_code, 0);
   EXPECT_NE(content(folder / "out/s/study.csv").find("\nendless,time limit,"), std::string::npos);
 }
 
