@@ -98,8 +98,8 @@ Sheet mandible_sheet() {
   add_rods(sheet, {{0, -43.5, 12, 4.6}, {7, -42.5, 11.5, 4.0}});  // mental protuberance
   // Ramus: anterior border with the coronoid, middle line to the notch, posterior border to the
   // neck.
-  const std::vector<Knot> anterior =
-      smoothed({{42.5, 14, 23, 4.2}, {38.5, 9, 44, 3.8}, {43, 6, 57, 3.0}, {45.5, 5, 68, 2.6}}, 4);
+  const std::vector<Knot> anterior = smoothed(
+      {{42.5, 14, 23, 4.2}, {38.5, 7.5, 44, 3.8}, {43.3, 3.5, 57, 3.0}, {44.8, 0, 68, 2.6}}, 4);
   const std::vector<Knot> middle = smoothed(
       {{46, 21, 21.5, 4.0}, {45.3, 19, 40, 3.0}, {46.3, 17, 55, 2.6}, {47, 15.5, 63.5, 2.4}}, 4);
   const std::vector<Knot> posterior = smoothed(
@@ -107,7 +107,7 @@ Sheet mandible_sheet() {
       4);
   add_strip(sheet, anterior, middle);
   add_strip(sheet, middle, posterior);
-  sheet.push_back({{45.5, 5, 68, 2.6}, {47, 15.5, 63.5, 2.4}, {46.8, 6.5, 78, 1.9}});
+  sheet.push_back({{44.8, 0, 68, 2.6}, {47, 15.5, 63.5, 2.4}, {47, 0.2, 78.3, 1.9}});
   sheet.push_back({{47, 15.5, 63.5, 2.4}, {48.6, 29.8, 66, 3.4}, {49.4, 30.3, 72, 3.4}});
   add_rods(sheet, {{48.6, 29.8, 66, 3.6}, {49.4, 30.5, 73, 3.5}, {50, 31.5, 79, 3.8}});
   sheet.push_back({{49.4, 30.6, 73, 3.2},
@@ -181,8 +181,8 @@ Sheet skull_sheet() {
   const std::vector<std::vector<Knot>> squama = {
       {{40, -3, 96, 2.4}, {43, 10, 97, 2.6}, {50, 26, 97, 3.2}, {58, 44, 97, 3.6}},
       {{47, -8, 112, 2.2}, {53, 8, 113, 2.2}, {60, 30, 113, 2.2}, {62, 52, 111, 2.6}},
-      {{52, -4, 130, 2.0}, {60.5, 14, 132, 2.2}, {65.5, 34, 132, 2.2}, {65, 55, 128, 2.2}},
-      {{54, 6, 145, 1.8}, {60, 17, 148, 2.0}, {64, 33, 148, 2.0}, {63, 50, 142, 1.8}}};
+      {{51, -8, 130, 2.0}, {60.5, 14, 132, 2.2}, {65.5, 34, 132, 2.2}, {65, 55, 128, 2.2}},
+      {{54, -4, 144, 1.8}, {60, 17, 148, 2.0}, {64, 33, 148, 2.0}, {63, 50, 142, 1.8}}};
   for (std::size_t row = 0; row + 1 < squama.size(); ++row)
     add_strip(sheet, smoothed(squama[row], 4), smoothed(squama[row + 1], 4));
   add_rods(sheet, {{61, 46, 97, 5}, {57, 52, 85, 5.5}, {53, 53, 74, 4}});

@@ -11,6 +11,7 @@ constexpr double kSkullGrid = 1.7;
 constexpr double kSheetEdge = 0.9;       // contact surfaces of the joint
 constexpr double kTeethEdge = 2.5;       // occlusal strips
 constexpr double kMuscleBoneGrid = 2.2;  // parts of the bones that muscles touch
+constexpr double kRamusGrid = 1.5;       // of the ramus: a coarser one cuts off its tip
 
 /// Left attachments, on the surfaces of mandible_surface and skull_surface. Directions follow the
 /// lines of action of MPE18 where it has them (superficial masseter, anterior temporalis, medial
@@ -23,9 +24,9 @@ std::vector<MuscleRow> left_muscles() {
       {"at",
        "anterior temporalis",
        skull,
-       {57, 2, 142},
+       {57, -4, 142},
        mandible,
-       {45.5, 5.5, 72},
+       {45.5, -0.5, 72},
        158.0,
        2.41,
        1.2698,
@@ -35,7 +36,7 @@ std::vector<MuscleRow> left_muscles() {
        skull,
        {66, 33, 146},
        mandible,
-       {46.8, 6.5, 78},
+       {47, 0, 79},
        95.6,
        2.41,
        1.4186,
@@ -45,7 +46,7 @@ std::vector<MuscleRow> left_muscles() {
        skull,
        {67, 52, 114},
        mandible,
-       {46.8, 7, 78},
+       {47, 0.5, 79},
        75.6,
        2.41,
        1.3109,
@@ -189,7 +190,7 @@ Anatomy mandible_anatomy(double disc_edge, double slope_deg, double guidance_deg
 void add_muscle_bodies(double element_size, Anatomy& anatomy) {
   for (const FibreBody& shape : muscle_shapes())
     add_both_sides(shape.name, ".vtu", muscle_mesh(shape, element_size), anatomy);
-  add_both_sides("ramus", ".vtp", ramus_sheet(kMuscleBoneGrid), anatomy);
+  add_both_sides("ramus", ".vtp", ramus_sheet(kRamusGrid), anatomy);
   add_both_sides("temporal", ".vtp", temporal_sheet(kMuscleBoneGrid), anatomy);
   add_both_sides("pterygoid", ".vtp", pterygoid_sheet(kMuscleBoneGrid), anatomy);
 }

@@ -24,19 +24,24 @@ std::vector<FibreBody> muscle_shapes() {
            {{{64, 7, 78}, {65.3, 13, 80}, {66.2, 19, 82.2}, 1.7},
             {{56.6, 8, 69.5}, {58, 17, 70.3}, {59, 26.8, 71.3}, 4.3},
             {{52.3, 6.5, 60}, {54.8, 16.5, 61}, {55.9, 28, 62}, 4.6},
-            {{49.5, 7, 53}, {52.3, 17.5, 54}, {54, 28.8, 55}, 3.4},
+            {{49.5, 7, 53}, {52.3, 17.5, 54}, {54, 28.8, 55}, 3.2},
             {{47.5, 8.5, 47.5}, {50.2, 18.5, 48.5}, {52.2, 28.3, 49.5}, 1.6}},
            {"skull"},
            {"mandible", 0.4}},
+          // A fan from the side of the skull through the room within the zygomatic arch. It ends
+          // like a hood over the tip of the coronoid, so that its fibres meet the bone from in
+          // front, from above and from behind, and none of them lies along it.
           {"temporalis",
-           {{{56.3, 4, 142}, {66.8, 29, 142}, {67.3, 51, 124}, 2.8},
-            {{54.6, -2, 126}, {63.6, 20.5, 125}, {63.6, 37, 111}, 3.6},
-            {{54.3, -8, 110}, {59.8, 5, 111}, {61.8, 15, 107}, 5.7},
-            {{51.5, -12, 95.5}, {54.5, -4, 98}, {57.5, 4, 99.5}, 7.6},
-            {{43, -7, 76}, {45, -2, 82.5}, {47.5, 4, 88}, 7},
-            {{44.4, 2, 67}, {46, 2.8, 74}, {47, 6, 80.6}, 3.6}},
+           {{{55.6, 1, 141.5}, {66.8, 29, 142}, {67.3, 51, 124}, 2.9},
+            {{54.6, -3, 126}, {63.6, 21.5, 125}, {64, 40, 112}, 3.8},
+            {{54.3, -5, 110}, {59.8, 8, 111}, {62, 18.5, 107.5}, 6.5},
+            {{51, -9, 95}, {54.3, -1, 98}, {57.5, 6.5, 100}, 8},
+            {{45.5, -7, 76}, {47.8, -0.8, 86}, {49.3, 5.4, 83}, 5.2},
+            {{45.5, -2.6, 73.5}, {47, 0.2, 80.6}, {47.3, 5, 75.8}, 3.1}},
            {"skull", 0.25},
-           {"mandible"}},
+           {"mandible"},
+           0.5,
+           1.3},
           // From the inner side of the pterygoid plate, behind its lower end, to the inner side of
           // the angle of the jaw.
           {"medial_pterygoid",
@@ -52,10 +57,10 @@ std::vector<FibreBody> muscle_shapes() {
           // by its face. Its rows run from below upwards, as outwards is to the side. Between the
           // bones there is less room than round the other muscles.
           {"lateral_pterygoid",
-           {{{34.9, -2.2, 61}, {32.5, 0.8, 74.2}, {31.3, 1.1, 80.7}, 6.2},
-            {{33.8, 4.3, 61.2}, {35.6, 8.2, 71.1}, {34.1, 6.3, 78.4}, 5.8},
-            {{36, 14.7, 58.6}, {38.3, 13.1, 70.2}, {40.1, 13.5, 78.7}, 4.6},
-            {{44.2, 19.6, 71.1}, {44.8, 18.5, 75.9}, {44.4, 18.2, 80}, 3.4},
+           {{{33.4, -2.2, 62.5}, {32.1, 0.8, 74.2}, {31.3, 1.1, 80.7}, 6.1},
+            {{32.8, 4.3, 62.4}, {35.4, 8.2, 71.1}, {34.1, 6.3, 78.4}, 5.7},
+            {{36, 14.7, 58.6}, {38.3, 13.1, 70.2}, {40.1, 13.5, 78.7}, 4.7},
+            {{44.2, 19.6, 71.1}, {44.8, 18.5, 75.9}, {44.4, 18.2, 80}, 3.45},
             {{47.3, 27.1, 73.2}, {47.1, 27.4, 77}, {46.9, 27.3, 79.7}, 3.6}},
            {"skull", 0.22},
            {"mandible"},
@@ -72,8 +77,8 @@ Mesh muscle_mesh(const FibreBody& muscle, double h) {
 
 Mesh ramus_sheet(double h) {
   return part_of(mandible_surface(h), [](const Vec3& p, const Vec3& /*normal*/) {
-    const bool condyle = p.y() > 19 && p.z() > 66;
-    return p.x() > 30 && p.y() > 3 && !condyle;
+    const bool condyle = p.y() > 19 && p.z() > 66, coronoid = p.y() > -6 && p.z() > 52;
+    return p.x() > 30 && (p.y() > 3 || coronoid) && !condyle;
   });
 }
 
@@ -88,7 +93,7 @@ Mesh temporal_sheet(double h) {
 
 Mesh pterygoid_sheet(double h) {
   return part_of(skull_without_styloid(h), [](const Vec3& p, const Vec3& /*normal*/) {
-    return p.x() > 20 && p.x() < 33 && p.y() > 0 && p.z() > 55 && p.z() < 91;
+    return p.x() > 18 && p.x() < 33 && p.y() > 0 && p.z() > 55 && p.z() < 93;
   });
 }
 

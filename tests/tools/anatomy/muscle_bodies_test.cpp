@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -90,6 +91,45 @@ TEST_P(MuscleSize, EndsSitOnTheirBoneAndNothingElseIsNear) {
           EXPECT_GT(distance, kAttachedWithin) << mesh.X_mm.col(i).transpose();
         }
       }
+    }
+  }
+}
+
+// As muscles.toml ties them, to the surfaces that touch. These are facets: one too coarse, or cut
+// too short, leaves nodes of an end loose; and one that reaches beyond its bone holds others.
+TEST_P(MuscleSize, WhatScenariosTieIsTheEnds) {
+  Anatomy anatomy = mandible_anatomy(1.2);
+  add_muscle_bodies(kSize, anatomy);
+  using Surfaces = std::vector<std::unique_ptr<SurfaceDistance>>;
+  const auto surfaces = [&](std::initializer_list<const char*> names) {
+    Surfaces all;
+    for (const std::string name : names) {
+      const Mesh& sheet = anatomy.meshes.at(name + "_left.vtp");
+      all.push_back(std::make_unique<SurfaceDistance>(sheet.X_mm, sheet.triangles));
+    }
+    return all;
+  };
+  const auto within = [](const Mesh& mesh, const Surfaces& all, double distance, double above) {
+    std::vector<int> nodes;
+    for (int i = 0; i < mesh.X_mm.cols(); ++i)
+      if (mesh.X_mm(2, i) > above && std::any_of(all.begin(), all.end(), [&](const auto& surface) {
+            return std::abs((*surface)(mesh.X_mm.col(i))) <= distance;
+          }))
+        nodes.push_back(i);
+    return nodes;
+  };
+  const Surfaces of_skull = surfaces({"fossa", "temporal", "pterygoid"}),
+                 of_mandible = surfaces({"condyle", "ramus"});
+  for (const FibreBody& shape : muscle_shapes()) {
+    SCOPED_TRACE(shape.name);
+    const Mesh mesh = muscle_mesh(shape, GetParam());
+    const FibreEnds ends = fibre_body_ends(shape, GetParam());
+    const double to_skull = shape.name == "deep_masseter" ? 1.4 : 1;
+    const double above = shape.name == "temporalis" ? 105 : 0;  // not to the eminence as well
+    EXPECT_EQ(within(mesh, of_skull, to_skull, above), ends.origin);
+    // A box ties the lateral pterygoid: no such surface covers the neck.
+    if (shape.name != "lateral_pterygoid") {
+      EXPECT_EQ(within(mesh, of_mandible, 1, 0), ends.insertion);
     }
   }
 }
