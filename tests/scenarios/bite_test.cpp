@@ -179,11 +179,11 @@ TEST(JawAtRest, ABiteOnOnePremolarFollowsTheRuleOfLevers) {
 TEST(JawAtRest, ABiteOnOneMolarUnloadsTheJointOfItsSide) {
   const ScenarioResults results = isometric("bite.toml");
   EXPECT_EQ(results.summary().at("outcome"), "finished");
-  EXPECT_EQ(last(results, "joint_left.force", "N").norm(), 0);
   const Support bite = support(results, "bite", -1), joint = support(results, "joint_right", 1);
   Wrench sum = closers(results);
   const double whole = sum.force.norm(), lever = (bite.at - joint.at).norm();
   add(bite.force, bite.at, sum);
+  EXPECT_LT(last(results, "joint_left.force", "N").norm(), 1e-6 * whole);
   EXPECT_GT(bite.force.norm(), joint.force.norm());
   EXPECT_LT((sum.force + joint.force).norm(), kOfBite * whole);
   EXPECT_LT(sum.moment_about(joint.at).norm(), kOfWhole * whole * lever);
@@ -195,17 +195,19 @@ TEST(JawAtRest, ABiteOfTheIncisorsFollowsTheRuleOfLevers) {
 
 /// Up to the largest force of all closers, in ten load steps. Levers change little on the way, as
 /// discs and periodontal ligaments give way: the bite grows nearly as the level does.
-void expect_full_bite(const std::vector<std::string>& where) {
+/// @param iterations  at most, a load step
+void expect_full_bite(const std::vector<std::string>& where, int iterations) {
   const ScenarioResults results = run_scenario("mandible/bite.toml", where);
   EXPECT_EQ(results.summary().at("outcome"), "finished");
-  EXPECT_LE(results.count("newton_iterations"), 10 * 10);
+  EXPECT_LE(results.count("newton_iterations"), 10 * iterations);
   const double half = results.at("bite.force.z [N]", 0.5);
   EXPECT_NEAR(results.last("bite.force.z [N]"), 2 * half, 0.04 * std::abs(half));
 }
 
 TEST(JawAtRest, FibresHoldTheDiscsInTheHardestBite) {
-  expect_full_bite({});
-  expect_full_bite(kIncisors);
+  expect_full_bite(kPremolars, 10);
+  expect_full_bite(kIncisors, 10);
+  expect_full_bite({}, 30);  // the disc of the joint that lifts off is loose
 }
 
 }  // namespace articular::bite_test
