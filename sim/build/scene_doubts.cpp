@@ -16,6 +16,7 @@
 #include "sim/base/place_text.hpp"
 #include "sim/build/body_doubts.hpp"
 #include "sim/build/muscle_doubts.hpp"
+#include "sim/build/tie_doubts.hpp"
 #include "sim/build/twin_doubts.hpp"
 #include "sim/mesh/chord_depth.hpp"
 #include "sim/mesh/extent.hpp"
@@ -329,7 +330,7 @@ std::vector<std::string> scene_doubts(const Scenario& scenario, const Model& mod
   std::vector<std::string> doubts = Doubts(scenario, model, geometry).all();
   for (std::vector<std::string>& more :
        std::array{muscle_doubts(scenario, model), body_doubts(scenario, geometry),
-                  twin_doubts(scenario, model)})
+                  tie_doubts(scenario, model), twin_doubts(scenario, model)})
     std::move(more.begin(), more.end(), std::back_inserter(doubts));
   return doubts;
 }

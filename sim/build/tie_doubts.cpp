@@ -1,0 +1,83 @@
+#include "sim/build/tie_doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "sim/base/error.hpp"
+#include "sim/base/place_text.hpp"
+#include "sim/model/tissue.hpp"
+
+namespace articular::sim {
+namespace {
+
+/// Nodes of a patch, and the most that are thought to be tied by mistake beside one.
+constexpr std::size_t kPatch = 8, kStray = 2;
+
+/// Nodes that are tied to a bone, as patches: nodes of a tetrahedron lie in one.
+std::vector<std::vector<int>> patches(const Tissue& tissue, int rigid) {
+  std::vector<int> above(tissue.nodes.size());
+  std::iota(above.begin(), above.end(), 0);
+  const auto root = [&](int node) {
+    while (above[static_cast<std::size_t>(node)] != node)
+      node = above[static_cast<std::size_t>(node)] =
+          above[static_cast<std::size_t>(above[static_cast<std::size_t>(node)])];
+    return node;
+  };
+  const auto is_tied = [&](int node) {
+    return tissue.nodes[static_cast<std::size_t>(node)].rigid == rigid;
+  };
+  for (const auto& tet : tissue.elements.tets().colwise())
+    for (int a = 1; a < 4; ++a)
+      for (int b = 0; b < a; ++b)
+        if (is_tied(tet(a)) && is_tied(tet(b)))
+          above[static_cast<std::size_t>(root(tet(a)))] = root(tet(b));
+  std::map<int, std::vector<int>> of_root;
+  for (int node = 0; node < static_cast<int>(above.size()); ++node)
+    if (is_tied(node)) of_root[root(node)].push_back(node);
+  std::vector<std::vector<int>> all;
+  for (auto& [first, nodes] : of_root) all.push_back(std::move(nodes));
+  return all;
+}
+
+std::string doubt(const Attachment& tie, const Tissue& tissue, int rigid) {
+  const std::vector<std::vector<int>> all = patches(tissue, rigid);
+  const auto size = [](const std::vector<int>& patch) { return patch.size(); };
+  if (all.empty()) return "";
+  const std::size_t most = size(*std::ranges::max_element(all, {}, size));
+  const auto stray =
+      std::ranges::find_if(all, [&](const auto& patch) { return patch.size() <= kStray; });
+  if (most < kPatch || stray == all.end()) return "";
+  return prefix(tie.where) +
+         fmt::format(
+             "`near` ties {} of `{}` to `{}` apart from a patch of {}, at {}: is it meant "
+             "to be held there? A smaller distance, or a `box` as well, leaves it out",
+             stray->size() == 1 ? "a node" : "two nodes", tie.body, tie.to, most,
+             place_text(tissue.X.col(stray->front())));
+}
+
+}  // namespace
+
+std::vector<std::string> tie_doubts(const Scenario& scenario, const Model& model) {
+  std::map<std::pair<int, int>, std::vector<const Attachment*>> ties;
+  for (const Attachment& tie : scenario.attachments)
+    ties[{body_index(scenario, tie.body), body_index(scenario, tie.to)}].push_back(&tie);
+  std::vector<std::string> doubts;
+  for (const auto& [bodies, all] : ties) {
+    // Whoever names a place by its corners means it.
+    if (!std::ranges::all_of(all,
+                             [](const auto* tie) { return tie->region.near_body.has_value(); }))
+      continue;
+    const BodyModel& tissue = model.bodies[static_cast<std::size_t>(bodies.first)];
+    const BodyModel& bone = model.bodies[static_cast<std::size_t>(bodies.second)];
+    std::string line =
+        doubt(*all.front(), model.tissues[static_cast<std::size_t>(tissue.tissue)], bone.rigid);
+    if (!line.empty()) doubts.push_back(std::move(line));
+  }
+  return doubts;
+}
+
+}  // namespace articular::sim
