@@ -39,6 +39,7 @@ std::vector<std::vector<int>> patches(const Tissue& tissue, int rigid) {
   for (int node = 0; node < static_cast<int>(above.size()); ++node)
     if (is_tied(node)) of_root[root(node)].push_back(node);
   std::vector<std::vector<int>> all;
+  all.reserve(of_root.size());
   for (auto& [first, nodes] : of_root) all.push_back(std::move(nodes));
   return all;
 }
