@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
+#include "fem/mesh/mesh_parts.hpp"
 #include "sim/base/error.hpp"
 #include "sim/base/place_text.hpp"
 #include "sim/model/tissue.hpp"
@@ -19,28 +19,23 @@ constexpr std::size_t kPatch = 8, kStray = 2;
 
 /// Nodes that are tied to a bone, as patches: nodes of a tetrahedron lie in one.
 std::vector<std::vector<int>> patches(const Tissue& tissue, int rigid) {
-  std::vector<int> above(tissue.nodes.size());
-  std::iota(above.begin(), above.end(), 0);
-  const auto root = [&](int node) {
-    while (above[static_cast<std::size_t>(node)] != node)
-      node = above[static_cast<std::size_t>(node)] =
-          above[static_cast<std::size_t>(above[static_cast<std::size_t>(node)])];
-    return node;
-  };
   const auto is_tied = [&](int node) {
     return tissue.nodes[static_cast<std::size_t>(node)].rigid == rigid;
   };
-  for (const auto& tet : tissue.elements.tets().colwise())
-    for (int a = 1; a < 4; ++a)
-      for (int b = 0; b < a; ++b)
-        if (is_tied(tet(a)) && is_tied(tet(b)))
-          above[static_cast<std::size_t>(root(tet(a)))] = root(tet(b));
-  std::map<int, std::vector<int>> of_root;
-  for (int node = 0; node < static_cast<int>(above.size()); ++node)
-    if (is_tied(node)) of_root[root(node)].push_back(node);
+  Tetrahedra tets = tissue.elements.tets();
+  for (auto tet : tets.colwise()) {  // free nodes connect nothing
+    const auto tied = std::find_if(tet.begin(), tet.end(), is_tied);
+    const int stands_in = tied == tet.end() ? tet(0) : *tied;
+    for (int& node : tet)
+      if (!is_tied(node)) node = stands_in;
+  }
+  const std::vector<int> part = fem::parts_of_nodes(static_cast<int>(tissue.nodes.size()), tets);
+  std::map<int, std::vector<int>> of_part;
+  for (int node = 0; node < static_cast<int>(part.size()); ++node)
+    if (is_tied(node)) of_part[part[static_cast<std::size_t>(node)]].push_back(node);
   std::vector<std::vector<int>> all;
-  all.reserve(of_root.size());
-  for (auto& [first, nodes] : of_root) all.push_back(std::move(nodes));
+  all.reserve(of_part.size());
+  for (auto& [first, nodes] : of_part) all.push_back(std::move(nodes));
   return all;
 }
 
