@@ -30,15 +30,21 @@ void Dashpots::add_force(const Positions& x, const Positions& v, Positions& f) c
   }
 }
 
-void Dashpots::add_damping(const Positions& x, double scale, BlockMatrix& D) const {
+void Dashpots::add_tangent(const Positions& x, const Positions& v, double damping, double stiffness,
+                           BlockMatrix& K) const {
   const int* slot = slots_.data();
   for (std::size_t e = 0; e < volume_.size(); ++e) {
-    const Mat3 F =
-        deformation_gradient(gather(x, tets_, static_cast<Eigen::Index>(e)), inverse_edges_[e]);
-    const Mat12 D_e =
-        stiffness(law_->rate_tangent(F), shape_gradients(inverse_edges_[e]), scale * volume_[e]);
+    const auto column = static_cast<Eigen::Index>(e);
+    const Mat3 F = deformation_gradient(gather(x, tets_, column), inverse_edges_[e]);
+    Mat9 tangent = damping * law_->rate_tangent(F);
+    if (stiffness != 0) {
+      const Mat3 rate = deformation_gradient(gather(v, tets_, column), inverse_edges_[e]);
+      const Mat9 by_F = law_->tangent(F, rate);
+      tangent += 0.5 * stiffness * (by_F + by_F.transpose());
+    }
+    const Mat12 K_e = fem::stiffness(tangent, shape_gradients(inverse_edges_[e]), volume_[e]);
     for (int b = 0; b < 4; ++b)
-      for (int a = 0; a < 4; ++a) D.block(*slot++) += D_e.block<3, 3>(3 * a, 3 * b);
+      for (int a = 0; a < 4; ++a) K.block(*slot++) += K_e.block<3, 3>(3 * a, 3 * b);
   }
 }
 

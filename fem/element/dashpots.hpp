@@ -13,7 +13,7 @@ class KelvinVoigt;
 /// A Kelvin–Voigt dashpot in each element of a mesh of linear tetrahedra.
 class Dashpots {
  public:
-  /// @param matrix  what add_damping() will add to: one block row a node, with the couplings of the
+  /// @param matrix  what add_tangent() will add to: one block row a node, with the couplings of the
   ///                elements at least
   /// @throws std::invalid_argument as Elasticity does
   Dashpots(const Positions& X, const Tetrahedra& tets, const KelvinVoigt& law,
@@ -21,8 +21,11 @@ class Dashpots {
 
   /// f += the force [N] that moves the shape x on with the velocities v [m/s].
   void add_force(const Positions& x, const Positions& v, Positions& f) const;
-  /// D += scale * ∂f/∂v [N s/m]: symmetric, positive semidefinite.
-  void add_damping(const Positions& x, double scale, BlockMatrix& D) const;
+  /// K += damping * ∂f/∂v + stiffness * the symmetric part of ∂f/∂x, at the velocities v. The first
+  /// is symmetric and positive semidefinite; the second is neither, and 0 at rest.
+  /// @param damping, stiffness  [1/s], [-] for a K in [N/m]
+  void add_tangent(const Positions& x, const Positions& v, double damping, double stiffness,
+                   BlockMatrix& K) const;
   /// What is lost [W].
   double power(const Positions& x, const Positions& v) const;
 

@@ -48,6 +48,18 @@ double prestretch(const AnyMaterial& material) {
       material);
 }
 
+std::optional<double> toe_end(const AnyMaterial& material) {
+  return std::visit(
+      []<class M>(const M& m) -> std::optional<double> {
+        if constexpr (requires { m.toe_end(); }) {
+          return m.toe_end();
+        } else {
+          return std::nullopt;
+        }
+      },
+      material);
+}
+
 std::optional<MuscleFibre> muscle_fibre(const AnyMaterial& material) {
   return std::visit(
       []<class M>(const M& m) -> std::optional<MuscleFibre> {

@@ -40,6 +40,8 @@ void check_fibres(const AnyMaterial& material, const FibreDirections& fibres,
 double active_stress(const AnyMaterial& material);
 /// The stretch of its fibres as drawn; 1 of laws that know of none.
 double prestretch(const AnyMaterial& material);
+/// The stretch at which collagen becomes straight; none of laws without.
+std::optional<double> toe_end(const AnyMaterial& material);
 /// The fibres of a muscle law; none of others.
 std::optional<MuscleFibre> muscle_fibre(const AnyMaterial& material);
 

@@ -29,6 +29,7 @@ class ToeLinearFibre {
   double tension(double stretch, double activation) const;
   double stiffness(double stretch, double activation) const;
   double cauchy_stress(double stretch) const;  // λ dW/dλ [Pa]
+  double toe_end() const { return c_.toe_end; }
 
  private:
   double stress_slope(double stretch) const;

@@ -42,6 +42,7 @@ class TransverselyIsotropic {
   double bulk_modulus() const { return kappa_; }                    // [Pa]
   double shear_modulus() const { return ground_.shear_modulus(); }  // [Pa]
   double prestretch() const { return prestretch_; }                 // [-]
+  double toe_end() const { return fibre_.toe_end(); }               // λ* [-]
 
   /// At a constant activation in [0, 1]; refers to this. None where the fibres are stretched at
   /// rest.

@@ -219,12 +219,14 @@ void NewtonMatrix::add_relaxation(std::size_t t, const Moment& now, const System
 
 /// What has the pattern of plain elements and is none.
 void NewtonMatrix::add_beside_elements(std::size_t t, const Moment& now, const SystemScale& scale,
-                                       fem::BlockMatrix& K) {
+                                       fem::Tangent tangent, fem::BlockMatrix& K) {
   const Tissue& tissue = model_.tissues[t];
   const TissueMoment& moment = now.tissues[t];
   for (const SheetModel& sheet : tissue.sheets)
     sheet.fibres.add_stiffness(moment.x, scale.stiffness, K);
-  if (tissue.dashpots) tissue.dashpots->add_damping(moment.x, scale.damping, K);
+  if (tissue.dashpots && scale.damping != 0)
+    tissue.dashpots->add_tangent(moment.x, moment.velocity, scale.damping,
+                                 tangent == fem::Tangent::Consistent ? scale.stiffness : 0, K);
   if (tissue.fibre_drag)
     tissue.fibre_drag->add_damping(moment.x, moment.velocity,
                                    activation_of(tissue, now.configuration), scale.damping, K);
@@ -243,7 +245,7 @@ void NewtonMatrix::find_stiffness(std::size_t t, const Moment& now, const System
   work.own.K.set_zero();
   tissue.elements.add_stiffness(now.tissues[t].x, {}, activation_of(tissue, now.configuration),
                                 tangent, scale.stiffness, work.own.K);
-  add_beside_elements(t, now, scale, work.own.K);
+  add_beside_elements(t, now, scale, tangent, work.own.K);
   add_relaxation(t, now, scale, tangent);
 }
 
@@ -255,7 +257,7 @@ void NewtonMatrix::find_smoothed_stiffness(std::size_t t, const Moment& now,
   const double activation = activation_of(tissue, now.configuration);
   const Positions& x = now.tissues[t].x;
   work.beside.set_zero();
-  add_beside_elements(t, now, scale, work.beside);
+  add_beside_elements(t, now, scale, tangent, work.beside);
   work.own.K.set_zero();
   smoothed.add_stiffness(x, now.tissues[t].pressure, tangent, scale.stiffness, work.own.K,
                          activation);

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "fem/material/any_material.hpp"
@@ -14,6 +17,8 @@ namespace {
 
 /// A muscle begins at less of its largest active force hardly by intent.
 constexpr double kLeastShareAtRest = 0.2;
+/// Of fibres with the line between the ends: bellies are pennate by up to some 40 degrees.
+constexpr double kLeastCosine = 0.3;
 
 /// Of the largest active stress at any length; 1 of laws without a force-length curve.
 double active_share_at_rest(const fem::AnyMaterial& law) {
@@ -29,6 +34,25 @@ double active_share_at_rest(const fem::AnyMaterial& law) {
     most =
         std::max(most, active(kLeast * std::pow(kMost / kLeast, static_cast<double>(i) / kSteps)));
   return most > 0 ? active(fem::prestretch(law)) / most : 0;
+}
+
+/// How far the fibres of a tissue that is tied to more than one body run along the line between the
+/// middles of the two patches that are farthest apart: the mean cosine.
+std::optional<double> cosine_with_ends(const Tissue& tissue) {
+  std::map<int, std::pair<Vec3, int>> sums;  // of tied nodes, by the body
+  for (std::size_t i = 0; i < tissue.nodes.size(); ++i)
+    if (const int rigid = tissue.nodes[i].rigid; rigid >= 0) {
+      auto& [sum, count] = sums.try_emplace(rigid, Vec3::Zero(), 0).first->second;
+      sum += tissue.X.col(static_cast<Eigen::Index>(i));
+      ++count;
+    }
+  Vec3 way = Vec3::Zero();
+  for (const auto& [a, from] : sums)
+    for (const auto& [b, to] : sums)
+      if (const Vec3 d = to.first / to.second - from.first / from.second; d.norm() > way.norm())
+        way = d;
+  if (way.isZero(0)) return std::nullopt;
+  return (way.normalized().transpose() * tissue.fibres.colwise().normalized()).cwiseAbs().mean();
 }
 
 bool is_driven(const Muscle& muscle) { return !muscle.excitation.time.empty(); }
@@ -59,7 +83,23 @@ std::pair<std::string, Location> doubt_of_fibres(const Body& body, const Tissue&
                         "meant?",
                         body.name, 100 * share),
             body.material->where};
+  if (const auto cosine = cosine_with_ends(tissue); cosine && *cosine < kLeastCosine)
+    return {fmt::format("the fibres of `{}` run across the line between what it is tied to, at "
+                        "{:.0f} degrees in the mean: "
+                        "they will not draw these together",
+                        body.name, std::acos(*cosine) * 180 / std::numbers::pi),
+            body.material->where};
   return {};
+}
+
+/// Stress that relaxes is that of the whole law.
+std::string doubt_of_relaxation(const Body& body) {
+  double sum = 0;
+  for (const auto& term : body.material->relaxation) sum += term.weight;
+  return fmt::format(
+      "`relaxation` of `{}` takes {:.0f} % of its fibres' active stress too, not of the passive "
+      "one alone",
+      body.name, 100 * sum);
 }
 
 }  // namespace
@@ -72,6 +112,10 @@ std::vector<std::string> muscle_doubts(const Scenario& scenario, const Model& mo
     const auto [what, where] =
         doubt_of_fibres(scenario.bodies[b], model.tissues[static_cast<std::size_t>(t)], model);
     if (!what.empty()) doubts.push_back(prefix(where) + what);
+    const Body& body = scenario.bodies[b];
+    if (model.tissues[static_cast<std::size_t>(t)].active_stress > 0 &&
+        !body.material->relaxation.empty())
+      doubts.push_back(prefix(body.material->where) + doubt_of_relaxation(body));
   }
   const std::vector<Muscle>& muscles = scenario.muscles;
   const auto line = std::ranges::find_if(muscles, [](const Muscle& m) { return m.tissue.empty(); });

@@ -15,6 +15,7 @@
 #include "sim/base/error.hpp"
 #include "sim/base/place_text.hpp"
 #include "sim/build/body_doubts.hpp"
+#include "sim/build/hold_doubts.hpp"
 #include "sim/build/muscle_doubts.hpp"
 #include "sim/build/tie_doubts.hpp"
 #include "sim/build/twin_doubts.hpp"
@@ -328,9 +329,9 @@ class Doubts {
 std::vector<std::string> scene_doubts(const Scenario& scenario, const Model& model,
                                       const std::vector<BodyGeometry>& geometry) {
   std::vector<std::string> doubts = Doubts(scenario, model, geometry).all();
-  for (std::vector<std::string>& more :
-       std::array{muscle_doubts(scenario, model), body_doubts(scenario, geometry),
-                  tie_doubts(scenario, model), twin_doubts(scenario, model)})
+  for (std::vector<std::string>& more : std::array{
+           muscle_doubts(scenario, model), body_doubts(scenario, geometry),
+           tie_doubts(scenario, model), twin_doubts(scenario, model), hold_doubts(scenario, model)})
     std::move(more.begin(), more.end(), std::back_inserter(doubts));
   return doubts;
 }

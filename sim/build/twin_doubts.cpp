@@ -29,11 +29,13 @@ bool are_twins(const SurfaceLoadModel& a, const SurfaceLoadModel& b) {
          std::ranges::equal(a.faces, b.faces, same_face);
 }
 
-/// Two bundles of one ligament may share one end, hardly both.
+/// Two bundles of one ligament may share one end, hardly both. A line pulls alike from either.
 bool have_one_path(const std::vector<Anchor>& a, const std::vector<Anchor>& b) {
-  return std::ranges::equal(a, b, [](const Anchor& p, const Anchor& q) {
+  const auto same = [](const Anchor& p, const Anchor& q) {
     return p.body == q.body && p.point == q.point && p.radius == q.radius;
-  });
+  };
+  return std::ranges::equal(a, b, same) ||
+         std::equal(a.begin(), a.end(), b.rbegin(), b.rend(), same);
 }
 
 bool are_twins(const Ligament& a, const Ligament& b) {

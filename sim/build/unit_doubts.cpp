@@ -32,7 +32,8 @@ struct Usual {
 constexpr Usual kExtent{1e-4, 1}, kTissueDensity{100, 4000}, kRigidDensity{100, 25000},
     kShearModulus{10, 4e8}, kUsualForce{0, 2e4}, kUsualMoment{0, 2e3}, kUsualMass{0, 100},
     kFibreStress{1e3, 3e6}, kGravity{0.1, 50}, kSlackLength{0, 1}, kStiffness{1, 1e7},
-    kStiffnessPerStrain{1, 1e6}, kFriction{0, 2}, kToeStrain{0, 0.5}, kShift{0, 1},
+    kStiffnessPerStrain{1, 1e6}, kFriction{0, 2}, kToeStrain{0, 0.5}, kToeEnd{1, 1.5},
+    kLigamentPrestretch{1, 1.2}, kMuscleSpeed{0.5, 5000}, kPassiveFraction{0, 1}, kShift{0, 1},
     kSheetThickness{1e-7, 5e-3}, kSheetModulus{1e4, 2e10}, kLayerThickness{1e-6, 2e-2},
     kLayerModulus{1e3, 2e11}, kActivationTime{1e-4, 1}, kLengthRatio{1, 3}, kSpeed{0, 20},
     kDampingTime{0, 1};
@@ -107,6 +108,25 @@ void doubt_ratios(const Scenario& scenario, const Doubt& doubt) {
     if (!is_usual(sheet.toe_strain, kToeStrain))
       doubt(sheet.where, fmt::format("sheet `{}` has a toe strain of {:.3g}, usual is up to {:g}",
                                      sheet.name, sheet.toe_strain, kToeStrain.most));
+}
+
+/// Stretches of collagen that were given as strains, or in per cent.
+template <class Doubt>
+void doubt_collagen(const Scenario& scenario, const Doubt& doubt) {
+  for (const Body& body : scenario.bodies) {
+    if (!body.material) continue;
+    if (const double stretch = fem::prestretch(*body.material->law);
+        !is_usual(stretch, kLigamentPrestretch))
+      doubt(
+          body.material->where,
+          fmt::format("the `prestretch` of `{}` is {:.3g}, usual is 1 to {:g}, as in 1.03 for 3 %",
+                      body.name, stretch, kLigamentPrestretch.most));
+    if (const auto toe = fem::toe_end(*body.material->law); toe && !is_usual(*toe, kToeEnd))
+      doubt(body.material->where, fmt::format("the toe of the fibres of `{}` ends at a stretch of "
+                                              "{:.3g}, usual is up to {:g}, as in 1.03 "
+                                              "for 3 %",
+                                              body.name, *toe, kToeEnd.most));
+  }
 }
 
 double largest_factor(const Curve& profile) {
@@ -293,6 +313,15 @@ void doubt_muscles(const Scenario& scenario, const Doubt& doubt) {
     if (!is_usual(muscle.max_force, kUsualForce))
       doubt(muscle.where, fmt::format("muscle `{}` has a largest force of {:.3g} N", muscle.name,
                                       muscle.max_force));
+    if (!is_usual(muscle.max_velocity, kMuscleSpeed))
+      doubt(muscle.where,
+            fmt::format(
+                "muscle `{}` shortens by at most {:.3g} lengths a second, usual is {:g} to {:g}",
+                muscle.name, muscle.max_velocity, kMuscleSpeed.least, kMuscleSpeed.most));
+    if (!is_usual(muscle.passive_fraction, kPassiveFraction))
+      doubt(muscle.where, fmt::format("muscle `{}` has a passive force of {:.3g} times its largest "
+                                      "active one, usual is up to {:g}",
+                                      muscle.name, muscle.passive_fraction, kPassiveFraction.most));
     if (!is_usual(muscle.max_length_ratio, kLengthRatio))
       doubt(muscle.where, fmt::format("the passive force of muscle `{}` is largest at {:.3g} times "
                                       "its optimal length, usual is up to {:g}",
@@ -368,6 +397,7 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
   doubt_surface_loads(scenario, model, doubt);
   doubt_times(scenario, doubt);
   doubt_ratios(scenario, doubt);
+  doubt_collagen(scenario, doubt);
   return doubts;
 }
 

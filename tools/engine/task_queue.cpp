@@ -154,4 +154,9 @@ void TaskQueue::finish(const Task& task, const TaskEnd& end) {
 
 bool TaskQueue::is_stopped() const { return is_file(folder_ / kStop); }
 
+bool TaskQueue::is_of_a_study() const {
+  const Listing now = list();
+  return is_stopped() || !(now.waiting.empty() && now.taken.empty() && now.ended.empty());
+}
+
 }  // namespace articular::tools

@@ -52,6 +52,8 @@ class TaskQueue {
   void put_back(const Task& task);
   void finish(const Task& task, const TaskEnd& end);
   bool is_stopped() const;
+  /// Whether a study has ever put anything here.
+  bool is_of_a_study() const;
 
  private:
   std::filesystem::path file(const std::string& name, const char* ending) const {

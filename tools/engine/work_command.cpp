@@ -43,6 +43,11 @@ void add_work_command(CLI::App& app, int& exit_code) {
                             ": no such folder; expected the queue of a study, OUT/queue");
     listen_for_interruption();
     TaskQueue queue(std::filesystem::absolute(arguments->folder));
+    if (!arguments->options.wait && !queue.is_of_a_study())
+      throw sim::InputError(
+          arguments->folder.string() +
+          ": no case of a study waits, runs or has ended here; expected its queue, OUT/queue, or "
+          "`--wait` for one that is yet to begin");
     exit_code = work(queue, arguments->options);
   });
 }

@@ -1,5 +1,6 @@
 #include "tools/render/clip.hpp"
 
+#include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkClipClosedSurface.h>
 #include <vtkClipPolyData.h>
@@ -104,6 +105,19 @@ Clip parse_clip(const std::string& text) {
     fail(std::string(": ") + error.what());
   }
   return clip;
+}
+
+double metres_of(const std::string& unit) { return unit == "m" ? 1 : unit == "cm" ? 1e-2 : 1e-3; }
+
+void require_kept(const Clip& clip, const Eigen::AlignedBox3d& everything,
+                  const std::string& unit) {
+  const double at = clip.at / metres_of(unit);
+  const double low = everything.min()[clip.axis], high = everything.max()[clip.axis];
+  if (clip.below ? low < at : high > at) return;
+  const char axis = "xyz"[clip.axis];
+  throw sim::InputError(
+      fmt::format("--clip: nothing is left: what is drawn lies at {} = {:.4g} to {:.4g} {}", axis,
+                  low, high, unit));
 }
 
 vtkSmartPointer<vtkPointSet> clipped(vtkPointSet& set, const Clip& clip, double unit) {

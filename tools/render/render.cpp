@@ -266,6 +266,8 @@ int render(const RenderOptions& options) {
     all.insert(all.end(), sequence.panels.begin(), sequence.panels.end());
   setting.survey =
       survey(all, {options.field, options.flat, options.difference}, options.focus, setting.axes);
+  if (setting.look.clip)
+    require_kept(*setting.look.clip, setting.survey.everything, setting.survey.length_unit);
   std::erase_if(setting.survey.coloured, [&](const std::string& part) {
     const auto asked = options.opacity.find(part);
     return asked != options.opacity.end() && asked->second < 1;

@@ -31,10 +31,6 @@ constexpr double kOutlineWidth = 0.09, kEdgeWidth = 0.045;  // of the page's tex
 
 void set_colour(vtkProperty& property, const Rgb& c) { property.SetColor(c[0], c[1], c[2]); }
 
-double metres_of(const std::string& unit) {
-  return unit == "m" ? 1 : unit == "cm" ? 1e-2 : 1e-3;  // those of output.length_unit
-}
-
 /// Left empty where no scale stands beside the scene.
 double strip_width(const Page& page, const Setting& setting) {
   return std::max(axes_width(page, setting.axes, setting.directions),

@@ -49,6 +49,7 @@ Survey survey_of(const Frame& frame, const std::string& unit, const std::string&
   ViewBox everything(axes), seen(axes);
   for (const Part& part : frame.parts) {
     everything.add(*part.set);
+    add_bounds(part, result);
     if (focus.empty() || part.name == focus) seen.add(*part.set);
     if (part.kind == PartKind::Lines) result.has_muscles = true;
   }
@@ -95,6 +96,8 @@ int render_setup(const RenderOptions& options) {
             setting.directions.begin());
   setting.axes = view_axes(options.view, options.up, setting.directions);
   setting.survey = survey_of(frame, scenario.output.length_unit.name, options.focus, setting.axes);
+  if (setting.look.clip)
+    require_kept(*setting.look.clip, setting.survey.everything, setting.survey.length_unit);
 
   Marks marks;
   add_bodies(frame, marks);

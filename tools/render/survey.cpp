@@ -114,6 +114,12 @@ FieldValues drawn_values(const Part& part, const Survey& survey) {
   return smooth_values(*part.set, survey.field);
 }
 
+void add_bounds(const Part& part, Survey& survey) {
+  if (part.set->GetNumberOfPoints() == 0) return;
+  const double* const b = part.set->GetBounds();
+  survey.everything.extend(Vec3(b[0], b[2], b[4])).extend(Vec3(b[1], b[3], b[5]));
+}
+
 Vec3 middle_of(const Frame& frame, const ViewAxes& axes, const std::string& focus) {
   ViewBox box(axes);
   for (const Part& part : frame.parts)
@@ -151,6 +157,7 @@ Survey survey(const std::vector<DrawnRun>& runs, const Colouring& colouring,
           require_same_unit(run.series, seen_unit, unit);
         }
         everything.add(*part.set);
+        add_bounds(part, result);
         if (part.name == focus) seen.add(*part.set);
         if (part.kind == PartKind::Lines) add_lines(part, result);
         if (!is_of_tissue || part.kind == PartKind::Tissue) add_values(part, result);

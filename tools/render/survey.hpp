@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <functional>
 #include <optional>
 #include <set>
@@ -49,7 +50,11 @@ struct Survey {
   Vec3 size = Vec3::Zero();               // of the box around what has to be seen, along the view
   std::optional<Vec3> middle;             // of it; none: of the focus in each frame
   double diagonal = 0;                    // of the box around everything
+  Eigen::AlignedBox3d everything;         // in all frames, by the axes of the files
 };
+
+/// Makes the survey's box around everything hold the part.
+void add_bounds(const Part& part, Survey& survey);
 
 /// The values of a part as they are drawn; none if it does not carry the field.
 FieldValues drawn_values(const Part& part, const Survey& survey);

@@ -145,9 +145,10 @@ class Measurement {
       costs_.terms.push_back(cost);
       const Positions v = Positions::Zero(3, tissue.X.cols());
       if (tissue.dashpots)
-        costs_.terms.push_back({fmt::format("dampers of `{}`", name), 0,
-                                seconds_of([&] { tissue.dashpots->add_force(tissue.X, v, f); }),
-                                seconds_of([&] { tissue.dashpots->add_damping(tissue.X, 1, K); })});
+        costs_.terms.push_back(
+            {fmt::format("dampers of `{}`", name), 0,
+             seconds_of([&] { tissue.dashpots->add_force(tissue.X, v, f); }),
+             seconds_of([&] { tissue.dashpots->add_tangent(tissue.X, v, 1, 1, K); })});
       if (tissue.relaxation) measure_relaxation(tissue, name, f);
       if (!tissue.sheets.empty()) measure_sheets(tissue, name, f);
     }

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "fem/material/any_material.hpp"
 #include "tests/sim/support/doubt.hpp"
 #include "tests/sim/support/scene.hpp"
@@ -89,6 +92,42 @@ TEST(MuscleDoubts, AreOfFibresWithoutExcitationUnlessItIsGivenAsNone) {
   EXPECT_TRUE(says(doubt(s), "scene.toml:7:1: muscle `masseter` has no `excitation`"));
   s.muscles = {of_fibres(kSilent)};
   EXPECT_EQ(doubt(s), "");
+}
+
+// Tied at the lower face to the floor and at the upper one to a bone.
+TEST(MuscleDoubts, AreOfFibresAcrossTheLineBetweenTheEnds) {
+  for (const auto& [degrees, doubted] :
+       {std::pair(0, false), std::pair(40, false), std::pair(80, true), std::pair(90, true)}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    Scenario s = fibres(2e5);
+    s.bodies[0].geometry =
+        box_body("block", Body::Kind::Tissue, {0.02, 0.02, 0.02}, {0, 0, 0}, {1, 1, 2}).geometry;
+    s.bodies[0].material->fibres = Fibres{Vec3(std::sin(angle), 0, std::cos(angle))};
+    s.bodies.push_back(stand("bone"));
+    s.attachments = {attach("block", "floor", {-1, -1, -0.011}, {1, 1, -0.0099}),
+                     attach("block", "bone", {-1, -1, 0.0099}, {1, 1, 0.011})};
+    s.muscles = {of_fibres(kPull)};
+    const std::string told = doubt(s);
+    EXPECT_EQ(!told.empty(), doubted) << degrees;
+    if (doubted) {
+      EXPECT_TRUE(says(told, "at " + std::to_string(degrees) + " degrees"));
+    }
+    s.attachments.pop_back();  // no line to run along
+    EXPECT_EQ(doubt(s), "") << degrees;
+  }
+}
+
+TEST(MuscleDoubts, AreOfActiveStressThatRelaxes) {
+  for (const double stress : {0.0, 2e5}) {
+    Scenario s = fibres(stress);
+    if (stress > 0) s.muscles = {of_fibres(kPull)};
+    s.bodies[0].material->relaxation = {{.weight = 0.5, .time = 1}, {.weight = 0.2, .time = 9}};
+    const std::string told = doubt(s);
+    EXPECT_EQ(told.empty(), stress == 0) << told;
+    if (stress > 0) {
+      EXPECT_TRUE(says(told, "takes 70 % of its fibres' active stress"));
+    }
+  }
 }
 
 // In a scene with one that pulls, others are silent on purpose: openers while closers bite.

@@ -58,9 +58,11 @@ TEST(TwinDoubts, AreOfOneLoadTwiceOnTheSameFaces) {
 TEST(TwinDoubts, AreOfLinesFromTheSamePointsToTheSamePoints) {
   const auto line = [](const std::string& kind, const std::string& name, const std::string& z,
                        const std::string& more) {
-    return "[[" + kind + "]]\nname = \"" + name + "\"\n" + more +
-           "path = [{ body = \"wall\", point = \"-20 0 0 mm\" }, { body = \"bar\", point = \"0 0 " +
-           z + " mm\" }]\n";
+    const std::string from = R"({ body = "wall", point = "-20 0 0 mm" })",
+                      to = R"({ body = "bar", point = "0 0 )" + z + " mm\" }";
+    const bool turned = name == "turned";
+    return "[[" + kind + "]]\nname = \"" + name + "\"\n" + more + "path = [" +
+           (turned ? to : from) + ", " + (turned ? from : to) + "]\n";
   };
   const std::string spring = "stiffness = \"1 N/mm\"\n", pull = "max_force = \"2 N\"\n";
   for (const auto& [kind, more] : {std::pair("ligament", spring), std::pair("muscle", pull)}) {
@@ -68,11 +70,14 @@ TEST(TwinDoubts, AreOfLinesFromTheSamePointsToTheSamePoints) {
                                    ? more + "excitation = { time = [\"0 s\"], value = [1] }\n"
                                    : more;
     EXPECT_TRUE(doubts_of(line(kind, "a", "0", driven) + line(kind, "b", "1", driven)).empty());
-    const std::vector<std::string> doubts =
-        doubts_of(line(kind, "a", "0", driven) + line(kind, "b", "0", driven));
-    ASSERT_EQ(doubts.size(), 1U) << kind;
-    EXPECT_NE(doubts[0].find(std::string(kind) + " `b` is the same as `a`, at "), std::string::npos)
-        << doubts[0];
+    for (const std::string twin : {"b", "turned"}) {
+      const std::vector<std::string> doubts =
+          doubts_of(line(kind, "a", "0", driven) + line(kind, twin, "0", driven));
+      ASSERT_EQ(doubts.size(), 1U) << kind;
+      EXPECT_NE(doubts[0].find(std::string(kind) + " `" + twin + "` is the same as `a`, at "),
+                std::string::npos)
+          << doubts[0];
+    }
   }
 }
 

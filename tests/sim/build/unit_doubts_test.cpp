@@ -261,10 +261,31 @@ TEST(UnitDoubts, AreOfAPointFarFromItsBody) {
   }
 }
 
-TEST(UnitDoubts, AreOfAMusclesForce) {
-  Scenario s = usual();
-  s.muscles[0].max_force = 3e5;
-  EXPECT_EQ(num_doubts(s), 1U);
+TEST(UnitDoubts, AreOfAMusclesForceSpeedAndPassiveForce) {
+  const auto doubts_of = [](double force, double speed, double passive) {
+    Scenario s = usual();
+    s.muscles[0].max_force = force;
+    s.muscles[0].max_velocity = speed;
+    s.muscles[0].passive_fraction = passive;
+    return num_doubts(s);
+  };
+  EXPECT_EQ(doubts_of(0.2, 0.6, 0.9), 0U);
+  EXPECT_EQ(doubts_of(3e5, 10, 0.015), 1U);
+  EXPECT_EQ(doubts_of(300, 10.0 / 60, 0.015), 1U);
+  EXPECT_EQ(doubts_of(300, 1e4, 0.015), 1U);
+  EXPECT_EQ(doubts_of(300, 10, 1.5), 1U);
+}
+
+TEST(UnitDoubts, AreOfAPrestretchThatIsNone) {
+  for (const double stretch : {0.97, 1.0, 1.03, 1.3}) {
+    Scenario s = usual();
+    s.bodies[0].material = material_of(fem::TransverselyIsotropic<fem::VolumeChange>(
+        1e4, 0, fem::ToeLinearFibre({.c3 = 1e3, .c4 = 20, .c5 = 1e5, .toe_end = 1.05}), 3e6,
+        fem::ActiveFibre({.stress = 0, .force_length = {}}), stretch));
+    s.bodies[0].material->fibres = Fibres{.along = Vec3::UnitX()};
+    s.bodies[0].material->element = TissueMaterial::Element::Smoothed;
+    EXPECT_EQ(num_doubts(s), stretch < 1 || stretch > 1.2 ? 1U : 0U) << stretch;
+  }
 }
 
 TEST(UnitDoubts, AreOfCurvesThatBeginWhenTheRunIsOver) {
@@ -341,6 +362,18 @@ TEST(UnitDoubts, AreOfAToeStrainInPerCent) {
     EXPECT_EQ(num_doubts(s), strain <= 0.5 ? 0U : 1U) << strain;
     s.ligaments[0].law = Ligament::Law::Linear;
     EXPECT_EQ(num_doubts(s), 0U) << strain;
+  }
+}
+
+TEST(UnitDoubts, AreOfAToeThatEndsWhereNoCollagenIsLeft) {
+  for (const double end : {1.03, 1.5, 1.9}) {
+    Scenario s = usual();
+    s.bodies[0].material = material_of(fem::TransverselyIsotropic<fem::VolumeChange>(
+        1e4, 0, fem::ToeLinearFibre({.c3 = 1e3, .c4 = 2, .c5 = 1e4, .toe_end = end}), 3e6,
+        fem::ActiveFibre({.stress = 0, .force_length = {}})));
+    s.bodies[0].material->fibres = Fibres{.along = Vec3::UnitX()};
+    s.bodies[0].material->element = TissueMaterial::Element::Smoothed;
+    EXPECT_EQ(num_doubts(s), end <= 1.5 ? 0U : 1U) << end;
   }
 }
 

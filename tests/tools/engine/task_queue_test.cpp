@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <fstream>
 
 #include "tests/sim/support/temporary_folder.hpp"
 #include "tools/engine/serve_tasks.hpp"
@@ -144,6 +145,23 @@ TEST_F(TaskQueueTest, AWorkerThatIsToldToStopPutsItsCaseBack) {
   EXPECT_FALSE(queue_.renew(*taken));
   queue_.put_back(*taken);
   EXPECT_TRUE(queue_.list().waiting.contains("a"));
+}
+
+TEST_F(TaskQueueTest, IsOfAStudyFromItsFirstCaseOn) {
+  fs::create_directories(queue_.folder());
+  std::ofstream(folder_ / "queue/history.csv") << "a run's, or anything";
+  EXPECT_FALSE(queue_.is_of_a_study());
+  queue_.offer(task("a", {"true"}));
+  EXPECT_TRUE(queue_.is_of_a_study());
+  const std::optional<Task> taken = queue_.take();
+  ASSERT_TRUE(taken);
+  EXPECT_TRUE(queue_.is_of_a_study());
+  queue_.finish(*taken, {taken->key, {}, ""});
+  EXPECT_TRUE(queue_.is_of_a_study());
+  queue_.forget(*taken);
+  EXPECT_FALSE(queue_.is_of_a_study());
+  queue_.close();
+  EXPECT_TRUE(queue_.is_of_a_study());
 }
 
 }  // namespace articular::tools::task_queue_test

@@ -23,6 +23,17 @@ TEST(Clip, KeepsWhatIsAskedFor) {
     EXPECT_THROW(parse_clip(wrong), sim::InputError) << wrong;
 }
 
+// A box from 2 to 5 mm along y: what is asked for must have some of it, on either side.
+TEST(Clip, ThatLeavesNothingIsAnError) {
+  const Eigen::AlignedBox3d box(Vec3(-10, 2, -10), Vec3(10, 5, 10));
+  for (const char* const some : {"y<2.1mm", "y>4.9mm", "y<1m", "y>-1m"})
+    EXPECT_NO_THROW(require_kept(parse_clip(some), box, "mm")) << some;
+  for (const char* const none : {"y<1.9mm", "y>5.1mm", "y>1m"})
+    EXPECT_THROW(require_kept(parse_clip(none), box, "mm"), sim::InputError) << none;
+  EXPECT_NO_THROW(require_kept(parse_clip("y>4.9cm"), box, "cm"));
+  EXPECT_THROW(require_kept(parse_clip("y>5.1cm"), box, "cm"), sim::InputError);
+}
+
 // Of a tetrahedron with its corners at 0 and 2 on the axes, x > 1 keeps the tip. The cut is a face
 // with values in between: of a field 10 x it is 10 everywhere on it.
 TEST(Clip, CutsTetrahedraWithTheirValues) {
