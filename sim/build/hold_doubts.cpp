@@ -2,33 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "sim/base/error.hpp"
+#include "sim/model/constrained_rigid_body.hpp"
 
 namespace articular::sim {
 namespace {
 
 constexpr double kNone = 1e-9;  // of a vector's length
 
-/// The axes along and about which a body is free.
+/// Onto the axes along and about which a body is free.
 struct Free {
-  Mat3 shift = Mat3::Zero(), turn = Mat3::Zero();  // orthogonal projections onto them
-  int num_turns = 0;
+  Mat3 shift = Mat3::Zero(), turn = Mat3::Zero();
 };
-
-Free free_part(const Hold& hold) {
-  Free free;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 axis = hold.axes.col(static_cast<Eigen::Index>(i));
-    if (!hold.held[i]) free.shift += axis * axis.transpose();
-    if (hold.held[3 + i]) continue;
-    free.turn += axis * axis.transpose();
-    ++free.num_turns;
-  }
-  return free;
-}
 
 bool is_none(const Vec3& part, const Vec3& whole) { return part.norm() <= kNone * whole.norm(); }
 
@@ -36,10 +24,11 @@ bool is_none(const Vec3& part, const Vec3& whole) { return part.norm() <= kNone 
 /// either has no part across it; about more, where there is no lever.
 bool takes_force(const Free& free, const Vec3& force, const Vec3& lever) {
   if (!is_none(free.shift * force, force)) return false;
-  if (free.num_turns == 0) return true;
+  const auto num_turns = std::lround(free.turn.trace());
+  if (num_turns == 0) return true;
   const Mat3 across = Mat3::Identity() - free.turn;
-  return free.num_turns == 1 ? is_none(across * force, force) || is_none(across * lever, lever)
-                             : lever.isZero(0);
+  return num_turns == 1 ? is_none(across * force, force) || is_none(across * lever, lever)
+                        : lever.isZero(0);
 }
 
 bool has_reaction_probe(const Scenario& scenario, const std::string& body) {
@@ -60,7 +49,7 @@ Held held_body(const Scenario& scenario, const Model& model, const std::string& 
   if (rigid < 0) return {};
   const RigidBody& body = model.rigid_bodies[static_cast<std::size_t>(rigid)];
   if (!body.unknown || !body.hold || body.motion) return {};
-  return {&body, free_part(*body.hold)};
+  return {&body, {free_projection(*body.hold, 0), free_projection(*body.hold, 1)}};
 }
 
 /// A force or moment on a held body.

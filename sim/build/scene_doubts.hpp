@@ -15,7 +15,7 @@ namespace articular::sim {
 /// ligaments that start drawn out by two fifths or get taut only when twice as long, joint axes
 /// that do not point the same way or inwards, motions of fixed bodies that do not begin where these
 /// are drawn, bodies or parts of a mesh that lie in each other unparted; and what muscle_doubts(),
-/// body_doubts(), tie_doubts() and twin_doubts() find.
+/// body_doubts(), tie_doubts(), twin_doubts() and hold_doubts() find.
 /// @param geometry  of each body at the start
 /// @return one line each, with the place in the scenario
 std::vector<std::string> scene_doubts(const Scenario& scenario, const Model& model,
