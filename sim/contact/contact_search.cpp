@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "fem/mesh/mesh_parts.hpp"
+
 namespace articular::sim {
 namespace {
 
@@ -87,6 +89,26 @@ bool are_tied(const Collider& a, int triangle, const Collider& b, int face) {
   return false;
 }
 
+bool are_two_sides(const Collider& body, std::span<const int> part, int triangle, int face) {
+  constexpr double kMostElements = 2;
+  const auto part_of = [&](int k) {
+    return part[static_cast<std::size_t>(body.surface.faces(0, k))];
+  };
+  if (part_of(triangle) != part_of(face)) return false;
+  const auto corners = [&](int k) -> Mat3 { return body.X(Eigen::all, body.surface.faces.col(k)); };
+  const auto radius = [](const Mat3& x, const Vec3& center) {
+    return (x.colwise() - center).colwise().norm().maxCoeff();
+  };
+  const Mat3 s = corners(triangle), f = corners(face);
+  const FlatTriangle at_s = flat_triangle(s), at_f = flat_triangle(f);
+  if (at_s.normal.dot(at_f.normal) >= 0) return false;
+  const Vec3 middle = s.rowwise().mean(), center = f.rowwise().mean(), way = middle - center;
+  const double depth = -at_f.normal.dot(way);
+  const double beside = (way + depth * at_f.normal).norm();
+  return depth > 0 && depth <= kMostElements * body.size &&
+         beside <= radius(s, middle) + radius(f, center);
+}
+
 DepthRange depth_range(const Collider& triangles, const Collider& faces, bool averaged) {
   return {averaged ? triangles.open_depth : 0, std::min(2 * triangles.reach, faces.reach)};
 }
@@ -101,6 +123,8 @@ ContactSearch::ContactSearch(const Model& model, const StepSettings& settings)
     Moving moving;
     moving.body = body;
     moving.index = moving_.size();
+    if (model.contacts.between(body, body))
+      moving.part = fem::parts_of_nodes(static_cast<int>(collider.X.cols()), collider.tets);
     moving_.push_back(std::move(moving));
     colliders.push_back(&collider);
     seen_.resize(std::max(seen_.size(), collider.face_area.size()), 0);
@@ -206,6 +230,12 @@ void ContactSearch::search(ContactId contact, const ContactModel& pair, double m
   num_lists_ += list.pairs.empty() ? 0 : 1;
 }
 
+bool ContactSearch::may_touch(const Moving& a, int triangle, const Moving& b, int face) const {
+  const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
+  const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
+  return !are_tied(A, triangle, B, face) && !(&a == &b && are_two_sides(A, a.part, triangle, face));
+}
+
 void ContactSearch::collect(const Penetrations& found, const Penetrations& reverse, const Moving& a,
                             const Moving& b, bool averaged, double margin, SideCandidates& side) {
   const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
@@ -230,7 +260,7 @@ void ContactSearch::collect(const Penetrations& found, const Penetrations& rever
         if (!may_face(s, face)) continue;
         const FaceProximity what = face_proximity(s, face, range, margin);
         deep = deep || what.deeper;
-        if (what.may && !are_tied(A, triangle, B, f)) pairs.push_back({triangle, f, range.reach});
+        if (what.may && may_touch(a, triangle, b, f)) pairs.push_back({triangle, f, range.reach});
       }
     }
     if (deep) deep_.push_back({first, end});
@@ -245,7 +275,6 @@ void ContactSearch::add_deep_pairs(const Penetrations& found, const Moving& a, c
                                    const DepthRange& range, double margin,
                                    std::vector<ContactCandidate>& pairs) {
   constexpr double kOfDepth = 1.5;  // along a triangle's normal it is farther than straight up
-  const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
   const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
   for (const DeepTriangle& deep : deep_) {
     const int triangle = found[deep.begin].face;
@@ -262,7 +291,7 @@ void ContactSearch::add_deep_pairs(const Penetrations& found, const Moving& a, c
     const DepthRange deeper{range.open, kOfDepth * depth + margin};
     for (std::size_t f = 0; f < b.faces.size(); ++f) {
       const auto face = static_cast<int>(f);
-      if (!may_face(s, b.faces[f]) || are_tied(A, triangle, B, face)) continue;
+      if (!may_face(s, b.faces[f]) || !may_touch(a, triangle, b, face)) continue;
       if (!face_proximity(s, b.faces[f], deeper, margin).may) continue;
       pairs.push_back({triangle, face, deeper.reach});
       ++counts_.deep_pairs;

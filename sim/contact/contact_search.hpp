@@ -34,6 +34,12 @@ struct CandidateList {
 /// tied to a rigid body, or neighbours in one tissue.
 bool are_tied(const Collider& a, int triangle, const Collider& b, int face);
 
+/// Whether they are the two sides of one part of a body: at the start the triangle lay behind the
+/// face, opposite it, at most two elements deep. However thin the body gets there, the triangle has
+/// not come in through that face: it would be pressed back through the body, and thin edges shut.
+/// @param part  of each node, see fem::parts_of_nodes()
+bool are_two_sides(const Collider& body, std::span<const int> part, int triangle, int face);
+
 /// The depths of a side's triangles behind another's faces that count. Deeper than an element of
 /// either side it was not this face that was crossed.
 DepthRange depth_range(const Collider& triangles, const Collider& faces, bool averaged);
@@ -79,6 +85,7 @@ class ContactSearch {
     std::optional<double> margin;  // [m] of the last update; none yet
     Positions x;                   // where it was found
     std::vector<FaceBounds> faces;
+    std::vector<int> part;  // of each node, of a body that touches itself
   };
   void update(Moving& moving, const Configuration& configuration, double margin);
   /// What a body needs that may touch another: done once a detection, if at all.
@@ -93,6 +100,7 @@ class ContactSearch {
   void search_itself(ContactId contact, const ContactModel& pair, double margin,
                      PenetrationCost& cost);
   CandidateList& next_list(ContactId contact);
+  bool may_touch(const Moving& a, int triangle, const Moving& b, int face) const;
   /// @param found    triangles of a in tetrahedra of b
   /// @param reverse  of b in a
   void collect(const Penetrations& found, const Penetrations& reverse, const Moving& a,

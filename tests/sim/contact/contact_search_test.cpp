@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "fem/mesh/mesh_parts.hpp"
 #include "sim/build/build_model.hpp"
 #include "sim/contact/contact_summary.hpp"
 #include "tests/sim/support/contact_scene.hpp"
@@ -46,6 +47,56 @@ TEST(ContactSearch, WhatLiesDeepInsideTheNonMortarSideIsACandidateOfItsFaces) {
     }
     EXPECT_GT(search.counts().deep_pairs, 0);
   }
+}
+
+/// A plate of elements of 1 mm that touches itself.
+Model plate_model() {
+  Scenario s = contact_scene(1e-3);
+  s.bodies = {box_body("plate", Body::Kind::Tissue, {8e-3, 8e-3, 1e-3}, Vec3::Zero(), {8, 8, 1})};
+  ContactPair itself;
+  itself.a = itself.b = "plate";
+  s.contacts = {itself};
+  return build_model(s);
+}
+
+TEST(ContactSearch, TrianglesAreTwoSidesWithTheFacesOppositeInTheSamePart) {
+  const Model model = plate_model();
+  const Collider& plate = *model.bodies[0].collider;
+  const auto middle = [&](int k) -> Vec3 {
+    return plate.X(Eigen::all, plate.surface.faces.col(k)).rowwise().mean();
+  };
+  const std::vector<int> part = fem::parts_of_nodes(static_cast<int>(plate.X.cols()), plate.tets);
+  int two_sides = 0;
+  for (int s = 0; s < plate.surface.faces.cols(); ++s)
+    for (int f = 0; f < plate.surface.faces.cols(); ++f) {
+      const Vec3 way = middle(s) - middle(f);
+      const bool through = std::abs(std::abs(way.z()) - 1e-3) < 1e-9;
+      if (!are_two_sides(plate, part, s, f)) {
+        EXPECT_FALSE(through && way.head<2>().norm() < 1e-3);
+        continue;
+      }
+      ++two_sides;
+      EXPECT_LT(way.head<2>().norm(), 2e-3);
+      EXPECT_TRUE(are_two_sides(plate, part, f, s));
+    }
+  EXPECT_GT(two_sides, 2 * plate.surface.faces.cols());
+}
+
+// Pressed to a fifth, and its upper side through the lower one along a line, triangles lie in
+// elements that are not theirs, as shallow behind the other side as what came in through it.
+TEST(ContactSearch, TheTwoSidesOfAThinPlateAreNoCandidates) {
+  const Model model = plate_model();
+  Configuration now;
+  read_state(model, initial_state(model).data(), 0, now);
+  for (const NodeRef& node : model.tissues[0].nodes) {
+    auto x = now.x.col(node.block);
+    const bool upper = x.z() > 0;
+    x.z() = upper && std::abs(x.x()) < 0.1e-3 ? -0.9e-3 : 0.2 * x.z();
+  }
+  ContactSearch search(model, step_settings(contact_scene(1e-3)));
+  search.find(now, model.detection_margin);
+  EXPECT_GT(search.counts().narrow_tests, 0);
+  EXPECT_TRUE(search.candidates().empty());
 }
 
 MeshData block(const Vec3& center) { return box_mesh({{0.02, 0.02, 0.01}, {4, 4, 2}, center}); }
