@@ -4,11 +4,10 @@
 #include <vector>
 
 #include "fem/base/types.hpp"
+#include "fem/material/muscle_fibre.hpp"
 #include "fem/sparse/block_matrix.hpp"
 
 namespace articular::fem {
-
-class MuscleFibre;
 
 /// Force–velocity of the fibres of a muscle, in each element of a mesh of linear tetrahedra: what
 /// they pull less while they shorten, and more while they lengthen (MuscleFibre::drag), beside the
@@ -24,9 +23,21 @@ class FibreDrag {
 
   /// f += the force [N] that moves the shape x on with the velocities v [m/s].
   void add_force(const Positions& x, const Positions& v, double activation, Positions& f) const;
+  /// What a matrix took an element's factor f_v for: factor + slope (w − speed).
+  struct Line {
+    double speed = 0, factor = 1, slope = 0;  // [-]
+  };
+  using Lines = std::vector<Line>;  // one an element; empty: none
+
   /// D += scale * ∂f/∂v [N s/m]: symmetric, positive semidefinite.
+  ///
+  /// Hill's curve is steep where fibres hardly move and flat where they are fast: with its slope
+  /// there Newton's iteration is thrown back and forth. So the factor is an unknown beside the
+  /// velocities, which goes along the line of the matrix before: see force_velocity_slope(). What
+  /// is solved stays the same, and where the iteration ends both slopes are one.
+  /// @param lines  of the matrix before; then of this one
   void add_damping(const Positions& x, const Positions& v, double activation, double scale,
-                   BlockMatrix& D) const;
+                   Lines& lines, BlockMatrix& D) const;
   /// f += ∂f/∂v u.
   void add_product(const Positions& x, const Positions& v, double activation, const Positions& u,
                    Positions& f) const;
@@ -34,7 +45,7 @@ class FibreDrag {
   double power(const Positions& x, const Positions& v, double activation) const;
 
  private:
-  /// Calls function(element, direction of its fibres, their drag per rate λ̇, λ̇).
+  /// Calls function(element, direction of its fibres, their drag, λ̇).
   template <class Function>
   void for_each_fibre(const Positions& x, const Positions& v, double activation,
                       Function&& function) const;

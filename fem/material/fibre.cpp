@@ -130,13 +130,11 @@ double MuscleFibre::stiffness(double stretch, double activation) const {
          (passive_slope(n) + activation * active_slope(active_length(n)));
 }
 
-ValueSlope MuscleFibre::drag(double stretch, double rate, double activation) const {
+MuscleFibre::Drag MuscleFibre::drag(double stretch, double activation) const {
   if (!c_.max_velocity) return {};
-  const double per_rate = 1 / (c_.optimal_stretch * (1 - c_.tendon_ratio) * *c_.max_velocity);
-  const ValueSlope factor = force_velocity(per_rate * rate);
-  const double pull = c_.max_stress / c_.optimal_stretch * activation *
-                      active(active_length(relative_length(stretch)));
-  return {pull * (factor.value - 1), pull * factor.slope * per_rate};
+  return {c_.max_stress / c_.optimal_stretch * activation *
+              active(active_length(relative_length(stretch))),
+          1 / (c_.optimal_stretch * (1 - c_.tendon_ratio) * *c_.max_velocity)};
 }
 
 double MuscleFibre::active(double n) {

@@ -55,8 +55,12 @@ class MuscleFibre {
   double stiffness(double stretch, double activation) const;
 
   bool has_drag() const { return c_.max_velocity.has_value(); }
-  /// What dW/dλ lacks at a rate λ̇ [1/s], σ_max/λ_ofl a f_a (f_v − 1) [Pa], and its slope by λ̇.
-  ValueSlope drag(double stretch, double rate, double activation) const;
+  /// What dW/dλ lacks at a rate λ̇ [1/s], pull (f_v(w) − 1).
+  struct Drag {
+    double pull = 0;      // σ_max/λ_ofl a f_a [Pa]
+    double per_rate = 0;  // w/λ̇ [s]
+  };
+  Drag drag(double stretch, double activation) const;
 
   double max_stress() const { return c_.max_stress; }  // [Pa]
 

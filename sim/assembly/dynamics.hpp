@@ -84,6 +84,8 @@ class Dynamics {
   NewtonEquations assemble_again(const GroupChanges& changes, const SystemScale& scale,
                                  fem::Tangent tangent, const PredictedPressures& pressures = {});
   const NewtonMatrix& matrix() const { return matrix_; }
+  /// The next matrix has the fibres' force–velocity as it is, not as the last one led to.
+  void forget_fibre_rates() { matrix_.forget_fibre_rates(); }
 
   DynamicsTimes& times() { return times_; }
   /// Since it was made.

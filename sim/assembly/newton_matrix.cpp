@@ -120,6 +120,10 @@ void NewtonMatrix::couple_contacts(const Moment& now) {
   build_pattern();
 }
 
+void NewtonMatrix::forget_fibre_rates() {
+  for (TissueWork& work : tissues_) work.fibre_lines.clear();
+}
+
 void NewtonMatrix::forget() {
   if (contacts_.blocks.empty()) return;
   contacts_ = {};
@@ -229,7 +233,8 @@ void NewtonMatrix::add_beside_elements(std::size_t t, const Moment& now, const S
                                  tangent == fem::Tangent::Consistent ? scale.stiffness : 0, K);
   if (tissue.fibre_drag)
     tissue.fibre_drag->add_damping(moment.x, moment.velocity,
-                                   activation_of(tissue, now.configuration), scale.damping, K);
+                                   activation_of(tissue, now.configuration), scale.damping,
+                                   tissues_[t].fibre_lines, K);
 }
 
 /// The matrices of a tissue that has some of its own.

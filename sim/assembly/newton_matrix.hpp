@@ -30,6 +30,8 @@ class NewtonMatrix {
   /// Candidates of the coming step: their couplings enter the pattern as soon as one is needed that
   /// is not in it, and stay in it. They are referred to.
   void set_candidates(std::span<const CandidateList> candidates) { candidates_ = candidates; }
+  /// See fem::FibreDrag::add_damping.
+  void forget_fibre_rates();
   /// Drops the couplings of all candidates so far.
   void forget();
   std::uint64_t pattern_id() const { return A_.pattern_id(); }
@@ -68,6 +70,7 @@ class NewtonMatrix {
     TissueMatrix plain;                         // smoothed: couplings of the elements alone
     fem::BlockMatrix beside;                    // smoothed: the same couplings
     fem::PressureGradient node_G, G;            // smoothed: by nodes, and by blocks of unknowns
+    fem::FibreDrag::Lines fibre_lines;          // of the last matrix
   };
   bool adds_directly(const Tissue& tissue) const;
   Stencils base_stencils(bool smoothing) const;

@@ -17,6 +17,13 @@ void PressurePrediction::predict(const Moment& now, const NewtonMatrix& matrix,
   });
 }
 
+void PressurePrediction::keep(const Moment& now) {
+  of_tissue_.resize(now.tissues.size());
+  for_each_smoothed(now.model, [&](std::size_t t) {
+    of_tissue_[t].before = of_tissue_[t].after = now.tissues[t].pressure;
+  });
+}
+
 Eigen::VectorXd PressurePrediction::at(std::size_t tissue, double part) const {
   const Way& way = of_tissue_[tissue];
   return way.before + part * (way.after - way.before);

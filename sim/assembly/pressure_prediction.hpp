@@ -11,6 +11,9 @@ class PressurePrediction {
   /// From a moment on, where the matrix was taken, with a correction dx of the block positions.
   void predict(const Moment& now, const NewtonMatrix& matrix, const Eigen::VectorXd& dx);
 
+  /// From now on those of a moment, as they are, until a correction changes them.
+  void keep(const Moment& now);
+
   /// Those of a tissue this part of the way [Pa].
   Eigen::VectorXd at(std::size_t tissue, double part) const;
 

@@ -69,6 +69,18 @@ int guarded(std::exception_ptr& error, Body&& body) {
   }
 }
 
+/// The same for a linear solver, by whether it solved: all but SUNDIALS' own codes of failure are
+/// success to ARKODE.
+template <class Body>
+int guarded_solve(std::exception_ptr& error, Body&& body) {
+  try {
+    return body() ? SUNLS_SUCCESS : SUNLS_PACKAGE_FAIL_REC;
+  } catch (...) {
+    error = std::current_exception();
+    return SUNLS_PACKAGE_FAIL_UNREC;
+  }
+}
+
 /// Throws on what was kept.
 inline void rethrow(std::exception_ptr& error) {
   if (error) std::rethrow_exception(std::exchange(error, nullptr));

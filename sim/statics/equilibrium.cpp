@@ -24,6 +24,7 @@ namespace {
 
 using sundials::check;
 using sundials::guarded;
+using sundials::guarded_solve;
 using sundials::view;
 
 /// A full correction below this part of what may move in one changes nothing: where nothing is
@@ -357,24 +358,24 @@ std::optional<double> Equilibrium::Solver::find_correction() {
 int Equilibrium::Solver::correct(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector,
                                  realtype) {
   auto& self = *static_cast<Solver*>(solver->content);
-  return guarded(self.error_, [&] {
+  return guarded_solve(self.error_, [&] {
     ++self.counts.newton_iterations;
     Supports supports(self.dynamics_.now());
     self.before_ = self.u_;
     self.r_before_ = self.r_;
     const double residual = self.largest(self.r_) / self.dynamics_.now().largest_force;
     const std::optional<double> part = self.find_correction();
-    if (!part) return 1;
+    if (!part) return false;
     self.taken_ = {&self.prediction_, *part};
     view(x) = *part * self.correction_;
     self.short_in_a_row_ = *part <= kShort ? self.short_in_a_row_ + 1 : 0;
-    if (self.from_afar_ && self.short_in_a_row_ == kMostShort) return 1;
+    if (self.from_afar_ && self.short_in_a_row_ == kMostShort) return false;
     self.iterations.push_back(
         {residual, *part * self.largest_displacement(self.correction_), *part});
     if (self.supports_) self.iterations.back().changes = supports.changes_since(*self.supports_);
     self.supports_ = std::move(supports);
     if (self.watch && self.watch(self.t_, self.iterations.back())) throw Interruption();
-    return 0;
+    return true;
   });
 }
 

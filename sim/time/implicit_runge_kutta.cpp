@@ -18,7 +18,7 @@ namespace articular::sim {
 namespace {
 
 using sundials::check;
-using sundials::guarded;
+using sundials::guarded_solve;
 using sundials::view;
 
 struct FreeNonlinear {
@@ -108,10 +108,10 @@ int ImplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data)
 SUNLinearSolver_Type matrix_embedded(SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; }
 
 /// x: Newton's correction at the stage's state, where the rate was evaluated last (the residual
-/// comes first). @return 0, or 1 where there is none
+/// comes first)
 int ImplicitRungeKutta::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
   auto& self = *static_cast<ImplicitRungeKutta*>(solver->content);
-  return guarded(self.error_, [&] {
+  return guarded_solve(self.error_, [&] {
     double gamma = 0;
     N_Vector y = nullptr;
     check(ARKStepGetCurrentGamma(self.arkode_.get(), &gamma), "ARKStepGetCurrentGamma");
@@ -121,12 +121,11 @@ int ImplicitRungeKutta::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_V
       self.predict(Eigen::VectorXd::Zero(self.acceleration_.size()), self.stage_time_,
                    self.stage_start_);
       view(x) = self.stage_start_ - view(y);
-      return 0;
+      return true;
     }
     ++self.counts_.newton_iterations;
-    const bool solved = self.newton_.solve(N_VGetArrayPointer(y), gamma, N_VGetArrayPointer(b),
-                                           N_VGetArrayPointer(x), self.conditions_, self.counts_);
-    return solved ? 0 : 1;
+    return self.newton_.solve(N_VGetArrayPointer(y), gamma, N_VGetArrayPointer(b),
+                              N_VGetArrayPointer(x), self.conditions_, self.counts_);
   });
 }
 
@@ -320,6 +319,7 @@ std::optional<double> ImplicitRungeKutta::advance(Eigen::VectorXd& y, double t, 
   }
   ++counts_.steps;
   keep_matrix_ = true;
+  newton_.end_step();
   touched_ = dynamics_.now().contact.force_on_bodies();
   const Eigen::VectorXd before = y;
   y = view(y_);

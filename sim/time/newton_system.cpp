@@ -47,6 +47,7 @@ NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
 
 void NewtonSystem::restart() {
   solver_ = make_linear_solver(model_);
+  has_start_ = false;
   gamma_ = 0;
 }
 
@@ -55,10 +56,20 @@ void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
   first_ = tangent;
   used_consistent_ = false;
   dynamics_.contact().drop_friction_duals();
-  if (!keep_matrix) gamma_ = 0;
+  if (keep_matrix) return;
+  gamma_ = 0;
+  dynamics_.forget_fibre_rates();
+}
+
+void NewtonSystem::end_step() {
+  if (!dynamics_.matrix().has_pressures()) return;
+  start_.keep(dynamics_.now());
+  has_start_ = true;
 }
 
 void NewtonSystem::begin_iteration() {
+  pressures_ = {};
+  if (has_start_) pressures_ = {&start_, 0};
   dynamics_.contact().drop_friction_duals();
   correction_ = 0;
   anderson_.restart();
@@ -74,7 +85,8 @@ bool NewtonSystem::has_parted() const {
 }
 
 bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, SolverCounts& counts) {
-  const NewtonEquations equations = dynamics_.assemble({1, gamma, gamma * gamma, gamma}, tangent);
+  const NewtonEquations equations =
+      dynamics_.assemble({1, gamma, gamma * gamma, gamma}, tangent, pressures_);
   const Stopwatch watch(solve_seconds_);
   ++counts.factorizations;
   if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
@@ -120,6 +132,12 @@ bool NewtonSystem::find_correction(double gamma, SolverCounts& counts) {
   if (anderson_.is_slow()) first_ = fem::Tangent::Projected;
   ready = prepare(gamma, fem::Tangent::Projected, counts);
   return ready && solve_linear(counts);
+}
+
+void NewtonSystem::predict_pressures(double gamma) {
+  if (!dynamics_.matrix().has_pressures()) return;
+  trial_ = gamma * w_;
+  prediction_.predict(dynamics_.now(), dynamics_.matrix(), trial_);
 }
 
 double NewtonSystem::largest_motion(double gamma) const {
@@ -175,7 +193,9 @@ double NewtonSystem::searched_fraction(double most, const double* y, double gamm
   return searched_part(most, slope, [&](double part) {
     ++counts.force_evaluations;
     trial_ = start + part * way;
-    dynamics_.evaluate(trial_.data(), t, conditions);
+    Conditions along = conditions;
+    if (dynamics_.matrix().has_pressures()) along.pressures = {&prediction_, part};
+    dynamics_.evaluate(trial_.data(), t, along);
     return slope + part * inertia -
            gamma * w_.dot(dynamics_.now().forces.head(w_.size()) - forces_);
   });
@@ -264,9 +284,11 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   velocity_change_.head(num_velocities) = velocity_change;
   dynamics_.contact().update_friction_duals(dynamics_.now().configuration, velocity_change_);
   relaxation_.correct(dynamics_.now(), b, gamma, w_, x);
+  predict_pressures(gamma);
   double scale = step_fraction(gamma);
   if (searches) scale = searched_fraction(scale, y, gamma, x, conditions, counts);
   if (!searches) anderson_.took(scale, w_);
+  if (dynamics_.matrix().has_pressures()) pressures_ = {&prediction_, scale};
   changed_ = accelerated || scale < 1;
   if (scale < 1) Eigen::Map<Eigen::VectorXd>(x, layout.size()) *= scale;
   return true;

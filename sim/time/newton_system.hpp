@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "sim/assembly/dynamics.hpp"
+#include "sim/assembly/pressure_prediction.hpp"
 #include "sim/assembly/relaxation_rows.hpp"
 #include "sim/assembly/solver_setup.hpp"
 #include "sim/assembly/tissue_damping.hpp"
@@ -33,6 +34,8 @@ class NewtonSystem {
   /// search lets them (line_search.hpp). Near the solution that ends cycles of contacts that open
   /// and close; afar, it would creep from each contact that closes to the next.
   void search_lines(int from) { searches_from_ = from; }
+  /// A step ends where forces were evaluated last: the pressures there are those to begin with.
+  void end_step();
   /// The iteration of one of the step's stages begins. Where it is slow it is accelerated
   /// (anderson.hpp).
   void begin_iteration();
@@ -52,6 +55,8 @@ class NewtonSystem {
   double solve_seconds() const { return solve_seconds_; }
 
  private:
+  /// Pressures go along with the correction w.
+  void predict_pressures(double gamma);
   bool needs_matrix(double gamma) const;
   /// A body that was touched where the matrix was taken, whose contact would hold it now, is not.
   bool has_parted() const;
@@ -80,6 +85,9 @@ class NewtonSystem {
   const FrictionCoupling* friction_ = nullptr;  // of the matrix that is factored
   TissueDamping damping_;
   RelaxationRows relaxation_;
+  PressurePrediction start_, prediction_;  // at the step's start; along the last correction
+  PredictedPressures pressures_;           // that the next matrix takes; none: of the positions
+  bool has_start_ = false;
   Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_, velocity_change_;
   Eigen::VectorXd weighted_, forces_, trial_;            // of the line search
   double gamma_ = 0;                                     // of the matrix that is factored; 0: none

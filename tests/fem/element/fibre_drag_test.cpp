@@ -68,9 +68,56 @@ TEST(FibreDrag, DampingIsTheSlopeOfTheForce) {
   Positions product = Positions::Zero(3, m.x.cols());
   m.block.drag.add_product(m.x, m.v, 0.7, m.u, product);
   EXPECT_LT((product - slope).norm(), 1e-6 * slope.norm());
-  m.block.drag.add_damping(m.x, m.v, 0.7, kScale, m.block.matrix);
+  FibreDrag::Lines lines;
+  m.block.drag.add_damping(m.x, m.v, 0.7, kScale, lines, m.block.matrix);
   const Eigen::VectorXd by_matrix = dense(m.block.matrix) * m.u.reshaped();
   EXPECT_LT((by_matrix - kScale * product.reshaped()).norm(), 1e-12 * by_matrix.norm());
+}
+
+/// Newton's iteration for the rate at which a block shortens under its own fibres, a spring of
+/// rates and a force, from a rate at which fibres no longer pull. @return iterations, or 40
+int iterations_to_rest(bool keeps_lines) {
+  constexpr double kPull = 0.02, kForce = -16;  // [N s], [N]
+  Block block(Vec3::UnitX());
+  const Positions& X = block.mesh.X;
+  const Positions along = Vec3::UnitX().asDiagonal() * X;  // v at a rate of 1/s
+  const auto dot = [](const Positions& a, const Positions& b) { return a.cwiseProduct(b).sum(); };
+  FibreDrag::Lines lines;
+  double rate = -40;
+  for (int k = 0; k < 40; ++k) {
+    const double residual =
+        dot(block.force(X, rate * along, 1), along) + kPull * rate - kForce * 1e-3;
+    BlockMatrix D = block.matrix;
+    D.set_zero();
+    if (!keeps_lines) lines.clear();
+    block.drag.add_damping(X, rate * along, 1, 1, lines, D);
+    const double slope = along.reshaped().dot(dense(D) * along.reshaped()) + kPull;
+    const double change = -residual / slope;
+    if (std::abs(change) < 1e-10) return k;
+    rate += change;
+  }
+  return 40;
+}
+
+TEST(FibreDrag, LinesEndTheCyclesOfNewtonsIteration) {
+  EXPECT_EQ(iterations_to_rest(false), 40);
+  EXPECT_LT(iterations_to_rest(true), 12);
+}
+
+// The matrix of one motion does not depend on how often it is asked for.
+TEST(FibreDrag, TheSameMotionHasTheSameMatrix) {
+  Moving m;
+  FibreDrag::Lines lines;
+  BlockMatrix first = m.block.matrix, again = first;
+  m.block.drag.add_damping(m.x, -3 * m.v, 0.7, 1, lines, m.block.matrix);
+  m.block.drag.add_damping(m.x, m.v, 0.7, 1, lines, first);
+  m.block.drag.add_damping(m.x, m.v, 0.7, 1, lines, again);
+  EXPECT_EQ(dense(first), dense(again));
+  FibreDrag::Lines none;
+  BlockMatrix own = m.block.matrix;
+  own.set_zero();
+  m.block.drag.add_damping(m.x, m.v, 0.7, 1, none, own);
+  EXPECT_GT((dense(own) - dense(first)).norm(), 1e-3 * dense(own).norm());
 }
 
 TEST(FibreDrag, PowerIsItsForceTimesTheVelocity) {

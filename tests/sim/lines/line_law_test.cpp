@@ -169,6 +169,26 @@ TEST(MuscleLaw, LengtheningRisesToOnePointFourWithTheSameSlopeAtRest) {
   EXPECT_NEAR(force_velocity(1e-12).slope, force_velocity(-1e-12).slope, 1e-9);
 }
 
+// On the curve it is its slope. Beside it, the curve as a function G of w and the factor, which is
+// linear in each, does not change along it to first order.
+TEST(MuscleLaw, TheSlopeForNewtonsIterationIsThatOfTheCurveAsAnEquation) {
+  constexpr double h = 1e-6;
+  const auto equation = [](double w, double f) {
+    return w <= 0 ? f * (1 - 4 * w) - (1 + w) : f * (1 + 12.5 * w) - (1 + 17.5 * w);
+  };
+  for (const double w : {-3.0, -0.9, -0.3, 0.2, 5.0})
+    for (const double factor : {0.1, 0.7, 1.3}) {
+      const double slope = fem::force_velocity_slope(w, factor);
+      EXPECT_GT(slope, 0);
+      EXPECT_NEAR(equation(w + h, factor + h * slope), equation(w - h, factor - h * slope), 1e-9);
+    }
+  for (const double w : {-0.9, -0.3, 0.0, 0.2, 5.0}) {
+    const ValueSlope on = force_velocity(w);
+    EXPECT_NEAR(fem::force_velocity_slope(w, on.value), on.slope, 1e-12 * on.slope);
+  }
+  EXPECT_EQ(fem::force_velocity_slope(-3, 0), 0);  // fibres that are too fast to pull
+}
+
 // Beyond twice the toe strain the force is k (e − e_l) and the stiffness is that of the linear
 // part.
 TEST(LigamentLaw, BlankevoortsToeEndsInALineShiftedByTheToeStrain) {

@@ -117,7 +117,9 @@ TEST(Ledger, FibresLoseWhatTheirForceVelocityTakes) {
   TissueMaterial material = material_of(fem::BlemkerMuscle<>(fibre, {}));
   material.fibres = Fibres{.along = Vec3::UnitZ()};
   const double expected = integral(kDuration, [&](double t) {
-    return kVolume * fibre.drag(stretch(t), stretch_rate(t), 0.5).value * stretch_rate(t);
+    const fem::MuscleFibre::Drag drag = fibre.drag(stretch(t), 0.5);
+    const double factor = fem::force_velocity(drag.per_rate * stretch_rate(t)).value;
+    return kVolume * drag.pull * (factor - 1) * stretch_rate(t);
   });
   const auto error = [&](double h) {
     Scenario s = drawn_block(h, material);

@@ -41,4 +41,21 @@ TEST(StagePrediction, TheStepsAfterABlowTakeFewIterations) {
   EXPECT_EQ(run.state.counts.steps, 10);
 }
 
+// A smoothed bar, nearly incompressible, that swings: 13 iterations a step of two stages. With
+// pressures that follow the positions alone it would be 20.
+TEST(StagePrediction, LongStepsOfNearlyIncompressibleTissueTakeFewIterations) {
+  Scenario s = contact_scene(0.01, Integrator::Scheme::TrBdf2);
+  s.bodies = {box_body("bar", Body::Kind::Tissue, {0.05, 5e-3, 5e-3}, {0.025, 0, 0}, {10, 1, 1}),
+              stand("wall")};
+  s.bodies[0].material = neo_hookean(1e5, 0.4999);
+  s.bodies[0].material->element = TissueMaterial::Element::Smoothed;
+  s.attachments = {attach("bar", "wall", {-1, -1, -1}, {1e-6, 1, 1})};
+  s.bodies[0].velocity = {0, 0, 0.05};
+  s.integrator.position_tolerance = 1e-9;
+  Simulation run(s);
+  run.advance(0.2);
+  EXPECT_EQ(run.state.counts.rejected_newton, 0);
+  EXPECT_LE(run.state.counts.newton_iterations, 14 * run.state.counts.steps);
+}
+
 }  // namespace articular::sim::stage_prediction_test
