@@ -11,6 +11,12 @@ namespace {
 
 using Drag = MuscleFibre::Drag;
 
+/// What fibres pull more at a rate [Pa], and its slope by the rate.
+ValueSlope at_rate(const Drag& drag, double rate) {
+  const ValueSlope factor = force_velocity(drag.per_rate * rate);
+  return {drag.pull * (factor.value - 1), drag.pull * drag.per_rate * factor.slope};
+}
+
 double on_line(const FibreDrag::Line& line, double w) {
   return std::clamp(line.factor + line.slope * (w - line.speed), 0.0, kMostForceOfVelocity);
 }
@@ -50,8 +56,7 @@ void FibreDrag::add_force(const Positions& x, const Positions& v, double activat
                           Positions& f) const {
   for_each_fibre(x, v, activation,
                  [&](Eigen::Index e, const Vec3& direction, const Drag& drag, double rate) {
-                   const double factor = force_velocity(drag.per_rate * rate).value;
-                   const Vec3 pull = volume_[e] * drag.pull * (factor - 1) * direction;
+                   const Vec3 pull = volume_[e] * at_rate(drag, rate).value * direction;
                    for (int a = 0; a < 4; ++a) f.col(tets_(a, e)) += along_(a, e) * pull;
                  });
 }
@@ -76,19 +81,18 @@ void FibreDrag::add_damping(const Positions& x, const Positions& v, double activ
 
 void FibreDrag::add_product(const Positions& x, const Positions& v, double activation,
                             const Positions& u, Positions& f) const {
-  for_each_fibre(
-      x, v, activation, [&](Eigen::Index e, const Vec3& direction, const Drag& drag, double rate) {
-        const double slope = drag.pull * drag.per_rate * force_velocity(drag.per_rate * rate).slope;
-        const double change = direction.dot(gather(u, tets_, e) * along_.col(e));
-        const Vec3 pull = volume_[e] * slope * change * direction;
-        for (int a = 0; a < 4; ++a) f.col(tets_(a, e)) += along_(a, e) * pull;
-      });
+  for_each_fibre(x, v, activation,
+                 [&](Eigen::Index e, const Vec3& direction, const Drag& drag, double rate) {
+                   const double change = direction.dot(gather(u, tets_, e) * along_.col(e));
+                   const Vec3 pull = volume_[e] * at_rate(drag, rate).slope * change * direction;
+                   for (int a = 0; a < 4; ++a) f.col(tets_(a, e)) += along_(a, e) * pull;
+                 });
 }
 
 double FibreDrag::power(const Positions& x, const Positions& v, double activation) const {
   double sum = 0;
   for_each_fibre(x, v, activation, [&](Eigen::Index e, const Vec3&, const Drag& drag, double rate) {
-    sum += volume_[e] * drag.pull * (force_velocity(drag.per_rate * rate).value - 1) * rate;
+    sum += volume_[e] * at_rate(drag, rate).value * rate;
   });
   return sum;
 }

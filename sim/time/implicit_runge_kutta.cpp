@@ -108,7 +108,7 @@ int ImplicitRungeKutta::rate(realtype t, N_Vector y, N_Vector y_dot, void* data)
 SUNLinearSolver_Type matrix_embedded(SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; }
 
 /// x: Newton's correction at the stage's state, where the rate was evaluated last (the residual
-/// comes first)
+/// comes first).
 int ImplicitRungeKutta::solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
   auto& self = *static_cast<ImplicitRungeKutta*>(solver->content);
   return guarded_solve(self.error_, [&] {
