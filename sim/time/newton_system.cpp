@@ -47,7 +47,7 @@ NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
 
 void NewtonSystem::restart() {
   solver_ = make_linear_solver(model_);
-  has_start_ = false;
+  start_.reset();
   gamma_ = 0;
 }
 
@@ -63,13 +63,13 @@ void NewtonSystem::begin_step(bool keep_matrix, fem::Tangent tangent) {
 
 void NewtonSystem::end_step() {
   if (!dynamics_.matrix().has_pressures()) return;
-  start_.keep(dynamics_.now());
-  has_start_ = true;
+  if (!start_) start_.emplace();
+  start_->keep(dynamics_.now());
 }
 
 void NewtonSystem::begin_iteration() {
   pressures_ = {};
-  if (has_start_) pressures_ = {&start_, 0};
+  if (start_) pressures_ = {&*start_, 0};
   dynamics_.contact().drop_friction_duals();
   correction_ = 0;
   anderson_.restart();

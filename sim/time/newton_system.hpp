@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "sim/assembly/dynamics.hpp"
 #include "sim/assembly/pressure_prediction.hpp"
@@ -85,9 +86,9 @@ class NewtonSystem {
   const FrictionCoupling* friction_ = nullptr;  // of the matrix that is factored
   TissueDamping damping_;
   RelaxationRows relaxation_;
-  PressurePrediction start_, prediction_;  // at the step's start; along the last correction
-  PredictedPressures pressures_;           // that the next matrix takes; none: of the positions
-  bool has_start_ = false;
+  std::optional<PressurePrediction> start_;  // at the step's start, where that is known
+  PressurePrediction prediction_;            // along the last correction
+  PredictedPressures pressures_;             // that the next matrix takes; none: of the positions
   Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_, velocity_change_;
   Eigen::VectorXd weighted_, forces_, trial_;            // of the line search
   double gamma_ = 0;                                     // of the matrix that is factored; 0: none
