@@ -1,61 +1,137 @@
 #include "fem/element/dashpots.hpp"
 
 #include <Eigen/LU>
+#include <cassert>
 
-#include "fem/material/viscosity.hpp"
+#include "fem/element/smoothed_elasticity.hpp"
 #include "fem/mesh/rest_shape.hpp"
-#include "fem/mesh/tetrahedron.hpp"
 
 namespace articular::fem {
+namespace {
+
+StencilBatches stencils_of(const Positions& X, const Tetrahedra& tets, const EdgeDomains& domains) {
+  std::vector<double> volume;
+  std::vector<Mat3> inverse_edges;
+  for (Eigen::Index e = 0; e < tets.cols(); ++e) {
+    volume.push_back(checked_volume(X, tets, e));
+    inverse_edges.emplace_back(edge_matrix(gather(X, tets, e)).inverse());
+  }
+  return {X, tets, domains, inverse_edges, volume, std::vector<int>(volume.size(), 0)};
+}
+
+/// Of one material.
+EdgeDomains no_domains() {
+  EdgeDomains domains;
+  domains.node_begin = {0};
+  domains.material_begin = {0, 0};
+  return domains;
+}
+
+}  // namespace
+
+/// Eight dashpots that move on.
+struct Dashpots::Octet {
+  int index;  // among the batches of stencils_
+  StencilBatch batch;
+  EightMotions motions;
+};
+
+Dashpots::Dashpots(const Positions& X, const Tetrahedra& tets, const EdgeDomains& domains,
+                   double element_share, const KelvinVoigt& law)
+    : law_(law), element_share_(element_share), stencils_(stencils_of(X, tets, domains)) {
+  assert(domains.material_begin.size() == 2);
+}
 
 Dashpots::Dashpots(const Positions& X, const Tetrahedra& tets, const KelvinVoigt& law,
                    const BlockMatrix& matrix)
-    : tets_(tets), law_(std::make_shared<const KelvinVoigt>(law)) {
-  for (Eigen::Index e = 0; e < tets.cols(); ++e) {
-    volume_.push_back(checked_volume(X, tets, e));
-    inverse_edges_.push_back(edge_matrix(gather(X, tets, e)).inverse());
-    for (const int b : tets.col(e))
-      for (const int a : tets.col(e)) slots_.push_back(matrix.slot(a, b));
+    : Dashpots(X, tets, no_domains(), 1, law) {
+  pairs_ = {stencils_, StencilPairs::Part::All, matrix};
+}
+
+Dashpots::Dashpots(const Positions& X, const SmoothedElasticity& smoothed, const KelvinVoigt& law)
+    : Dashpots(X, smoothed.tets(), smoothed.domains(), smoothed.smoothing().plain_share, law) {
+  pairs_ = {stencils_, StencilPairs::Part::All, smoothed.make_matrix()};
+  plain_pairs_ = {stencils_, StencilPairs::Part::Elements, smoothed.make_plain_matrix()};
+}
+
+template <class Function>
+void Dashpots::for_each_octet(int begin, int end, double share, const Positions& x,
+                              const Positions& v, Function function) const {
+  const StencilKernels& kernels = stencil_kernels(instruction_set_);
+  for (int i = begin; i < end; ++i) {
+    const StencilBatch batch = stencils_.batch(i);
+    Eight F[9], rate[9];
+    kernels.deformation_gradient(batch, x.data(), F);
+    kernels.deformation_gradient(batch, v.data(), rate);
+    function(Octet{i, batch, {F, rate, share * law_.eta(), share * law_.lambda()}});
+  }
+}
+
+template <class Function>
+void Dashpots::for_each_octet(const Positions& x, const Positions& v, Function function) const {
+  for (const StencilBatches::Chunk& chunk : stencils_.chunks()) {
+    for_each_octet(chunk.begin, chunk.elements, 1 - element_share_, x, v, function);
+    for_each_octet(chunk.elements, chunk.end, element_share_, x, v, function);
   }
 }
 
 void Dashpots::add_force(const Positions& x, const Positions& v, Positions& f) const {
-  for (std::size_t e = 0; e < volume_.size(); ++e) {
-    const auto column = static_cast<Eigen::Index>(e);
-    const Mat3 F = deformation_gradient(gather(x, tets_, column), inverse_edges_[e]);
-    const Mat3 rate = deformation_gradient(gather(v, tets_, column), inverse_edges_[e]);
-    const Mat34 f_e =
-        nodal_force(law_->first_piola(F, rate), shape_gradients(inverse_edges_[e]), volume_[e]);
-    for (int a = 0; a < 4; ++a) f.col(tets_(a, column)) += f_e.col(a);
-  }
+  const StencilKernels& kernels = stencil_kernels(instruction_set_);
+  const ViscosityKernels& law = viscosity_kernels(instruction_set_);
+  for_each_octet(x, v, [&](const Octet& octet) {
+    Eight P[9];
+    law.first_piola(octet.motions, P);
+    kernels.add_force(octet.batch, P, f.data());
+  });
 }
 
 void Dashpots::add_tangent(const Positions& x, const Positions& v, double damping, double stiffness,
                            BlockMatrix& K) const {
-  const int* slot = slots_.data();
-  for (std::size_t e = 0; e < volume_.size(); ++e) {
-    const auto column = static_cast<Eigen::Index>(e);
-    const Mat3 F = deformation_gradient(gather(x, tets_, column), inverse_edges_[e]);
-    Mat9 tangent = damping * law_->rate_tangent(F);
-    if (stiffness != 0) {
-      const Mat3 rate = deformation_gradient(gather(v, tets_, column), inverse_edges_[e]);
-      const Mat9 by_F = law_->tangent(F, rate);
-      tangent += 0.5 * stiffness * (by_F + by_F.transpose());
-    }
-    const Mat12 K_e = fem::stiffness(tangent, shape_gradients(inverse_edges_[e]), volume_[e]);
-    for (int b = 0; b < 4; ++b)
-      for (int a = 0; a < 4; ++a) K.block(*slot++) += K_e.block<3, 3>(3 * a, 3 * b);
+  assert(K.pattern_id() == pairs_.pattern_id());
+  const StencilKernels& kernels = stencil_kernels(instruction_set_);
+  const ViscosityKernels& law = viscosity_kernels(instruction_set_);
+  int number = 0;
+  for (const StencilBatches::Chunk& chunk : stencils_.chunks()) {
+    const PairSums sums = pairs_.zero_sums(number, kernels);
+    const auto add = [&](const Octet& octet) {
+      Eight C[81];
+      law.tangent(octet.motions, damping, stiffness, C);
+      kernels.add_stiffness(octet.batch, C, 1, pairs_.of_batch(octet.index), sums);
+    };
+    for_each_octet(chunk.begin, chunk.elements, 1 - element_share_, x, v, add);
+    for_each_octet(chunk.elements, chunk.end, element_share_, x, v, add);
+    pairs_.add_sums(number++, kernels, K);
+  }
+}
+
+void Dashpots::add_plain_damping(const Positions& x, double damping, BlockMatrix& K) const {
+  assert(K.pattern_id() == plain_pairs_.pattern_id());
+  const StencilKernels& kernels = stencil_kernels(instruction_set_);
+  const ViscosityKernels& law = viscosity_kernels(instruction_set_);
+  int number = 0;
+  for (const StencilBatches::Chunk& chunk : stencils_.chunks()) {
+    const PairSums sums = plain_pairs_.zero_sums(number, kernels);
+    for_each_octet(chunk.elements, chunk.end, 1, x, x, [&](const Octet& octet) {
+      Eight C[81];
+      law.tangent(octet.motions, damping, 0, C);
+      kernels.add_stiffness(octet.batch, C, 1, plain_pairs_.of_batch(octet.index), sums);
+    });
+    plain_pairs_.add_sums(number++, kernels, K);
   }
 }
 
 double Dashpots::power(const Positions& x, const Positions& v) const {
+  const ViscosityKernels& law = viscosity_kernels(instruction_set_);
   double sum = 0;
-  for (std::size_t e = 0; e < volume_.size(); ++e) {
-    const auto column = static_cast<Eigen::Index>(e);
-    sum += volume_[e] *
-           law_->dissipation(deformation_gradient(gather(x, tets_, column), inverse_edges_[e]),
-                             deformation_gradient(gather(v, tets_, column), inverse_edges_[e]));
-  }
+  for_each_octet(x, v, [&](const Octet& octet) {
+    Eight P[9];
+    law.first_piola(octet.motions, P);
+    for (int lane = 0; lane < octet.batch.count; ++lane) {
+      double density = 0;
+      for (int k = 0; k < 9; ++k) density += P[k].lane[lane] * octet.motions.rate[k].lane[lane];
+      sum += octet.batch.volume->lane[lane] * density;
+    }
+  });
   return sum;
 }
 

@@ -1,16 +1,23 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "fem/base/types.hpp"
+#include "fem/element/stencil_batches.hpp"
+#include "fem/element/stencil_pairs.hpp"
+#include "fem/material/viscosity.hpp"
+#include "fem/simd/viscosity_kernels.hpp"
 #include "fem/sparse/block_matrix.hpp"
 
 namespace articular::fem {
 
-class KelvinVoigt;
+class SmoothedElasticity;
 
-/// A Kelvin–Voigt dashpot in each element of a mesh of linear tetrahedra.
+/// Kelvin–Voigt dashpots in a mesh of linear tetrahedra: one in each element; or, of a smoothed
+/// one, in the domains and elements where it takes the energy of its distortion, with the same
+/// shares.
+///
+/// Holds work memory: one object serves one thread at a time.
 class Dashpots {
  public:
   /// @param matrix  what add_tangent() will add to: one block row a node, with the couplings of the
@@ -18,6 +25,9 @@ class Dashpots {
   /// @throws std::invalid_argument as Elasticity does
   Dashpots(const Positions& X, const Tetrahedra& tets, const KelvinVoigt& law,
            const BlockMatrix& matrix);
+  /// For matrices of make_matrix(), and of make_plain_matrix().
+  /// @param smoothed  of one material
+  Dashpots(const Positions& X, const SmoothedElasticity& smoothed, const KelvinVoigt& law);
 
   /// f += the force [N] that moves the shape x on with the velocities v [m/s].
   void add_force(const Positions& x, const Positions& v, Positions& f) const;
@@ -26,15 +36,29 @@ class Dashpots {
   /// @param damping, stiffness  [1/s], [-] for a K in [N/m]
   void add_tangent(const Positions& x, const Positions& v, double damping, double stiffness,
                    BlockMatrix& K) const;
+  /// For preconditioners of smoothed elements: K += damping * ∂f/∂v, as if all dashpots were in the
+  /// elements.
+  void add_plain_damping(const Positions& x, double damping, BlockMatrix& K) const;
   /// What is lost [W].
   double power(const Positions& x, const Positions& v) const;
 
  private:
-  Tetrahedra tets_;
-  std::shared_ptr<const KelvinVoigt> law_;
-  std::vector<Mat3> inverse_edges_;  // [1/m]
-  std::vector<double> volume_;       // [m³]
-  std::vector<int> slots_;           // 16 an element, 4b + a
+  struct Octet;
+  /// Of a chunk: calls function(octet) for its domains, or for its elements.
+  template <class Function>
+  void for_each_octet(int begin, int end, double share, const Positions& x, const Positions& v,
+                      Function function) const;
+  /// Of all chunks, with the shares of domains and elements.
+  template <class Function>
+  void for_each_octet(const Positions& x, const Positions& v, Function function) const;
+  Dashpots(const Positions& X, const Tetrahedra& tets, const EdgeDomains& domains,
+           double element_share, const KelvinVoigt& law);
+
+  KelvinVoigt law_;
+  double element_share_;  // [-]; of the domains what is left of 1
+  InstructionSet instruction_set_ = best_instruction_set();
+  StencilBatches stencils_;
+  StencilPairs pairs_, plain_pairs_;
 };
 
 }  // namespace articular::fem

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "fem/material/muscle_fibre.hpp"
 #include "fem/mesh/rest_shape.hpp"
 #include "fem/mesh/tetrahedron.hpp"
 

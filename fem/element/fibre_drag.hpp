@@ -4,10 +4,11 @@
 #include <vector>
 
 #include "fem/base/types.hpp"
-#include "fem/material/muscle_fibre.hpp"
 #include "fem/sparse/block_matrix.hpp"
 
 namespace articular::fem {
+
+class MuscleFibre;  // muscle_fibre.hpp
 
 /// Force–velocity of the fibres of a muscle, in each element of a mesh of linear tetrahedra: what
 /// they pull less while they shorten, and more while they lengthen (MuscleFibre::drag), beside the

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -24,6 +25,8 @@ void check(const Smoothing& smoothing, const Tetrahedra& tets,
     message << "plain_share is " << smoothing.plain_share << ", must lie in [0, 1]";
   } else if (!(smoothing.tau > 0) || !std::isfinite(smoothing.tau)) {
     message << "tau is " << smoothing.tau << ", must be positive and finite";
+  } else if (!(smoothing.active_bulk >= 0) || !std::isfinite(smoothing.active_bulk)) {
+    message << "active_bulk is " << smoothing.active_bulk << ", must be finite and not negative";
   } else if (of_element.size() != static_cast<std::size_t>(tets.cols())) {
     message << of_element.size() << " indices of materials for " << tets.cols() << " elements";
   } else {
@@ -64,6 +67,10 @@ const Eight* no_pressure(int, Eight&) { return nullptr; }
 const Eight* unit_pressure(int, Eight& ones) {
   std::fill(std::begin(ones.lane), std::end(ones.lane), 1.0);
   return &ones;
+}
+
+Eigen::Vector<double, 6> components(const Mat3& s) {
+  return {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
 }
 
 std::vector<int> offsets_by_four(std::size_t num_elements) {
@@ -121,6 +128,37 @@ SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tet
   plain_pairs_ = {stencils_, StencilPairs::Part::Elements, make_plain_matrix()};
   gradient_slots_ = slots_in(make_pressure_gradient(), stencils_, pressure_.of_corner());
   p_work_.resize(num_pressures());
+  if (std::ranges::any_of(*materials_, [](const AnyMaterial& m) { return active_stress(m) > 0; }))
+    make_rings();
+}
+
+/// Where elements are in their domains, and domains in make_matrix().
+void SmoothedElasticity::make_rings() {
+  const auto num_domains = static_cast<std::size_t>(domains_.size());
+  rings_.begin.assign(num_domains + 1, 0);
+  for (const int k : domains_.of_element) ++rings_.begin[k + 1];
+  std::partial_sum(rings_.begin.begin(), rings_.begin.end(), rings_.begin.begin());
+  rings_.element.resize(domains_.of_element.size());
+  rings_.slope.resize(volume_.size());
+  std::vector<int> next(rings_.begin.begin(), rings_.begin.end() - 1);
+  for (std::size_t i = 0; i < domains_.of_element.size(); ++i) {
+    const int e = static_cast<int>(i / 6), k = domains_.of_element[i];
+    Ring& ring = rings_.element[next[k]++];
+    ring.element = e;
+    const auto nodes = domains_.node.begin();
+    for (int a = 0; a < 4; ++a)
+      ring.node[a] =
+          static_cast<int>(std::lower_bound(nodes + domains_.node_begin[k],
+                                            nodes + domains_.node_begin[k + 1], tets_(a, e)) -
+                           (nodes + domains_.node_begin[k]));
+  }
+  const BlockMatrix K = make_matrix();
+  for (int k = 0; k < domains_.size(); ++k) {
+    const std::span nodes(&domains_.node[domains_.node_begin[k]],
+                          static_cast<std::size_t>(domains_.num_nodes(k)));
+    for (const int row : nodes)
+      for (const int column : nodes) rings_.slot.push_back(K.slot(row, column));
+  }
 }
 
 /// Calls function(law, k, F_k) for the domains in their order.
@@ -197,22 +235,58 @@ void SmoothedElasticity::for_each_element_octet(const StencilBatches::Chunk& chu
 }
 
 /// All domains and elements, chunk after chunk.
+/// @param own_part  how much of their own pressure elements have besides that of the nodes
 template <class Function>
 void SmoothedElasticity::for_each_octet(const Positions& x, const Eigen::VectorXd& p,
-                                        double activation, Function function) const {
+                                        double own_part, double activation,
+                                        Function function) const {
   assert(x.cols() == num_nodes_ && p.size() == num_pressures());
-  const auto pressure = [&](int i, Eight& memory) { return mean_pressures(i, p, memory); };
+  set_own_pressures(x, activation);
+  const auto pressure = [&](int i, Eight& memory) {
+    return element_pressures(i, p, own_part, memory);
+  };
   for (const StencilBatches::Chunk& chunk : stencils_.chunks()) {
     for_each_domain_octet(chunk, x, activation, function);
     for_each_element_octet(chunk, x, smoothing_.plain_share, pressure, activation, function);
   }
 }
 
-const Eight* SmoothedElasticity::mean_pressures(int i, const Eigen::VectorXd& p,
-                                                Eight& memory) const {
+/// κ' [Pa]
+double SmoothedElasticity::own_bulk(int material, double activation) const {
+  return smoothing_.active_bulk * activation *
+         active_stress((*materials_)[static_cast<std::size_t>(material)]);
+}
+
+bool SmoothedElasticity::has_own_bulk(double activation) const {
+  return !rings_.begin.empty() && activation > 0 && smoothing_.active_bulk > 0;
+}
+
+/// own_pressure_ = κ' (Θ_e − Σ_k Θ̄_k/6), k the domains of element e.
+void SmoothedElasticity::set_own_pressures(const Positions& x, double activation) const {
+  own_pressure_.setZero(num_elements());
+  if (!has_own_bulk(activation)) return;
+  for_each_element(x, 0, [&](const PointLaw& law, int e, const Mat3& F) {
+    own_pressure_[e] = law.dilatation(F);
+  });
+  domain_dilatation_.setZero(domains_.size());
+  for (int e = 0; e < num_elements(); ++e)
+    for (int i = 0; i < 6; ++i) {
+      const int k = domains_.of_element[6 * static_cast<std::size_t>(e) + i];
+      domain_dilatation_[k] += volume_[e] / (6 * domains_.volume[k]) * own_pressure_[e];
+    }
+  for (int e = 0; e < num_elements(); ++e) {
+    const int* k = &domains_.of_element[6 * static_cast<std::size_t>(e)];
+    for (int i = 0; i < 6; ++i) own_pressure_[e] -= domain_dilatation_[k[i]] / 6;
+    own_pressure_[e] *= own_bulk(material_of_element_[e], activation);
+  }
+}
+
+const Eight* SmoothedElasticity::element_pressures(int i, const Eigen::VectorXd& p, double own_part,
+                                                   Eight& memory) const {
   const EightIndices& elements = stencils_.index(i);
   for (int lane = 0; lane < kBatchSize; ++lane) {
-    memory.lane[lane] = mean_pressure(elements.lane[lane], p);
+    const int e = elements.lane[lane];
+    memory.lane[lane] = mean_pressure(e, p) + own_part * own_pressure_[e];
   }
   return &memory;
 }
@@ -255,7 +329,7 @@ void SmoothedElasticity::predicted_pressure(const Positions& x, const PressureGr
 double SmoothedElasticity::energy(const Positions& x, const Eigen::VectorXd& p,
                                   double activation) const {
   double W = 0;
-  for_each_octet(x, p, activation, [&](const Octet& octet) {
+  for_each_octet(x, p, 0.5, activation, [&](const Octet& octet) {
     Eight density;
     octet.law.energy_density(octet.points, octet.batch.count, octet.fibres, density);
     for (int lane = 0; lane < octet.batch.count; ++lane) {
@@ -281,7 +355,7 @@ void SmoothedElasticity::add_internal_force(const Positions& x, const Eigen::Vec
                                             Positions& f, double activation) const {
   assert(f.cols() == num_nodes_);
   const StencilKernels& kernels = stencil_kernels(instruction_set_);
-  for_each_octet(x, p, activation, [&](const Octet& octet) {
+  for_each_octet(x, p, 1, activation, [&](const Octet& octet) {
     Eight P[9];
     octet.law.first_piola(octet.points, octet.batch.count, octet.fibres, P);
     kernels.add_force(octet.batch, P, f.data());
@@ -307,11 +381,27 @@ PressureGradient SmoothedElasticity::make_pressure_gradient() const {
           offsets};
 }
 
+/// C += bulk ∂Θ/∂F ⊗ ∂Θ/∂F
+void SmoothedElasticity::add_bulk_tangent(const Octet& octet, double bulk, Eight* C) {
+  Eight ones, gradient[9];
+  EightPoints points = octet.points;
+  points.share = 0;
+  points.pressure = unit_pressure(octet.index, ones);
+  octet.law.first_piola(points, octet.batch.count, octet.fibres, gradient);
+  for (int n = 0; n < 9; ++n)
+    for (int m = 0; m < 9; ++m)
+      for (int lane = 0; lane < kBatchSize; ++lane)
+        C[m + 9 * n].lane[lane] += bulk * gradient[m].lane[lane] * gradient[n].lane[lane];
+}
+
 /// Of one octet to the sums of its chunk.
-void SmoothedElasticity::add_stiffness(const Octet& octet, Tangent tangent, double scale,
-                                       const StencilPairs& pairs, const PairSums& sums) const {
+/// @param bulk  see add_bulk_tangent()
+void SmoothedElasticity::add_stiffness(const Octet& octet, double bulk, Tangent tangent,
+                                       double scale, const StencilPairs& pairs,
+                                       const PairSums& sums) const {
   Eight C[81];
   octet.law.tangent(octet.points, octet.batch.count, octet.fibres, tangent, C);
+  if (bulk != 0) add_bulk_tangent(octet, bulk, C);
   stencil_kernels(instruction_set_)
       .add_stiffness(octet.batch, C, scale, pairs.of_batch(octet.index), sums);
 }
@@ -322,16 +412,46 @@ void SmoothedElasticity::add_stiffness(const Positions& x, const Eigen::VectorXd
   assert(x.cols() == num_nodes_ && p.size() == num_pressures());
   assert(K.pattern_id() == pairs_.pattern_id());
   const StencilKernels& kernels = stencil_kernels(instruction_set_);
-  const auto pressure = [&](int i, Eight& memory) { return mean_pressures(i, p, memory); };
+  set_own_pressures(x, activation);
+  const auto pressure = [&](int i, Eight& memory) { return element_pressures(i, p, 1, memory); };
   int chunk = 0;
   for (const StencilBatches::Chunk& batches : stencils_.chunks()) {
     const PairSums sums = pairs_.zero_sums(chunk, kernels);
-    const auto add = [&](const Octet& octet) {
-      add_stiffness(octet, tangent, scale, pairs_, sums);
+    const auto adding = [&](double bulk) {
+      return [&, bulk](const Octet& octet) {
+        add_stiffness(octet, bulk, tangent, scale, pairs_, sums);
+      };
     };
-    for_each_domain_octet(batches, x, activation, add);
-    for_each_element_octet(batches, x, smoothing_.plain_share, pressure, activation, add);
+    for_each_domain_octet(batches, x, activation, adding(0));
+    for_each_element_octet(batches, x, smoothing_.plain_share, pressure, activation,
+                           adding(own_bulk(batches.material, activation)));
     pairs_.add_sums(chunk++, kernels, K);
+  }
+  // What the means take is negative: a projected tangent goes without.
+  if (tangent == Tangent::Consistent && has_own_bulk(activation))
+    add_stiffness_of_means(x, scale, K, activation);
+}
+
+/// K −= scale Σ_k κ' V_k ∂Θ̄_k/∂x ⊗ ∂Θ̄_k/∂x
+void SmoothedElasticity::add_stiffness_of_means(const Positions& x, double scale, BlockMatrix& K,
+                                                double activation) const {
+  for_each_element(x, 0, [&](const PointLaw& law, int e, const Mat3& F) {
+    rings_.slope[e] = volume_[e] * law.dilatation_gradient(F) * shape_gradients(inverse_edges_[e]);
+  });
+  std::vector<Vec3>& h = rings_.mean_slope;
+  const int* slot = rings_.slot.data();
+  for (std::size_t m = 0; m < materials_->size(); ++m) {
+    const double bulk = own_bulk(static_cast<int>(m), activation);
+    for (int k = domains_.material_begin[m]; k < domains_.material_begin[m + 1]; ++k) {
+      h.assign(static_cast<std::size_t>(domains_.num_nodes(k)), Vec3::Zero());
+      for (int i = rings_.begin[k]; i < rings_.begin[k + 1]; ++i) {
+        const Ring& ring = rings_.element[i];
+        for (int a = 0; a < 4; ++a) h[ring.node[a]] += rings_.slope[ring.element].col(a) / 6;
+      }
+      const double factor = scale * bulk / domains_.volume[k];
+      for (const Vec3& of_row : h)
+        for (const Vec3& of_column : h) K.block(*slot++) -= factor * of_row * of_column.transpose();
+    }
   }
 }
 
@@ -344,7 +464,7 @@ void SmoothedElasticity::add_plain_stiffness(const Positions& x, Tangent tangent
   for (const StencilBatches::Chunk& batches : stencils_.chunks()) {
     const PairSums sums = plain_pairs_.zero_sums(chunk, kernels);
     for_each_element_octet(batches, x, 1, no_pressure, activation, [&](const Octet& octet) {
-      add_stiffness(octet, tangent, scale, plain_pairs_, sums);
+      add_stiffness(octet, 0, tangent, scale, plain_pairs_, sums);
     });
     plain_pairs_.add_sums(chunk++, kernels, K);
   }
@@ -360,13 +480,9 @@ void SmoothedElasticity::add_compressible_stiffness(const Positions& x, double s
     const AnyMaterial& material = (*materials_)[static_cast<std::size_t>(batches.material)];
     const double kappa = std::min(bulk_modulus(material), 13.0 / 6 * shear_modulus(material));
     const PairSums sums = plain_pairs_.zero_sums(chunk, kernels);
-    for_each_element_octet(batches, x, 0, unit_pressure, 0, [&](const Octet& octet) {
-      Eight gradient[9], C[81];
-      octet.law.first_piola(octet.points, octet.batch.count, octet.fibres, gradient);
-      for (int n = 0; n < 9; ++n)
-        for (int m = 0; m < 9; ++m)
-          for (int lane = 0; lane < kBatchSize; ++lane)
-            C[m + 9 * n].lane[lane] = kappa * gradient[m].lane[lane] * gradient[n].lane[lane];
+    for_each_element_octet(batches, x, 0, no_pressure, 0, [&](const Octet& octet) {
+      Eight C[81] = {};
+      add_bulk_tangent(octet, kappa, C);
       kernels.add_stiffness(octet.batch, C, scale, plain_pairs_.of_batch(octet.index), sums);
     });
     plain_pairs_.add_sums(chunk++, kernels, K);
@@ -392,18 +508,15 @@ void SmoothedElasticity::set_pressure_gradient(const Positions& x, PressureGradi
 Eigen::MatrixXd SmoothedElasticity::cauchy_stress(const Positions& x, double activation) const {
   const double share = smoothing_.plain_share;
   Eigen::MatrixXd of_domain(6, domains_.size()), stress(6, num_elements());
-  const auto components = [](const Mat3& s) {
-    return Eigen::Vector<double, 6>(s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2));
-  };
   for_each_domain(x, activation, [&](const PointLaw& law, int k, const Mat3& F) {
     of_domain.col(k) = components(law.distortion_cauchy_stress(F));
   });
   pressure(x, p_work_);
+  set_own_pressures(x, activation);
   for_each_element(x, activation, [&](const PointLaw& law, int e, const Mat3& F) {
-    const Mat3 plain =
-        share * law.distortion_cauchy_stress(F) +
-        mean_pressure(e, p_work_) * law.dilatation_gradient(F) * F.transpose() / F.determinant();
-    stress.col(e) = components(plain);
+    const double p = mean_pressure(e, p_work_) + own_pressure_[e];
+    stress.col(e) = components(share * law.distortion_cauchy_stress(F) +
+                               p * law.dilatation_gradient(F) * F.transpose() / F.determinant());
     const int* k = &domains_.of_element[6 * static_cast<std::size_t>(e)];
     for (int i = 0; i < 6; ++i) stress.col(e) += (1 - share) / 6 * of_domain.col(k[i]);
   });
@@ -433,9 +546,10 @@ Eigen::VectorXd SmoothedElasticity::strain_energy_density(const Positions& x,
     of_domain[k] = law.distortion_energy_density(F);
   });
   pressure(x, p_work_);
+  set_own_pressures(x, activation);
   for_each_element(x, activation, [&](const PointLaw& law, int e, const Mat3& F) {
-    result[e] = share * law.distortion_energy_density(F) +
-                0.5 * mean_pressure(e, p_work_) * law.dilatation(F);
+    const double p = mean_pressure(e, p_work_) + own_pressure_[e];
+    result[e] = share * law.distortion_energy_density(F) + 0.5 * p * law.dilatation(F);
     const int* k = &domains_.of_element[6 * static_cast<std::size_t>(e)];
     for (int i = 0; i < 6; ++i) result[e] += (1 - share) / 6 * of_domain[k[i]];
   });

@@ -9,6 +9,7 @@
 #include "fem/element/stencil_batches.hpp"
 #include "fem/element/stencil_pairs.hpp"
 #include "fem/mesh/edge_domains.hpp"
+#include "fem/mesh/tetrahedron.hpp"
 #include "fem/simd/batched_law.hpp"
 #include "fem/sparse/block_matrix.hpp"
 #include "fem/sparse/nodal_pressure.hpp"
@@ -18,11 +19,13 @@ namespace articular::fem {
 
 struct AnyMaterial;  // any_material.hpp
 
-/// The two numbers of the formulation. Larger ones are stiffer and smoother (plain_share) or softer
-/// (tau); these have the most margin in tests/benchmarks/fem/locking_study.cpp.
+/// The numbers of the formulation. Larger ones are stiffer and smoother (plain_share, active_bulk)
+/// or softer (tau). The first two have the most margin in tests/benchmarks/fem/locking_study.cpp;
+/// for the third see `scenarios/mandible/RESULTS.md`.
 struct Smoothing {
   double plain_share = 0.1;  // s [-], in [0, 1]: part of the distortion taken by tetrahedra alone
   double tau = 2;            // τ [-], > 0: weight of the pressure's stabilisation
+  double active_bulk = 2;    // α [-], not negative: of κ' by the active stress
 };
 
 /// Elastic energy, internal force and stiffness of linear tetrahedra that do not lock: distortion
@@ -34,6 +37,16 @@ struct Smoothing {
 /// the mean of the corners and G = ∂b/∂xᵀ:
 ///
 ///   f = f_d + G p,   ∂f/∂x = K + G A⁻¹ Gᵀ,   K = K_d + Σ_e V_e p_e ∂²Θ/∂x²
+///
+/// A nodal pressure lets elements around a node grow and shrink by turns. Only their distortion
+/// resists, and fibres whose stress changes from element to element push them that way. So active
+/// fibres add
+///
+///   ½ κ' Σ_k Σ_e V_e/6 (Θ_e − Θ̄_k)²,   κ' = α a σ_max,
+///
+/// e around edge k and Θ̄_k the mean of their Θ_e by volume: nothing where Θ is the same everywhere.
+/// It is a pressure κ' (Θ_e − Σ_k Θ̄_k/6) of each element of its own. Stabilised nodal integration
+/// keeps single elements in a like way [Puso, Solberg 2006, Int. J. Numer. Meth. Engng 67].
 ///
 /// K has the pattern of the edges' stencils. The full second part couples all nodes and is only
 /// applied by its factors (pressure_term.hpp).
@@ -141,12 +154,20 @@ class SmoothedElasticity {
   void for_each_element_octet(const StencilBatches::Chunk& chunk, const Positions& x, double share,
                               Pressure pressure, double activation, Function function) const;
   template <class Function>
-  void for_each_octet(const Positions& x, const Eigen::VectorXd& p, double activation,
-                      Function function) const;
-  const Eight* mean_pressures(int i, const Eigen::VectorXd& p, Eight& memory) const;
-  void add_stiffness(const Octet& octet, Tangent tangent, double scale, const StencilPairs& pairs,
-                     const PairSums& sums) const;
+  void for_each_octet(const Positions& x, const Eigen::VectorXd& p, double own_part,
+                      double activation, Function function) const;
+  double own_bulk(int material, double activation) const;
+  bool has_own_bulk(double activation) const;
+  void set_own_pressures(const Positions& x, double activation) const;
+  const Eight* element_pressures(int i, const Eigen::VectorXd& p, double own_part,
+                                 Eight& memory) const;
+  void add_stiffness_of_means(const Positions& x, double scale, BlockMatrix& K,
+                              double activation) const;
+  static void add_bulk_tangent(const Octet& octet, double bulk, Eight* C);
+  void add_stiffness(const Octet& octet, double bulk, Tangent tangent, double scale,
+                     const StencilPairs& pairs, const PairSums& sums) const;
   void dilatation(const Positions& x, Eigen::VectorXd& b) const;
+  void make_rings();
 
   int num_nodes_ = 0;
   Tetrahedra tets_;
@@ -166,6 +187,22 @@ class SmoothedElasticity {
   StencilPairs pairs_, plain_pairs_;          // in the two matrices
   std::vector<EightIndices> gradient_slots_;  // 16 a batch of elements, 4a + c, into G
   mutable Eigen::VectorXd p_work_;
+
+  /// An element of a domain, and which of the domain's nodes its own are.
+  struct Ring {
+    int element = 0, node[4] = {};
+  };
+  /// Of tissue with active fibres.
+  struct Rings {
+    std::vector<int> begin;  // of each domain, into `element`
+    std::vector<Ring> element;
+    std::vector<int> slot;     // in make_matrix(): of all pairs of nodes of a domain, row by row
+    std::vector<Mat34> slope;  // V_e ∂Θ_e/∂x [m²], one an element
+    std::vector<Vec3> mean_slope;  // V_k ∂Θ̄_k/∂x [m²], one a node of a domain
+  };
+  mutable Rings rings_;
+  mutable Eigen::VectorXd own_pressure_;       // [Pa], one an element
+  mutable Eigen::VectorXd domain_dilatation_;  // Θ̄_k
 };
 
 }  // namespace articular::fem

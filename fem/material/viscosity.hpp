@@ -4,7 +4,7 @@
 
 namespace articular::fem {
 
-/// A Kelvin–Voigt dashpot in the rest frame, beside the elastic law:
+/// A Kelvin–Voigt dashpot in the rest frame, beside the elastic law (viscosity_kernels.hpp):
 ///
 ///   S_v = 2η dev Ė + ζ tr(Ė) I,   Ė = sym(FᵀḞ), the rate of the Green–Lagrange strain
 ///   P_v = F S_v
@@ -22,25 +22,11 @@ class KelvinVoigt {
       : eta_(checked_not_negative(eta, "shear viscosity", "Pa s")),
         lambda_(checked_not_negative(zeta, "bulk viscosity", "Pa s") - 2 * eta / 3) {}
 
-  /// P_v : Ḟ [W/m³]. @param rate  Ḟ [1/s]
-  double dissipation(const Mat3& F, const Mat3& rate) const;
-
-  Mat3 first_piola(const Mat3& F, const Mat3& rate) const;
-
-  /// ∂vec(P_v)/∂vec(Ḟ) [Pa s], symmetric, positive semidefinite; does not depend on Ḟ. In indices
-  /// η (F_ik F_lj + (FFᵀ)_il δ_jk) + λ F_ij F_lk at row ij and column lk.
-  Mat9 rate_tangent(const Mat3& F) const;
-
-  /// ∂vec(P_v)/∂vec(F) [Pa] at a fixed Ḟ; not symmetric.
-  Mat9 tangent(const Mat3& F, const Mat3& rate) const;
+  double eta() const { return eta_; }
+  double lambda() const { return lambda_; }  // ζ − 2η/3
 
  private:
-  Mat3 second_piola(const Mat3& F, const Mat3& rate) const;
-
-  /// dA ↦ F (η (BᵀdA + dAᵀB) + λ (B : dA) I): the change of F S_v through Ė alone.
-  Mat9 chained(const Mat3& F, const Mat3& B) const;
-
-  double eta_, lambda_;  // [Pa s]; λ = ζ − 2η/3
+  double eta_, lambda_;  // [Pa s]
 };
 
 // Rayleigh's damping D = α M + β K, made objective: K is that of the rest state and moves with the

@@ -203,4 +203,18 @@ FibreDirections conserved_fibres(const Positions& X, const Tetrahedra& tets,
   return gradients * (volume / flux);
 }
 
+double loose_flux(const Positions& X, const Tetrahedra& tets, const FibreDirections& fibres,
+                  const std::vector<bool>& held) {
+  Eigen::VectorXd ends = Eigen::VectorXd::Zero(X.cols());
+  for (Eigen::Index e = 0; e < tets.cols(); ++e) {
+    const auto [dN_dX, volume] = shape(X, tets, e);
+    const Eigen::Vector4d ends_e = volume * dN_dX.transpose() * fibres.col(e);
+    for (int a = 0; a < 4; ++a) ends[tets(a, e)] += ends_e[a];
+  }
+  double loose = 0, at_held = 0;
+  for (std::size_t a = 0; a < held.size(); ++a)
+    (held[a] ? at_held : loose) += std::abs(ends[static_cast<Eigen::Index>(a)]);
+  return loose / at_held;
+}
+
 }  // namespace articular::fem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "fem/base/types.hpp"
 
@@ -41,5 +42,13 @@ FibreDirections harmonic_fibres(const Positions& X, const Tetrahedra& tets,
 /// pull that is the same in each of them is in balance along them.
 FibreDirections conserved_fibres(const Positions& X, const Tetrahedra& tets,
                                  std::span<const int> from, std::span<const int> to);
+
+/// What of the flux of fibres ends at nodes that are not held, by what ends at those that are:
+/// Σ|d_a| over the first by that over the others, d_a = Σ_e V_e ρ a₀ · ∂N_a/∂X. 0 where all fibres
+/// run from one held node to another; then a pull that is the same in each of them loads no other
+/// node along its way. Infinite where none is held.
+/// @param held  one a node
+double loose_flux(const Positions& X, const Tetrahedra& tets, const FibreDirections& fibres,
+                  const std::vector<bool>& held);
 
 }  // namespace articular::fem

@@ -4,6 +4,7 @@
 // which name it: ARTICULAR_INSTRUCTION_SET.
 
 #include "fem/simd/corotated_point_lanes.inl.hpp"
+#include "fem/simd/eight_matrix.inl.hpp"
 #include "fem/simd/fibre_lanes.inl.hpp"
 #include "fem/simd/isotropic_lanes.inl.hpp"
 #include "fem/simd/point_kernels.hpp"
@@ -12,14 +13,6 @@ namespace articular::fem::ARTICULAR_INSTRUCTION_SET {
 namespace {
 
 constexpr int kPoints = 8;
-
-inline Matrix load_matrix(const Eight* rows, int first) {
-  Matrix A;
-  for (int j = 0; j < 3; ++j) {
-    for (int i = 0; i < 3; ++i) A[j][i] = load(rows[3 * j + i].lane + first);
-  }
-  return A;
-}
 
 /// Calls use(law, state, first) for as many points at a time as a register holds.
 template <class Law, class Use>
@@ -41,8 +34,7 @@ void energy_density(const SplitBatchLaw& numbers, const EightPoints& points, Eig
 template <class Law>
 void first_piola(const SplitBatchLaw& numbers, const EightPoints& points, Eight* P) {
   for_each_state<Law>(numbers, points, [P](const Law& law, const auto& state, int first) {
-    const Matrix result = law.first_piola(state);
-    for (int k = 0; k < 9; ++k) store(result[k / 3][k % 3], P[k].lane + first);
+    store_matrix(law.first_piola(state), P, first);
   });
 }
 

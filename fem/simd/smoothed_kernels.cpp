@@ -1,5 +1,6 @@
 #include "fem/simd/point_kernels.hpp"
 #include "fem/simd/stencil_kernels.hpp"
+#include "fem/simd/viscosity_kernels.hpp"
 
 namespace articular::fem {
 
@@ -25,6 +26,18 @@ const StencilKernels& stencil_kernels(InstructionSet set) {
       break;
   }
   return baseline::stencil_kernels;
+}
+
+const ViscosityKernels& viscosity_kernels(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::Avx512:
+      return avx512::viscosity_kernels;
+    case InstructionSet::Avx2:
+      return avx2::viscosity_kernels;
+    case InstructionSet::Baseline:
+      break;
+  }
+  return baseline::viscosity_kernels;
 }
 
 }  // namespace articular::fem

@@ -32,9 +32,9 @@ std::vector<int> slots_in(const fem::BlockMatrix& A, const fem::BlockMatrix& par
   return slots;
 }
 
-/// Sheets, dashpots, fibres with a drag: add_beside_elements() adds them.
+/// Sheets, fibres with a drag: add_beside_elements() adds them.
 bool has_more_than_elements(const Tissue& tissue) {
-  return tissue.dashpots || tissue.fibre_drag || !tissue.sheets.empty();
+  return tissue.fibre_drag || !tissue.sheets.empty();
 }
 
 fem::BlockMatrix matrix_of(const Model& model, Stencils stencils, const Stencils& more) {
@@ -71,7 +71,8 @@ NewtonMatrix::NewtonMatrix(const Model& model)
 /// Sheets, dashpots, fibres with a drag and relaxation need a matrix of the tissue, and so do nodes
 /// whose rigid body is an unknown, which the tissue pushes by levers.
 bool NewtonMatrix::adds_directly(const Tissue& tissue) const {
-  if (tissue.elements.smoothed() != nullptr || has_more_than_elements(tissue) || tissue.relaxation)
+  if (tissue.elements.smoothed() != nullptr || has_more_than_elements(tissue) || tissue.dashpots ||
+      tissue.relaxation)
     return false;
   return std::none_of(tissue.nodes.begin(), tissue.nodes.end(), [this](const NodeRef& node) {
     return node.rigid >= 0 && node.rigid < model_.layout.num_rigid;
@@ -221,16 +222,25 @@ void NewtonMatrix::add_relaxation(std::size_t t, const Moment& now, const System
                                    scale.stiffness, tissues_[t].own.K);
 }
 
+void NewtonMatrix::add_dashpots(std::size_t t, const Moment& now, const SystemScale& scale,
+                                fem::Tangent tangent) {
+  const Tissue& tissue = model_.tissues[t];
+  if (!tissue.dashpots || scale.damping == 0) return;
+  const TissueMoment& moment = now.tissues[t];
+  tissue.dashpots->add_tangent(moment.x, moment.velocity, scale.damping,
+                               tangent == fem::Tangent::Consistent ? scale.stiffness : 0,
+                               tissues_[t].own.K);
+  if (tissue.elements.smoothed() != nullptr)
+    tissue.dashpots->add_plain_damping(moment.x, scale.damping, tissues_[t].plain.K);
+}
+
 /// What has the pattern of plain elements and is none.
 void NewtonMatrix::add_beside_elements(std::size_t t, const Moment& now, const SystemScale& scale,
-                                       fem::Tangent tangent, fem::BlockMatrix& K) {
+                                       fem::BlockMatrix& K) {
   const Tissue& tissue = model_.tissues[t];
   const TissueMoment& moment = now.tissues[t];
   for (const SheetModel& sheet : tissue.sheets)
     sheet.fibres.add_stiffness(moment.x, scale.stiffness, K);
-  if (tissue.dashpots && scale.damping != 0)
-    tissue.dashpots->add_tangent(moment.x, moment.velocity, scale.damping,
-                                 tangent == fem::Tangent::Consistent ? scale.stiffness : 0, K);
   if (tissue.fibre_drag)
     tissue.fibre_drag->add_damping(moment.x, moment.velocity,
                                    activation_of(tissue, now.configuration), scale.damping,
@@ -250,7 +260,8 @@ void NewtonMatrix::find_stiffness(std::size_t t, const Moment& now, const System
   work.own.K.set_zero();
   tissue.elements.add_stiffness(now.tissues[t].x, {}, activation_of(tissue, now.configuration),
                                 tangent, scale.stiffness, work.own.K);
-  add_beside_elements(t, now, scale, tangent, work.own.K);
+  add_beside_elements(t, now, scale, work.own.K);
+  add_dashpots(t, now, scale, tangent);
   add_relaxation(t, now, scale, tangent);
 }
 
@@ -262,7 +273,7 @@ void NewtonMatrix::find_smoothed_stiffness(std::size_t t, const Moment& now,
   const double activation = activation_of(tissue, now.configuration);
   const Positions& x = now.tissues[t].x;
   work.beside.set_zero();
-  add_beside_elements(t, now, scale, tangent, work.beside);
+  add_beside_elements(t, now, scale, work.beside);
   work.own.K.set_zero();
   smoothed.add_stiffness(x, now.tissues[t].pressure, tangent, scale.stiffness, work.own.K,
                          activation);
@@ -272,6 +283,7 @@ void NewtonMatrix::find_smoothed_stiffness(std::size_t t, const Moment& now,
   smoothed.add_plain_stiffness(x, fem::Tangent::Projected, scale.stiffness, work.plain.K,
                                activation);
   if (for_multigrid_) smoothed.add_compressible_stiffness(x, scale.stiffness, work.plain.K);
+  add_dashpots(t, now, scale, tangent);
   set_pressure_gradient(t, now);
 }
 

@@ -84,7 +84,9 @@ class NewtonMatrix {
   void find_smoothed_stiffness(std::size_t t, const Moment& now, const SystemScale& scale,
                                fem::Tangent tangent);
   void add_beside_elements(std::size_t t, const Moment& now, const SystemScale& scale,
-                           fem::Tangent tangent, fem::BlockMatrix& K);
+                           fem::BlockMatrix& K);
+  void add_dashpots(std::size_t t, const Moment& now, const SystemScale& scale,
+                    fem::Tangent tangent);
   void add_relaxation(std::size_t t, const Moment& now, const SystemScale& scale,
                       fem::Tangent tangent);
   void add_tissue(std::size_t t, const Moment& now, const SystemScale& scale, fem::Tangent tangent,

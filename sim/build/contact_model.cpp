@@ -98,7 +98,8 @@ Side side_of(const Model& model, const BodyModel& body) {
     const Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
     const double most = model.is_static ? kMostPunchesAtRest : kMostPunches;
     // Muscle presses on what it bends around by its tension, whatever its ground substance is.
-    side.modulus = punch_modulus(tissue) + tissue.active_stress;
+    constexpr double kPressByTension = 2.5;  // where it bends most, by the tension in the mean
+    side.modulus = punch_modulus(tissue) + kPressByTension * tissue.active_stress;
     side.softening = std::max(1.0, constrained_modulus(tissue) / (most * side.modulus));
   }
   side.compliance = side.softening * body.collider->mean_compliance;

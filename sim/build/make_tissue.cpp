@@ -29,6 +29,18 @@ TissueElements make_elements(const TissueMaterial& material, const MeshData& mes
       fem::Elasticity(mesh.X, mesh.tets, *material.law, fibres, {.pool = std::move(pool)}));
 }
 
+/// Smoothed tissue has dashpots where it takes the energy of its distortion. Its volume is that
+/// around a node, which they do not see, and next to constant: they leave it out. With ζ = β κ in
+/// elements or domains they would lock.
+fem::Dashpots make_dashpots(const TissueMaterial& material, const Tissue& tissue) {
+  const double beta = material.stiffness_damping;
+  if (const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed())
+    return {tissue.X, *smoothed, fem::stiffness_damping(beta, tissue.shear_modulus, 0)};
+  return {tissue.X, tissue.elements.tets(),
+          fem::stiffness_damping(beta, tissue.shear_modulus, tissue.bulk_modulus),
+          tissue.elements.make_matrix()};
+}
+
 /// As it is around a fibre, on average: of fibres that lie evenly 1.
 double density_around_fibres(const FibreDirections& fibres, const MeshData& mesh) {
   double fibre = 0, around = 0;
@@ -79,12 +91,8 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
         .bears_turning = !std::holds_alternative<fem::Linear>(*material.law),
         .start_velocity = body.velocity};
     tissue.nodes.resize(static_cast<std::size_t>(mesh.X.cols()));
-    if (material.stiffness_damping > 0) {
-      tissue.dashpots.emplace(mesh.X, mesh.tets,
-                              fem::stiffness_damping(material.stiffness_damping,
-                                                     tissue.shear_modulus, tissue.bulk_modulus),
-                              tissue.elements.make_plain_matrix());
-    }
+    if (material.stiffness_damping > 0 && !model.is_static)
+      tissue.dashpots = make_dashpots(material, tissue);
     const std::optional<fem::MuscleFibre> fibre = fem::muscle_fibre(*material.law);
     if (fibre && fibre->has_drag() && !model.is_static)
       tissue.fibre_drag.emplace(mesh.X, mesh.tets, fibres, *fibre,

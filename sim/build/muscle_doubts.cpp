@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fem/material/any_material.hpp"
+#include "fem/mesh/fibre_field.hpp"
 #include "sim/base/error.hpp"
 
 namespace articular::sim {
@@ -19,6 +20,9 @@ namespace {
 constexpr double kLeastShareAtRest = 0.2;
 /// Of fibres with the line between the ends: bellies are pennate by up to some 40 degrees.
 constexpr double kLeastCosine = 0.3;
+
+/// Of their flux: rounded numbers of a file leave a millionth, and what is worse costs force.
+constexpr double kMostLoose = 0.2;
 
 /// Of the largest active stress at any length; 1 of laws without a force-length curve.
 double active_share_at_rest(const fem::AnyMaterial& law) {
@@ -53,6 +57,42 @@ std::optional<double> cosine_with_ends(const Tissue& tissue) {
         way = d;
   if (way.isZero(0)) return std::nullopt;
   return (way.normalized().transpose() * tissue.fibres.colwise().normalized()).cwiseAbs().mean();
+}
+
+/// Nodes at which fibres may end: tied, supported or in a sheet.
+std::vector<bool> holding_nodes(const Model& model, std::size_t t) {
+  const Tissue& tissue = model.tissues[t];
+  std::vector<bool> holds;
+  for (const NodeRef& node : tissue.nodes) holds.push_back(node.rigid >= 0);
+  for (const SupportModel& support : model.supports)
+    if (support.tissue == static_cast<int>(t))
+      for (const SupportModel::Node& node : support.nodes)
+        holds[static_cast<std::size_t>(node.node)] = true;
+  for (const SheetModel& sheet : tissue.sheets)
+    for (const int node : sheet.fibres.faces().reshaped())
+      holds[static_cast<std::size_t>(node)] = true;
+  return holds;
+}
+
+bool is_conserved_array(const Fibres& fibres) {
+  return std::holds_alternative<FibreArray>(fibres.along) &&
+         fibres.density == Fibres::Density::Conserved;
+}
+
+/// Of an array whose fibres should run from end to end, and break off in its elements; "" if none.
+std::string doubt_of_flux(const Body& body, const Model& model, std::size_t t) {
+  const Tissue& tissue = model.tissues[t];
+  const std::vector<bool> holds = holding_nodes(model, t);
+  if (!is_conserved_array(*body.material->fibres) || std::ranges::count(holds, true) == 0)
+    return {};
+  const double loose = fem::loose_flux(tissue.X, tissue.elements.tets(), tissue.fibres, holds);
+  if (loose <= kMostLoose) return {};
+  return fmt::format(
+      "the fibres of `{}` are not conserved on this mesh: at nodes that nothing holds end {:.2g} "
+      "times as many as where it is held, and it will pull with too little; expected an array "
+      "whose "
+      "flux goes on from element to element, or `from` and `to`",
+      body.name, loose);
 }
 
 bool is_driven(const Muscle& muscle) { return !muscle.excitation.time.empty(); }
@@ -113,9 +153,12 @@ std::vector<std::string> muscle_doubts(const Scenario& scenario, const Model& mo
         doubt_of_fibres(scenario.bodies[b], model.tissues[static_cast<std::size_t>(t)], model);
     if (!what.empty()) doubts.push_back(prefix(where) + what);
     const Body& body = scenario.bodies[b];
-    if (model.tissues[static_cast<std::size_t>(t)].active_stress > 0 &&
-        !body.material->relaxation.empty())
+    if (!(model.tissues[static_cast<std::size_t>(t)].active_stress > 0)) continue;
+    if (!body.material->relaxation.empty())
       doubts.push_back(prefix(body.material->where) + doubt_of_relaxation(body));
+    if (const std::string flux = doubt_of_flux(body, model, static_cast<std::size_t>(t));
+        !flux.empty())
+      doubts.push_back(prefix(body.material->fibres->where) + flux);
   }
   const std::vector<Muscle>& muscles = scenario.muscles;
   const auto line = std::ranges::find_if(muscles, [](const Muscle& m) { return m.tissue.empty(); });

@@ -13,7 +13,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 14\n";
+constexpr char kMagic[] = "articular checkpoint 15\n";
 
 constexpr const char *kNewest = "state.bin", *kBefore = "previous.bin";
 
@@ -84,6 +84,13 @@ void each_of_worst(Worst& worst, const Visit& visit) {
   visit(worst.at);
 }
 
+template <class Strain, class Visit>
+void each_of_strain(Strain& strain, const Visit& visit) {
+  visit(strain.value);
+  visit(strain.ligament);
+  visit(strain.at);
+}
+
 template <class AnySnap, class Visit>
 void each_of_snap(AnySnap& snap, const Visit& visit) {
   visit(snap.body);
@@ -102,6 +109,7 @@ void each_of_extrema(Extrema& extrema, const Visit& visit) {
   each_of_worst(extrema.overlap, visit);
   each_of_worst(extrema.layer, visit);
   each_of_worst(extrema.driven, visit);
+  each_of_strain(extrema.strain, visit);
   each_of_snap(extrema.snap, visit);
   visit(extrema.kinetic);
   visit(extrema.work);

@@ -27,6 +27,8 @@ constexpr double kDrivenDepth = 1e-6;
 /// Of the volume at rest: the law "neo-hookean" stays crushed below 0.16 at ν = 0, and below 0.02
 /// at ν = 0.3 (fem/THEORY.md).
 constexpr double kCrushed = 0.1;
+/// Of the slack length: most ligaments tear at a fifth to two fifths, and their law knows no end.
+constexpr double kTorn = 0.5;
 /// Of |F − I|: a beam whose end is turned by 20 degrees is off by some per cent.
 constexpr double kSmallGradient = 0.5;
 /// Of the smaller element: points so deep with no force at all lie between the nodes that would
@@ -214,6 +216,16 @@ void warn_of_deep_contacts(const Model& model, const RunExtrema& extrema,
         names(driven), 1e3 * driven.value, driven.at));
 }
 
+void warn_of_torn_ligaments(const Model& model, const WorstStrain& worst,
+                            std::vector<std::string>& warnings) {
+  if (worst.value <= kTorn) return;
+  const Ligament& ligament = model.ligaments[static_cast<std::size_t>(worst.ligament)].given;
+  warnings.push_back(fmt::format(
+      "ligament `{}` was stretched by {:.0f} % at t = {:.4g} s: most tear at 20 to 40 %, and its "
+      "law has no end; are its slack length and stiffness, and their units, those that were meant?",
+      ligament.name, 100 * worst.value, worst.at));
+}
+
 void warn_of_snap(const Model& model, const Snap& snap, std::vector<std::string>& warnings) {
   if (snap.body < 0) return;
   warnings.push_back(fmt::format(
@@ -232,6 +244,7 @@ std::vector<std::string> run_warnings(const Model& model, const State& state,
   const RunExtrema& extrema = state.extrema;
   warn_of_squeezed_elements(model, extrema, warnings);
   warn_of_deep_contacts(model, extrema, warnings);
+  warn_of_torn_ligaments(model, extrema.strain, warnings);
   warn_of_snap(model, extrema.snap, warnings);
   warn_of_small_strain_laws(model, stepper.now().configuration, warnings);
   warn_of_unresolved_contacts(model, stepper, warnings);

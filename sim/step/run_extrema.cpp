@@ -46,6 +46,15 @@ void note_contact(const Model& model, ContactId contact, double depth, double t,
     note(depth, contact, t, extrema.driven);
 }
 
+void note_strains(const Moment& now, double t, WorstStrain& worst) {
+  for (std::size_t k = 0; k < now.model.ligaments.size(); ++k) {
+    const LigamentModel& ligament = now.model.ligaments[k];
+    const double length = now.lines[static_cast<std::size_t>(ligament.line)].length;
+    const double strain = length / ligament.slack_length - 1;
+    if (strain > worst.value) worst = {strain, static_cast<int>(k), t};
+  }
+}
+
 double work_done(const EnergyLedger& l) {
   return std::abs(l.muscle_work) + std::abs(l.load_work) + std::abs(l.motion_work);
 }
@@ -70,6 +79,7 @@ void note_extrema(const Moment& now, State& state) {
     extrema.element = element;
     extrema.squeezed_at = state.t;
   }
+  note_strains(now, state.t, extrema.strain);
   const ContactDepths depths = now.contact.node_depths();
   for (const auto& [contact, depth] : depths.all()) {
     if (!(depth > 0)) continue;

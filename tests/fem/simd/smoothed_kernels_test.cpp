@@ -9,6 +9,7 @@
 
 #include "fem/element/smoothed_elasticity.hpp"
 #include "fem/material/any_material.hpp"
+#include "fem/mesh/rest_shape.hpp"
 #include "fem/mesh/tetrahedron.hpp"
 #include "tests/fem/support/batched_tangent.hpp"
 #include "tests/fem/support/box_mesh.hpp"
@@ -32,6 +33,11 @@ struct Problem {
   std::vector<int> law_of_element;
   Smoothing smoothing;
   Positions x;
+
+  /// κ' [Pa], see SmoothedElasticity
+  double own_bulk(const LawExample& law) const {
+    return smoothing.active_bulk * kActivation * active_stress(law.material);
+  }
 };
 
 SmoothedElasticity elasticity_of(const Problem& problem, InstructionSet set) {
@@ -101,14 +107,40 @@ Mat9 projected_tangent(const LawExample& law, double share, double pressure, con
                          Tangent::Projected);
 }
 
+Jet scaled(double factor, const Jet& jet) {
+  return {factor * jet.value, factor * jet.gradient, factor * jet.hessian};
+}
+Jet sum_of(const Jet& a, const Jet& b) {
+  return {a.value + b.value, a.gradient + b.gradient, a.hessian + b.hessian};
+}
+
+/// Θ of all elements, and of all domains its mean.
+struct Dilatations {
+  Eigen::VectorXd of_element, of_domain;
+};
+Dilatations dilatations(const Problem& problem, const SmoothedElasticity& elasticity) {
+  const EdgeDomains& domains = elasticity.domains();
+  const Tetrahedra& tets = problem.mesh.tets;
+  Dilatations theta{Eigen::VectorXd::Zero(tets.cols()), Eigen::VectorXd::Zero(domains.size())};
+  for (int e = 0; e < static_cast<int>(tets.cols()); ++e) {
+    const Mat3 inverse = edge_matrix(gather(problem.mesh.X, tets, e)).inverse();
+    const LawExample& law = problem.laws[problem.law_of_element[e]];
+    theta.of_element[e] =
+        law.dilatation(deformation_gradient(gather(problem.x, tets, e), inverse)).value;
+    for (int i = 0; i < 6; ++i) {
+      const int k = domains.of_element[6 * e + i];
+      theta.of_domain[k] +=
+          elasticity.rest_volume()[e] / 6 / domains.volume[k] * theta.of_element[e];
+    }
+  }
+  return theta;
+}
+
 Assembled point_by_point(const Problem& problem, const SmoothedElasticity& elasticity,
                          const Eigen::VectorXd& p) {
   const Positions& x = problem.x;
   const double share = problem.smoothing.plain_share;
   Assembled sum(x.cols(), elasticity.num_pressures());
-  const auto scaled = [](double factor, const Jet& jet) {
-    return Jet{factor * jet.value, factor * jet.gradient, factor * jet.hessian};
-  };
   const EdgeDomains& domains = elasticity.domains();
   for (int k = 0; k < domains.size(); ++k) {
     std::size_t m = 0;
@@ -127,6 +159,9 @@ Assembled point_by_point(const Problem& problem, const SmoothedElasticity& elast
                    gradients);
   }
   const Tetrahedra& tets = problem.mesh.tets;
+  const Dilatations thetas = dilatations(problem, elasticity);
+  Eigen::MatrixXd slope_of_domain = Eigen::MatrixXd::Zero(3 * x.cols(), domains.size());
+  Eigen::VectorXd own_of_domain = Eigen::VectorXd::Zero(domains.size());
   for (Eigen::Index e = 0; e < tets.cols(); ++e) {
     const LawExample& law = problem.laws[problem.law_of_element[e]];
     const double V = elasticity.rest_volume()[e];
@@ -144,18 +179,27 @@ Assembled point_by_point(const Problem& problem, const SmoothedElasticity& elast
     for (const auto& g : dN_dX.colwise()) gradients.emplace_back(g);
     const Mat3 F = deformation_gradient(x_e, edge_matrix(X_e).inverse());
     const Jet theta = law.dilatation(F), distortion = law.distortion(F, kActivation);
-    Jet part = scaled(pressure, theta);
-    if (share > 0) {
-      part.value += share * distortion.value;
-      part.gradient += share * distortion.gradient;
-      part.hessian += share * distortion.hessian;
+    const double own = problem.own_bulk(law);
+    double uneven = theta.value;
+    for (int i = 0; i < 6; ++i) {
+      const int k = domains.of_element[6 * static_cast<std::size_t>(e) + i];
+      uneven -= thetas.of_domain[k] / 6;
+      own_of_domain[k] = own;
+      for (int a = 0; a < 4; ++a)
+        slope_of_domain.block<3, 1>(3 * nodes[a], k) += V / 6 * theta.gradient * gradients[a];
     }
-    sum.add_energy(V, part, projected_tangent(law, share, pressure, F), nodes, gradients);
+    const double p_e = pressure + own * uneven;
+    const Vec9 theta_gradient = theta.gradient.reshaped();
+    const Mat9 own_tangent = own * theta_gradient * theta_gradient.transpose();
+    Jet part = scaled(p_e, theta);
+    part.value -= own / 2 * uneven * theta.value;
+    part.hessian += own_tangent;
+    if (share > 0) part = sum_of(part, scaled(share, distortion));
+    sum.add_energy(V, part, projected_tangent(law, share, p_e, F) + own_tangent, nodes, gradients);
     Assembled::add_stiffness(V, distortion.hessian, nodes, gradients, sum.K_plain);
     Assembled::add_stiffness(V, projected_tangent(law, 1, 0, F), nodes, gradients,
                              sum.K_plain_projected);
     const double kappa = std::min(law.bulk_modulus, 13.0 / 6 * law.shear_modulus);
-    const Vec9 theta_gradient = theta.gradient.reshaped();
     Assembled::add_stiffness(V, kappa * theta_gradient * theta_gradient.transpose(), nodes,
                              gradients, sum.K_compressible);
     for (int c = 0; c < 4; ++c) {
@@ -167,6 +211,9 @@ Assembled point_by_point(const Problem& problem, const SmoothedElasticity& elast
       }
     }
   }
+  for (int k = 0; k < domains.size(); ++k)
+    sum.K -= kScale * own_of_domain[k] / domains.volume[k] * slope_of_domain.col(k) *
+             slope_of_domain.col(k).transpose();
   return sum;
 }
 

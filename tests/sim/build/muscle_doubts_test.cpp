@@ -5,10 +5,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "fem/material/any_material.hpp"
+#include "sim/mesh/shapes.hpp"
 #include "tests/sim/support/doubt.hpp"
 #include "tests/sim/support/scene.hpp"
+#include "tests/sim/support/temporary_folder.hpp"
 
 namespace articular::sim::muscle_doubts_test {
 
@@ -114,6 +117,51 @@ TEST(MuscleDoubts, AreOfFibresAcrossTheLineBetweenTheEnds) {
     }
     s.attachments.pop_back();  // no line to run along
     EXPECT_EQ(doubt(s), "") << degrees;
+  }
+}
+
+/// A bar along z with an array of fibres along it: all as dense, or the upper ones half as dense.
+std::filesystem::path bar_with_fibres(const TemporaryFolder& folder, bool even) {
+  const MeshData bar = box_mesh({{0.02, 0.02, 0.02}, {2, 2, 4}});
+  std::ostringstream text;
+  text << "# vtk DataFile Version 3.0\nbar\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS "
+       << bar.X.cols() << " double\n"
+       << bar.X.transpose() << "\nCELLS " << bar.tets.cols() << " " << 5 * bar.tets.cols() << "\n";
+  for (const auto& tet : bar.tets.colwise()) text << "4 " << tet.transpose() << "\n";
+  text << "CELL_TYPES " << bar.tets.cols() << "\n";
+  for (int e = 0; e < bar.tets.cols(); ++e) text << "10\n";
+  text << "CELL_DATA " << bar.tets.cols() << "\nVECTORS fibres double\n";
+  for (const auto& tet : bar.tets.colwise()) {
+    const bool above = bar.X(2, Eigen::all)(tet).sum() > 0;
+    text << "0 0 " << (above && !even ? 0.5 : 1.0) << "\n";
+  }
+  return folder.file("bar.vtk", text.str());
+}
+
+// Half of the fibres end in the middle, where nothing holds them: a quarter of what ends at both
+// ends together is loose there, and more around it.
+TEST(MuscleDoubts, AreOfAnArrayWhoseFibresBreakOff) {
+  const TemporaryFolder folder;
+  for (const bool even : {true, false}) {
+    Scenario s = fibres(2e5);
+    MeshFile file;
+    file.path = bar_with_fibres(folder, even);
+    file.unit = 1;
+    s.bodies[0].geometry = file;
+    s.bodies[0].material->fibres =
+        Fibres{FibreArray{"fibres"}, Fibres::Density::Conserved, {"scene.toml", 4, 1}};
+    s.bodies.push_back(stand("bone"));
+    s.attachments = {attach("block", "floor", {-1, -1, -0.011}, {1, 1, -0.0099}),
+                     attach("block", "bone", {-1, -1, 0.0099}, {1, 1, 0.011})};
+    s.muscles = {of_fibres(kPull)};
+    const std::string told = doubt(s);
+    EXPECT_EQ(told.empty(), even) << told;
+    if (!even) {
+      EXPECT_TRUE(says(told, "scene.toml:4:1: the fibres of `block` are not conserved"));
+      EXPECT_TRUE(says(told, "at nodes that nothing holds end 0.33 times as many"));
+    }
+    s.bodies[0].material->fibres->density = Fibres::Density::Even;
+    EXPECT_EQ(doubt(s), "");
   }
 }
 
