@@ -97,8 +97,9 @@ Side side_of(const Model& model, const BodyModel& body) {
   if (side.is_tissue) {
     const Tissue& tissue = model.tissues[static_cast<std::size_t>(body.tissue)];
     const double most = model.is_static ? kMostPunchesAtRest : kMostPunches;
-    // Muscle presses on what it bends around by its tension, whatever its ground substance is.
-    constexpr double kPressByTension = 2.5;  // where it bends most, by the tension in the mean
+    // Muscle presses on what it bends around by its tension, whatever its ground substance is, and
+    // most at few nodes (sim/RESULTS.md).
+    constexpr double kPressByTension = 2.5;
     side.modulus = punch_modulus(tissue) + kPressByTension * tissue.active_stress;
     side.softening = std::max(1.0, constrained_modulus(tissue) / (most * side.modulus));
   }
