@@ -46,9 +46,11 @@ void note_contact(const Model& model, ContactId contact, double depth, double t,
     note(depth, contact, t, extrema.driven);
 }
 
+/// Linear ones may be springs, or elastic tissue that is drawn out to its double.
 void note_strains(const Moment& now, double t, WorstStrain& worst) {
   for (std::size_t k = 0; k < now.model.ligaments.size(); ++k) {
     const LigamentModel& ligament = now.model.ligaments[k];
+    if (ligament.given.law != Ligament::Law::Blankevoort) continue;
     const double length = now.lines[static_cast<std::size_t>(ligament.line)].length;
     const double strain = length / ligament.slack_length - 1;
     if (strain > worst.value) worst = {strain, static_cast<int>(k), t};
