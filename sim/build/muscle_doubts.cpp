@@ -88,10 +88,9 @@ std::string doubt_of_flux(const Body& body, const Model& model, std::size_t t) {
   const double loose = fem::loose_flux(tissue.X, tissue.elements.tets(), tissue.fibres, holds);
   if (loose <= kMostLoose) return {};
   return fmt::format(
-      "the fibres of `{}` are not conserved on this mesh: at nodes that nothing holds end {:.2g} "
-      "times as many as where it is held, and it will pull with too little; expected an array "
-      "whose "
-      "flux goes on from element to element, or `from` and `to`",
+      "the fibres of `{}` are not conserved on this mesh: for each that ends where it is held, "
+      "{:.2g} end at nodes that nothing holds, and it will pull with too little; expected an array "
+      "whose flux goes on from element to element, or `from` and `to`",
       body.name, loose);
 }
 

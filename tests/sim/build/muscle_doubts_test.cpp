@@ -158,7 +158,8 @@ TEST(MuscleDoubts, AreOfAnArrayWhoseFibresBreakOff) {
     EXPECT_EQ(told.empty(), even) << told;
     if (!even) {
       EXPECT_TRUE(says(told, "scene.toml:4:1: the fibres of `block` are not conserved"));
-      EXPECT_TRUE(says(told, "at nodes that nothing holds end 0.33 times as many"));
+      EXPECT_TRUE(
+          says(told, "for each that ends where it is held, 0.33 end at nodes that nothing"));
     }
     s.bodies[0].material->fibres->density = Fibres::Density::Even;
     EXPECT_EQ(doubt(s), "");
