@@ -27,7 +27,7 @@ class Dashpots {
            const BlockMatrix& matrix);
   /// For matrices of make_matrix(), and of make_plain_matrix().
   /// @param smoothed  of one material
-  Dashpots(const Positions& X, const SmoothedElasticity& smoothed, const KelvinVoigt& law);
+  Dashpots(const SmoothedElasticity& smoothed, const KelvinVoigt& law);
 
   /// f += the force [N] that moves the shape x on with the velocities v [m/s].
   void add_force(const Positions& x, const Positions& v, Positions& f) const;
@@ -44,15 +44,19 @@ class Dashpots {
 
  private:
   struct Octet;
-  /// Of a chunk: calls function(octet) for its domains, or for its elements.
+  /// Calls function(octet) for batches of domains, or of elements.
   template <class Function>
   void for_each_octet(int begin, int end, double share, const Positions& x, const Positions& v,
                       Function function) const;
-  /// Of all chunks, with the shares of domains and elements.
+  /// For a chunk, with the shares of domains and elements.
   template <class Function>
-  void for_each_octet(const Positions& x, const Positions& v, Function function) const;
-  Dashpots(const Positions& X, const Tetrahedra& tets, const EdgeDomains& domains,
-           double element_share, const KelvinVoigt& law);
+  void for_each_octet(const StencilBatches::Chunk& chunk, const Positions& x, const Positions& v,
+                      Function function) const;
+  /// @param visit  visit(chunk, add): calls add(octet) for those of a chunk that have a part in K
+  template <class Visit>
+  void add_tangents(double damping, double stiffness, const StencilPairs& pairs, BlockMatrix& K,
+                    Visit visit) const;
+  Dashpots(StencilBatches stencils, double element_share, const KelvinVoigt& law);
 
   KelvinVoigt law_;
   double element_share_;  // [-]; of the domains what is left of 1

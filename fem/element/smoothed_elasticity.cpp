@@ -128,6 +128,7 @@ SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tet
   plain_pairs_ = {stencils_, StencilPairs::Part::Elements, make_plain_matrix()};
   gradient_slots_ = slots_in(make_pressure_gradient(), stencils_, pressure_.of_corner());
   p_work_.resize(num_pressures());
+  own_pressure_.setZero(num_elements());
   if (std::ranges::any_of(*materials_, [](const AnyMaterial& m) { return active_stress(m) > 0; }))
     make_rings();
 }
@@ -263,7 +264,8 @@ bool SmoothedElasticity::has_own_bulk(double activation) const {
 
 /// own_pressure_ = κ' (Θ_e − Σ_k Θ̄_k/6), k the domains of element e.
 void SmoothedElasticity::set_own_pressures(const Positions& x, double activation) const {
-  own_pressure_.setZero(num_elements());
+  if (rings_.begin.empty()) return;  // they stay 0
+  own_pressure_.setZero();
   if (!has_own_bulk(activation)) return;
   for_each_element(x, 0, [&](const PointLaw& law, int e, const Mat3& F) {
     own_pressure_[e] = law.dilatation(F);

@@ -84,6 +84,7 @@ class SmoothedElasticity {
   const Smoothing& smoothing() const { return smoothing_; }
   const EdgeDomains& domains() const { return domains_; }
   const NodalPressure& nodal_pressure() const { return pressure_; }
+  const StencilBatches& stencils() const { return stencils_; }
 
   /// W [J]
   double energy(const Positions& x, double activation = 0) const;

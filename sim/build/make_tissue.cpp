@@ -35,7 +35,7 @@ TissueElements make_elements(const TissueMaterial& material, const MeshData& mes
 fem::Dashpots make_dashpots(const TissueMaterial& material, const Tissue& tissue) {
   const double beta = material.stiffness_damping;
   if (const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed())
-    return {tissue.X, *smoothed, fem::stiffness_damping(beta, tissue.shear_modulus, 0)};
+    return {*smoothed, fem::stiffness_damping(beta, tissue.shear_modulus, 0)};
   return {tissue.X, tissue.elements.tets(),
           fem::stiffness_damping(beta, tissue.shear_modulus, tissue.bulk_modulus),
           tissue.elements.make_matrix()};

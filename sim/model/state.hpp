@@ -63,19 +63,15 @@ struct OverlapResolution {
   double largest_motion = 0;  // [m] of a node
 };
 
-/// Of two bodies that touch, at the time when it was largest.
-struct WorstContact {
+/// Of all things of a kind the one where it was largest, and when. @tparam Which  its index
+template <class Which>
+struct Worst {
   double value = 0;
-  ContactId contact = -1;
+  Which of = -1;
   double at = 0;  // [s]
 };
-
-/// Of the ligament that was stretched most, at the time when it was.
-struct WorstStrain {
-  double value = 0;  // [-] of its slack length
-  int ligament = -1;
-  double at = 0;  // [s]
-};
+using WorstContact = Worst<ContactId>;
+using WorstLigament = Worst<int>;
 
 /// A load step of a static analysis that did not follow its equilibrium: what buckles or snaps
 /// through goes on to another one.
@@ -96,12 +92,12 @@ struct RunExtrema {
   WorstContact overlap;    // by the depth that their contact can follow
   WorstContact layer;      // by the thickness of the layers between them
   WorstContact driven;     // [m] of rigid bodies that the scenario moves, with no layer between
-  WorstStrain strain;
-  Snap snap;            // the first one
-  double kinetic = 0;   // [J], largest
-  double work = 0;      // [J], largest sum of what muscles, loads and driven motions had done
-  double moved_at = 0;  // [s], last with kinetic energy that counts beside what was turned over
-  double made = 0;      // [J], most that had come from nowhere when a frame was written
+  WorstLigament strain;    // [-] of its slack length; of those that are not linear
+  Snap snap;               // the first one
+  double kinetic = 0;      // [J], largest
+  double work = 0;         // [J], largest sum of what muscles, loads and driven motions had done
+  double moved_at = 0;     // [s], last with kinetic energy that counts beside what was turned over
+  double made = 0;         // [J], most that had come from nowhere when a frame was written
   double gravity_low = std::numeric_limits<double>::infinity();  // [J]
   double gravity_high = -std::numeric_limits<double>::infinity();
 };

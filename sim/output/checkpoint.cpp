@@ -80,15 +80,8 @@ void each_of_crossing(AnyCrossing& crossing, const Visit& visit) {
 template <class Worst, class Visit>
 void each_of_worst(Worst& worst, const Visit& visit) {
   visit(worst.value);
-  visit(worst.contact);
+  visit(worst.of);
   visit(worst.at);
-}
-
-template <class Strain, class Visit>
-void each_of_strain(Strain& strain, const Visit& visit) {
-  visit(strain.value);
-  visit(strain.ligament);
-  visit(strain.at);
 }
 
 template <class AnySnap, class Visit>
@@ -109,7 +102,7 @@ void each_of_extrema(Extrema& extrema, const Visit& visit) {
   each_of_worst(extrema.overlap, visit);
   each_of_worst(extrema.layer, visit);
   each_of_worst(extrema.driven, visit);
-  each_of_strain(extrema.strain, visit);
+  each_of_worst(extrema.strain, visit);
   each_of_snap(extrema.snap, visit);
   visit(extrema.kinetic);
   visit(extrema.work);

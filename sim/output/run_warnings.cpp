@@ -192,7 +192,7 @@ void warn_of_squeezed_elements(const Model& model, const RunExtrema& extrema,
 void warn_of_deep_contacts(const Model& model, const RunExtrema& extrema,
                            std::vector<std::string>& warnings) {
   const auto names = [&](const WorstContact& worst) {
-    const ContactModel contact = model.contacts[worst.contact];
+    const ContactModel contact = model.contacts[worst.of];
     return fmt::format("`{}` and `{}`", name_of_body(model, contact.a),
                        name_of_body(model, contact.b));
   };
@@ -216,10 +216,10 @@ void warn_of_deep_contacts(const Model& model, const RunExtrema& extrema,
         names(driven), 1e3 * driven.value, driven.at));
 }
 
-void warn_of_torn_ligaments(const Model& model, const WorstStrain& worst,
+void warn_of_torn_ligaments(const Model& model, const WorstLigament& worst,
                             std::vector<std::string>& warnings) {
   if (worst.value <= kTorn) return;
-  const Ligament& ligament = model.ligaments[static_cast<std::size_t>(worst.ligament)].given;
+  const Ligament& ligament = model.ligaments[static_cast<std::size_t>(worst.of)].given;
   warnings.push_back(fmt::format(
       "ligament `{}` was stretched by {:.0f} % at t = {:.4g} s: most tear at 20 to 40 %, and its "
       "law has no end; are its slack length and stiffness, and their units, those that were meant?",

@@ -22,8 +22,9 @@ double followed_depth(const Model& model, const ContactModel& contact) {
                   depth_range(b, a, contact.averaged).reach);
 }
 
-void note(double value, ContactId contact, double t, WorstContact& worst) {
-  if (value > worst.value) worst = {value, contact, t};
+template <class Which>
+void note(double value, Which of, double t, Worst<Which>& worst) {
+  if (value > worst.value) worst = {value, of, t};
 }
 
 /// Whether the scenario says where it is, wholly or in part: it can't give way there.
@@ -47,13 +48,12 @@ void note_contact(const Model& model, ContactId contact, double depth, double t,
 }
 
 /// Linear ones may be springs, or elastic tissue that is drawn out to its double.
-void note_strains(const Moment& now, double t, WorstStrain& worst) {
+void note_strains(const Moment& now, double t, WorstLigament& worst) {
   for (std::size_t k = 0; k < now.model.ligaments.size(); ++k) {
     const LigamentModel& ligament = now.model.ligaments[k];
     if (ligament.given.law != Ligament::Law::Blankevoort) continue;
     const double length = now.lines[static_cast<std::size_t>(ligament.line)].length;
-    const double strain = length / ligament.slack_length - 1;
-    if (strain > worst.value) worst = {strain, static_cast<int>(k), t};
+    note(length / ligament.slack_length - 1, static_cast<int>(k), t, worst);
   }
 }
 

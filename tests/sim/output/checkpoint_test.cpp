@@ -21,7 +21,8 @@ std::vector<double> numbers(const RunExtrema& e) {
                           e.kinetic,      e.work,           e.moved_at,        e.made,
                           e.gravity_low,  e.gravity_high};
   for (const WorstContact& worst : {e.overlap, e.layer, e.driven})
-    all.insert(all.end(), {worst.value, double(worst.contact), worst.at});
+    all.insert(all.end(), {worst.value, double(worst.of), worst.at});
+  all.insert(all.end(), {e.strain.value, double(e.strain.of), e.strain.at});
   const Snap& snap = e.snap;
   all.insert(all.end(), {double(snap.body), snap.at, snap.motion, snap.expected, snap.loss});
   return all;
