@@ -1,101 +1,158 @@
 #include "fem/element/fibre_drag.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 
+#include "fem/element/smoothed_elasticity.hpp"
 #include "fem/material/muscle_fibre.hpp"
-#include "fem/mesh/rest_shape.hpp"
-#include "fem/mesh/tetrahedron.hpp"
 
 namespace articular::fem {
 namespace {
 
-using Drag = MuscleFibre::Drag;
+using Vec9 = Eigen::Vector<double, 9>;
 
-/// What fibres pull more at a rate [Pa], and its slope by the rate.
-ValueSlope at_rate(const Drag& drag, double rate) {
-  const ValueSlope factor = force_velocity(drag.per_rate * rate);
-  return {drag.pull * (factor.value - 1), drag.pull * drag.per_rate * factor.slope};
+Vec9 of_lane(const Eight* rows, int lane) {
+  Vec9 values;
+  for (int k = 0; k < 9; ++k) values[k] = rows[k].lane[lane];
+  return values;
 }
 
 double on_line(const FibreDrag::Line& line, double w) {
   return std::clamp(line.factor + line.slope * (w - line.speed), 0.0, kMostForceOfVelocity);
 }
 
+std::size_t point(const MovingStencils::Octet& octet, int lane) {
+  return static_cast<std::size_t>(octet.index) * kBatchSize + static_cast<std::size_t>(lane);
+}
+
+/// Those of the elements and domains in the order of the points.
+FibreDirections of_points(const MovingStencils& stencils, const FibreDirections& of_element,
+                          const FibreDirections& of_domain) {
+  FibreDirections fibres(3, kBatchSize * stencils.stencils().num_batches());
+  for (int i = 0; i < stencils.stencils().num_batches(); ++i) {
+    const FibreDirections& source = stencils.are_elements(i) ? of_element : of_domain;
+    for (int lane = 0; lane < kBatchSize; ++lane)
+      fibres.col(kBatchSize * i + lane) = source.col(stencils.stencils().index(i).lane[lane]);
+  }
+  return fibres;
+}
+
+/// A line for a motion, from that of the matrix before.
+FibreDrag::Line line_at(double w, const FibreDrag::Line* before) {
+  if (before != nullptr && before->speed == w) return *before;  // asked once more
+  const double factor = force_velocity(w).value;
+  return {w, factor, force_velocity_slope(w, before != nullptr ? on_line(*before, w) : factor)};
+}
+
+/// C = Σ stiffness g ⊗ g of one point
+void set_tangent(double stiffness, const Vec9& g, int lane, Eight* C) {
+  for (int n = 0; n < 9; ++n)
+    for (int m = 0; m < 9; ++m) C[m + 9 * n].lane[lane] = stiffness * g[m] * g[n];
+}
+
 }  // namespace
+
+/// One of a point, as it moves on.
+struct FibreDrag::Fibre {
+  Vec9 slope;    // ∂λ/∂F
+  double share;  // density times the share of the point
+  MuscleFibre::Drag drag;
+  double speed;  // w [-]
+};
 
 FibreDrag::FibreDrag(const Positions& X, const Tetrahedra& tets, const FibreDirections& fibres,
                      const MuscleFibre& law, const BlockMatrix& matrix)
-    : tets_(tets),
-      law_(std::make_shared<const MuscleFibre>(law)),
-      along_(4, tets.cols()),
-      volume_(tets.cols()) {
-  for (Eigen::Index e = 0; e < tets.cols(); ++e) {
-    const double density = fibres.col(e).norm();
-    volume_[e] = density * checked_volume(X, tets, e);
-    along_.col(e) = shape_gradients(edge_matrix(gather(X, tets, e)).inverse()).transpose() *
-                    fibres.col(e) / density;
-    for (const int b : tets.col(e))
-      for (const int a : tets.col(e)) slots_.push_back(matrix.slot(a, b));
-  }
+    : law_(std::make_shared<const MuscleFibre>(law)),
+      stencils_(X, tets, matrix),
+      fibres_(of_points(stencils_, fibres, {})) {}
+
+FibreDrag::FibreDrag(const SmoothedElasticity& smoothed, const MuscleFibre& law)
+    : law_(std::make_shared<const MuscleFibre>(law)),
+      stencils_(smoothed),
+      fibres_(of_points(stencils_, smoothed.fibres(), smoothed.domain_fibres())) {}
+
+FibreDrag::Fibre FibreDrag::fibre(const Octet& octet, int lane, double activation) const {
+  const Vec3 fibre = fibres_.col(static_cast<Eigen::Index>(point(octet, lane)));
+  const double density = fibre.norm();
+  const Vec3 rest = fibre / density;
+  const Vec3 now = of_lane(octet.F, lane).reshaped<Eigen::ColMajor>(3, 3) * rest;
+  const double stretch = now.norm();
+  Fibre result;
+  result.slope = (now / stretch * rest.transpose()).reshaped();
+  result.share = octet.share * density;
+  result.drag = law_->drag(stretch, activation);
+  result.speed = result.drag.per_rate * result.slope.dot(of_lane(octet.rate, lane));
+  return result;
 }
 
-template <class Function>
-void FibreDrag::for_each_fibre(const Positions& x, const Positions& v, double activation,
-                               Function&& function) const {
-  if (activation == 0) return;
-  for (Eigen::Index e = 0; e < tets_.cols(); ++e) {
-    const Vec3 fibre = gather(x, tets_, e) * along_.col(e);
-    const double stretch = fibre.norm();
-    const Vec3 direction = fibre / stretch;
-    const double rate = direction.dot(gather(v, tets_, e) * along_.col(e));
-    function(e, direction, law_->drag(stretch, activation), rate);
-  }
+/// P = pull (f_v − 1) ∂λ/∂F
+auto FibreDrag::stress(double activation) const {
+  return [this, activation](const Octet& octet, Eight* P) {
+    for (int lane = 0; lane < kBatchSize; ++lane) {
+      const Fibre f = fibre(octet, lane, activation);
+      const double pull = f.share * f.drag.pull * (force_velocity(f.speed).value - 1);
+      for (int k = 0; k < 9; ++k) P[k].lane[lane] = pull * f.slope[k];
+    }
+  };
 }
 
 void FibreDrag::add_force(const Positions& x, const Positions& v, double activation,
                           Positions& f) const {
-  for_each_fibre(x, v, activation,
-                 [&](Eigen::Index e, const Vec3& direction, const Drag& drag, double rate) {
-                   const Vec3 pull = volume_[e] * at_rate(drag, rate).value * direction;
-                   for (int a = 0; a < 4; ++a) f.col(tets_(a, e)) += along_(a, e) * pull;
-                 });
+  if (activation > 0) stencils_.add_force(x, v, stress(activation), f);
 }
 
 void FibreDrag::add_damping(const Positions& x, const Positions& v, double activation, double scale,
                             Lines& lines, BlockMatrix& D) const {
+  if (activation == 0) return;
   const bool had_lines = !lines.empty();
-  lines.resize(static_cast<std::size_t>(tets_.cols()));
-  for_each_fibre(
-      x, v, activation, [&](Eigen::Index e, const Vec3& direction, const Drag& drag, double rate) {
-        const double w = drag.per_rate * rate, factor = force_velocity(w).value;
-        Line& line = lines[static_cast<std::size_t>(e)];
-        if (!had_lines || line.speed != w)  // else asked once more
-          line = {w, factor, force_velocity_slope(w, had_lines ? on_line(line, w) : factor)};
-        const double slope = drag.pull * drag.per_rate * line.slope;
-        const Mat3 damping = scale * volume_[e] * slope * direction * direction.transpose();
-        const int* slot = slots_.data() + 16 * e;
-        for (int b = 0; b < 4; ++b)
-          for (int a = 0; a < 4; ++a) D.block(*slot++) += along_(a, e) * along_(b, e) * damping;
-      });
+  lines.resize(static_cast<std::size_t>(fibres_.cols()));
+  stencils_.add_tangent(
+      x, v,
+      [&](const Octet& octet, Eight* C) {
+        for (int lane = 0; lane < kBatchSize; ++lane) {
+          const Fibre f = fibre(octet, lane, activation);
+          Line& line = lines[point(octet, lane)];
+          line = line_at(f.speed, had_lines ? &line : nullptr);
+          set_tangent(scale * f.share * f.drag.pull * f.drag.per_rate * line.slope, f.slope, lane,
+                      C);
+        }
+      },
+      D);
+}
+
+void FibreDrag::add_plain_damping(const Positions& x, const Positions& v, double activation,
+                                  double scale, const Lines& lines, BlockMatrix& D) const {
+  if (activation == 0) return;
+  stencils_.add_plain_tangent(
+      x, v,
+      [&](const Octet& octet, Eight* C) {
+        for (int lane = 0; lane < kBatchSize; ++lane) {
+          const Fibre f = fibre(octet, lane, activation);
+          const double slope = lines[point(octet, lane)].slope;
+          set_tangent(scale * f.share * f.drag.pull * f.drag.per_rate * slope, f.slope, lane, C);
+        }
+      },
+      D);
 }
 
 void FibreDrag::add_product(const Positions& x, const Positions& v, double activation,
                             const Positions& u, Positions& f) const {
-  for_each_fibre(x, v, activation,
-                 [&](Eigen::Index e, const Vec3& direction, const Drag& drag, double rate) {
-                   const double change = direction.dot(gather(u, tets_, e) * along_.col(e));
-                   const Vec3 pull = volume_[e] * at_rate(drag, rate).slope * change * direction;
-                   for (int a = 0; a < 4; ++a) f.col(tets_(a, e)) += along_(a, e) * pull;
-                 });
+  if (activation == 0) return;
+  const StencilKernels& kernels = stencil_kernels(stencils_.instruction_set());
+  const auto stress = [&](const Octet& octet, Eight* P) {
+    Eight change[9];
+    kernels.deformation_gradient(octet.batch, u.data(), change);
+    for (int lane = 0; lane < kBatchSize; ++lane) {
+      const Fibre f = fibre(octet, lane, activation);
+      const double pull = f.share * f.drag.pull * f.drag.per_rate * force_velocity(f.speed).slope *
+                          f.slope.dot(of_lane(change, lane));
+      for (int k = 0; k < 9; ++k) P[k].lane[lane] = pull * f.slope[k];
+    }
+  };
+  stencils_.add_force(x, v, stress, f);
 }
 
 double FibreDrag::power(const Positions& x, const Positions& v, double activation) const {
-  double sum = 0;
-  for_each_fibre(x, v, activation, [&](Eigen::Index e, const Vec3&, const Drag& drag, double rate) {
-    sum += volume_[e] * at_rate(drag, rate).value * rate;
-  });
-  return sum;
+  return activation > 0 ? stencils_.power(x, v, stress(activation)) : 0;
 }
 
 }  // namespace articular::fem

@@ -3,32 +3,37 @@
 #include <memory>
 #include <vector>
 
-#include "fem/base/types.hpp"
-#include "fem/sparse/block_matrix.hpp"
+#include "fem/element/moving_stencils.hpp"
 
 namespace articular::fem {
 
 class MuscleFibre;  // muscle_fibre.hpp
 
-/// Force–velocity of the fibres of a muscle, in each element of a mesh of linear tetrahedra: what
-/// they pull less while they shorten, and more while they lengthen (MuscleFibre::drag), beside the
-/// elastic law that has their pull at rest. It only takes energy.
+/// Force–velocity of the fibres of a muscle, at the points of MovingStencils: what they pull less
+/// while they shorten, and more while they lengthen (MuscleFibre::drag), beside the elastic law
+/// that has their pull at rest. It only takes energy.
+///
+/// Smoothed elements have it where they have that pull: elsewhere a drag could be more than the
+/// pull, and a fibre that shortens would push.
+///
+/// Holds work memory: one object serves one thread at a time.
 class FibreDrag {
  public:
   /// @param fibres  one an element, none of them 0
-  /// @param matrix  what add_damping() will add to: one block row a node, with the couplings of the
-  ///                elements at least
-  /// @throws std::invalid_argument as Elasticity does
+  /// @param matrix  what add_damping() will add to: see MovingStencils, which also throws
   FibreDrag(const Positions& X, const Tetrahedra& tets, const FibreDirections& fibres,
             const MuscleFibre& law, const BlockMatrix& matrix);
+  /// For matrices of make_matrix(), and of make_plain_matrix().
+  /// @param smoothed  of one material, with fibres
+  FibreDrag(const SmoothedElasticity& smoothed, const MuscleFibre& law);
 
   /// f += the force [N] that moves the shape x on with the velocities v [m/s].
   void add_force(const Positions& x, const Positions& v, double activation, Positions& f) const;
-  /// What a matrix took an element's factor f_v for: factor + slope (w − speed).
+  /// What a matrix took a fibre's factor f_v for: factor + slope (w − speed).
   struct Line {
     double speed = 0, factor = 1, slope = 0;  // [-]
   };
-  using Lines = std::vector<Line>;  // one an element; empty: none
+  using Lines = std::vector<Line>;  // one a point; empty: none
 
   /// D += scale * ∂f/∂v [N s/m]: symmetric, positive semidefinite.
   ///
@@ -39,6 +44,10 @@ class FibreDrag {
   /// @param lines  of the matrix before; then of this one
   void add_damping(const Positions& x, const Positions& v, double activation, double scale,
                    Lines& lines, BlockMatrix& D) const;
+  /// For preconditioners of smoothed elements: the same as if all of it were in the elements.
+  /// @param lines  that add_damping() has set for this motion
+  void add_plain_damping(const Positions& x, const Positions& v, double activation, double scale,
+                         const Lines& lines, BlockMatrix& D) const;
   /// f += ∂f/∂v u.
   void add_product(const Positions& x, const Positions& v, double activation, const Positions& u,
                    Positions& f) const;
@@ -46,16 +55,14 @@ class FibreDrag {
   double power(const Positions& x, const Positions& v, double activation) const;
 
  private:
-  /// Calls function(element, direction of its fibres, their drag, λ̇).
-  template <class Function>
-  void for_each_fibre(const Positions& x, const Positions& v, double activation,
-                      Function&& function) const;
+  using Octet = MovingStencils::Octet;
+  struct Fibre;
+  Fibre fibre(const Octet& octet, int lane, double activation) const;
+  auto stress(double activation) const;
 
-  Tetrahedra tets_;
   std::shared_ptr<const MuscleFibre> law_;
-  Eigen::Matrix4Xd along_;  // ∂N/∂X · a₀ of each element's nodes [1/m]: F a₀ = Σ x ∂N/∂X · a₀
-  Eigen::VectorXd volume_;  // of each element, times the density of its fibres [m³]
-  std::vector<int> slots_;  // 16 an element, 4b + a
+  MovingStencils stencils_;
+  FibreDirections fibres_;  // of each point: eight a batch, as long as they are dense
 };
 
 }  // namespace articular::fem

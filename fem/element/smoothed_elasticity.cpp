@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -130,36 +129,7 @@ SmoothedElasticity::SmoothedElasticity(const Positions& X, const Tetrahedra& tet
   p_work_.resize(num_pressures());
   own_pressure_.setZero(num_elements());
   if (std::ranges::any_of(*materials_, [](const AnyMaterial& m) { return active_stress(m) > 0; }))
-    make_rings();
-}
-
-/// Where elements are in their domains, and domains in make_matrix().
-void SmoothedElasticity::make_rings() {
-  const auto num_domains = static_cast<std::size_t>(domains_.size());
-  rings_.begin.assign(num_domains + 1, 0);
-  for (const int k : domains_.of_element) ++rings_.begin[k + 1];
-  std::partial_sum(rings_.begin.begin(), rings_.begin.end(), rings_.begin.begin());
-  rings_.element.resize(domains_.of_element.size());
-  rings_.slope.resize(volume_.size());
-  std::vector<int> next(rings_.begin.begin(), rings_.begin.end() - 1);
-  for (std::size_t i = 0; i < domains_.of_element.size(); ++i) {
-    const int e = static_cast<int>(i / 6), k = domains_.of_element[i];
-    Ring& ring = rings_.element[next[k]++];
-    ring.element = e;
-    const auto nodes = domains_.node.begin();
-    for (int a = 0; a < 4; ++a)
-      ring.node[a] =
-          static_cast<int>(std::lower_bound(nodes + domains_.node_begin[k],
-                                            nodes + domains_.node_begin[k + 1], tets_(a, e)) -
-                           (nodes + domains_.node_begin[k]));
-  }
-  const BlockMatrix K = make_matrix();
-  for (int k = 0; k < domains_.size(); ++k) {
-    const std::span nodes(&domains_.node[domains_.node_begin[k]],
-                          static_cast<std::size_t>(domains_.num_nodes(k)));
-    for (const int row : nodes)
-      for (const int column : nodes) rings_.slot.push_back(K.slot(row, column));
-  }
+    means_.emplace(tets_, domains_, make_matrix());
 }
 
 /// Calls function(law, k, F_k) for the domains in their order.
@@ -252,6 +222,19 @@ void SmoothedElasticity::for_each_octet(const Positions& x, const Eigen::VectorX
   }
 }
 
+/// Calls function(e, Θ_e) for the elements in the order of their batches.
+template <class Function>
+void SmoothedElasticity::for_each_dilatation(const Positions& x, Function function) const {
+  for (const StencilBatches::Chunk& chunk : stencils_.chunks()) {
+    for_each_element_octet(chunk, x, 0, unit_pressure, 0, [&](const Octet& octet) {
+      Eight theta;
+      octet.law.energy_density(octet.points, octet.batch.count, octet.fibres, theta);
+      for (int lane = 0; lane < octet.batch.count; ++lane)
+        function(stencils_.index(octet.index).lane[lane], theta.lane[lane]);
+    });
+  }
+}
+
 /// κ' [Pa]
 double SmoothedElasticity::own_bulk(int material, double activation) const {
   return smoothing_.active_bulk * activation *
@@ -259,28 +242,20 @@ double SmoothedElasticity::own_bulk(int material, double activation) const {
 }
 
 bool SmoothedElasticity::has_own_bulk(double activation) const {
-  return !rings_.begin.empty() && activation > 0 && smoothing_.active_bulk > 0;
+  return means_ && activation > 0 && smoothing_.active_bulk > 0;
 }
 
 /// own_pressure_ = κ' (Θ_e − Σ_k Θ̄_k/6), k the domains of element e.
 void SmoothedElasticity::set_own_pressures(const Positions& x, double activation) const {
-  if (rings_.begin.empty()) return;  // they stay 0
-  own_pressure_.setZero();
-  if (!has_own_bulk(activation)) return;
-  for_each_element(x, 0, [&](const PointLaw& law, int e, const Mat3& F) {
-    own_pressure_[e] = law.dilatation(F);
-  });
-  domain_dilatation_.setZero(domains_.size());
-  for (int e = 0; e < num_elements(); ++e)
-    for (int i = 0; i < 6; ++i) {
-      const int k = domains_.of_element[6 * static_cast<std::size_t>(e) + i];
-      domain_dilatation_[k] += volume_[e] / (6 * domains_.volume[k]) * own_pressure_[e];
-    }
-  for (int e = 0; e < num_elements(); ++e) {
-    const int* k = &domains_.of_element[6 * static_cast<std::size_t>(e)];
-    for (int i = 0; i < 6; ++i) own_pressure_[e] -= domain_dilatation_[k[i]] / 6;
-    own_pressure_[e] *= own_bulk(material_of_element_[e], activation);
+  if (!means_) return;  // they stay 0
+  if (!has_own_bulk(activation)) {
+    own_pressure_.setZero();
+    return;
   }
+  for_each_dilatation(x, [&](int e, double dilatation) { own_pressure_[e] = dilatation; });
+  means_->subtract(domains_, volume_, own_pressure_);
+  for (int e = 0; e < num_elements(); ++e)
+    own_pressure_[e] *= own_bulk(material_of_element_[e], activation);
 }
 
 const Eight* SmoothedElasticity::element_pressures(int i, const Eigen::VectorXd& p, double own_part,
@@ -302,17 +277,9 @@ double SmoothedElasticity::mean_pressure(int e, const Eigen::VectorXd& p) const 
 void SmoothedElasticity::dilatation(const Positions& x, Eigen::VectorXd& b) const {
   assert(x.cols() == num_nodes_);
   b.setZero(num_pressures());
-  for (const StencilBatches::Chunk& chunk : stencils_.chunks()) {
-    for_each_element_octet(chunk, x, 0, unit_pressure, 0, [&](const Octet& octet) {
-      Eight theta;
-      octet.law.energy_density(octet.points, octet.batch.count, octet.fibres, theta);
-      for (int lane = 0; lane < octet.batch.count; ++lane) {
-        const double quarter = octet.batch.volume->lane[lane] / 4 * theta.lane[lane];
-        const int e = stencils_.index(octet.index).lane[lane];
-        for (const int c : pressure_.of_corner().col(e)) b[c] += quarter;
-      }
-    });
-  }
+  for_each_dilatation(x, [&](int e, double theta) {
+    for (const int c : pressure_.of_corner().col(e)) b[c] += volume_[e] / 4 * theta;
+  });
 }
 
 void SmoothedElasticity::pressure(const Positions& x, Eigen::VectorXd& p) const {
@@ -434,27 +401,16 @@ void SmoothedElasticity::add_stiffness(const Positions& x, const Eigen::VectorXd
     add_stiffness_of_means(x, scale, K, activation);
 }
 
-/// K −= scale Σ_k κ' V_k ∂Θ̄_k/∂x ⊗ ∂Θ̄_k/∂x
 void SmoothedElasticity::add_stiffness_of_means(const Positions& x, double scale, BlockMatrix& K,
                                                 double activation) const {
+  slope_.resize(volume_.size());
   for_each_element(x, 0, [&](const PointLaw& law, int e, const Mat3& F) {
-    rings_.slope[e] = volume_[e] * law.dilatation_gradient(F) * shape_gradients(inverse_edges_[e]);
+    slope_[e] = volume_[e] * law.dilatation_gradient(F) * shape_gradients(inverse_edges_[e]);
   });
-  std::vector<Vec3>& h = rings_.mean_slope;
-  const int* slot = rings_.slot.data();
-  for (std::size_t m = 0; m < materials_->size(); ++m) {
-    const double bulk = own_bulk(static_cast<int>(m), activation);
-    for (int k = domains_.material_begin[m]; k < domains_.material_begin[m + 1]; ++k) {
-      h.assign(static_cast<std::size_t>(domains_.num_nodes(k)), Vec3::Zero());
-      for (int i = rings_.begin[k]; i < rings_.begin[k + 1]; ++i) {
-        const Ring& ring = rings_.element[i];
-        for (int a = 0; a < 4; ++a) h[ring.node[a]] += rings_.slope[ring.element].col(a) / 6;
-      }
-      const double factor = scale * bulk / domains_.volume[k];
-      for (const Vec3& of_row : h)
-        for (const Vec3& of_column : h) K.block(*slot++) -= factor * of_row * of_column.transpose();
-    }
-  }
+  factor_.resize(materials_->size());
+  for (std::size_t m = 0; m < factor_.size(); ++m)
+    factor_[m] = scale * own_bulk(static_cast<int>(m), activation);
+  means_->subtract_stiffness(domains_, slope_, factor_, K);
 }
 
 void SmoothedElasticity::add_plain_stiffness(const Positions& x, Tangent tangent, double scale,

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "fem/base/tangent.hpp"
 #include "fem/base/types.hpp"
+#include "fem/element/dilatation_means.hpp"
 #include "fem/element/stencil_batches.hpp"
 #include "fem/element/stencil_pairs.hpp"
 #include "fem/mesh/edge_domains.hpp"
@@ -167,8 +169,9 @@ class SmoothedElasticity {
   static void add_bulk_tangent(const Octet& octet, double bulk, Eight* C);
   void add_stiffness(const Octet& octet, double bulk, Tangent tangent, double scale,
                      const StencilPairs& pairs, const PairSums& sums) const;
+  template <class Function>
+  void for_each_dilatation(const Positions& x, Function function) const;
   void dilatation(const Positions& x, Eigen::VectorXd& b) const;
-  void make_rings();
 
   int num_nodes_ = 0;
   Tetrahedra tets_;
@@ -189,21 +192,11 @@ class SmoothedElasticity {
   std::vector<EightIndices> gradient_slots_;  // 16 a batch of elements, 4a + c, into G
   mutable Eigen::VectorXd p_work_;
 
-  /// An element of a domain, and which of the domain's nodes its own are.
-  struct Ring {
-    int element = 0, node[4] = {};
-  };
-  /// Of tissue with active fibres.
-  struct Rings {
-    std::vector<int> begin;  // of each domain, into `element`
-    std::vector<Ring> element;
-    std::vector<int> slot;     // in make_matrix(): of all pairs of nodes of a domain, row by row
-    std::vector<Mat34> slope;  // V_e ∂Θ_e/∂x [m²], one an element
-    std::vector<Vec3> mean_slope;  // V_k ∂Θ̄_k/∂x [m²], one a node of a domain
-  };
-  mutable Rings rings_;
-  mutable Eigen::VectorXd own_pressure_;       // [Pa], one an element
-  mutable Eigen::VectorXd domain_dilatation_;  // Θ̄_k
+  // Of tissue with active fibres.
+  std::optional<DilatationMeans> means_;
+  mutable Eigen::VectorXd own_pressure_;  // [Pa], one an element
+  mutable std::vector<Mat34> slope_;      // V_e ∂Θ_e/∂x [m²], one an element
+  mutable std::vector<double> factor_;    // one a material
 };
 
 }  // namespace articular::fem

@@ -32,11 +32,6 @@ std::vector<int> slots_in(const fem::BlockMatrix& A, const fem::BlockMatrix& par
   return slots;
 }
 
-/// Sheets, fibres with a drag: add_beside_elements() adds them.
-bool has_more_than_elements(const Tissue& tissue) {
-  return tissue.fibre_drag || !tissue.sheets.empty();
-}
-
 fem::BlockMatrix matrix_of(const Model& model, Stencils stencils, const Stencils& more) {
   for (std::size_t s = 0; s + 1 < more.offsets.size(); ++s) {
     stencils.blocks.insert(stencils.blocks.end(), more.blocks.begin() + more.offsets[s],
@@ -59,7 +54,7 @@ NewtonMatrix::NewtonMatrix(const Model& model)
     if (const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed()) {
       smoothed_ = true;
       tissues_[t].plain.K = smoothed->make_plain_matrix();
-      if (has_more_than_elements(tissue)) tissues_[t].beside = tissues_[t].plain.K;
+      if (!tissue.sheets.empty()) tissues_[t].beside = tissues_[t].plain.K;
       make_pressure_gradient(t);
     }
   }
@@ -71,8 +66,8 @@ NewtonMatrix::NewtonMatrix(const Model& model)
 /// Sheets, dashpots, fibres with a drag and relaxation need a matrix of the tissue, and so do nodes
 /// whose rigid body is an unknown, which the tissue pushes by levers.
 bool NewtonMatrix::adds_directly(const Tissue& tissue) const {
-  if (tissue.elements.smoothed() != nullptr || has_more_than_elements(tissue) || tissue.dashpots ||
-      tissue.relaxation)
+  if (tissue.elements.smoothed() != nullptr || !tissue.sheets.empty() || tissue.dashpots ||
+      tissue.fibre_drag || tissue.relaxation)
     return false;
   return std::none_of(tissue.nodes.begin(), tissue.nodes.end(), [this](const NodeRef& node) {
     return node.rigid >= 0 && node.rigid < model_.layout.num_rigid;
@@ -234,17 +229,24 @@ void NewtonMatrix::add_dashpots(std::size_t t, const Moment& now, const SystemSc
     tissue.dashpots->add_plain_damping(moment.x, scale.damping, tissues_[t].plain.K);
 }
 
-/// What has the pattern of plain elements and is none.
-void NewtonMatrix::add_beside_elements(std::size_t t, const Moment& now, const SystemScale& scale,
-                                       fem::BlockMatrix& K) {
+void NewtonMatrix::add_fibre_drag(std::size_t t, const Moment& now, const SystemScale& scale) {
   const Tissue& tissue = model_.tissues[t];
+  if (!tissue.fibre_drag) return;
   const TissueMoment& moment = now.tissues[t];
-  for (const SheetModel& sheet : tissue.sheets)
-    sheet.fibres.add_stiffness(moment.x, scale.stiffness, K);
-  if (tissue.fibre_drag)
-    tissue.fibre_drag->add_damping(moment.x, moment.velocity,
-                                   activation_of(tissue, now.configuration), scale.damping,
-                                   tissues_[t].fibre_lines, K);
+  const double activation = activation_of(tissue, now.configuration);
+  TissueWork& work = tissues_[t];
+  tissue.fibre_drag->add_damping(moment.x, moment.velocity, activation, scale.damping,
+                                 work.fibre_lines, work.own.K);
+  if (tissue.elements.smoothed() != nullptr)
+    tissue.fibre_drag->add_plain_damping(moment.x, moment.velocity, activation, scale.damping,
+                                         work.fibre_lines, work.plain.K);
+}
+
+/// Sheets have the pattern of plain elements.
+void NewtonMatrix::add_sheets(std::size_t t, const Moment& now, const SystemScale& scale,
+                              fem::BlockMatrix& K) {
+  for (const SheetModel& sheet : model_.tissues[t].sheets)
+    sheet.fibres.add_stiffness(now.tissues[t].x, scale.stiffness, K);
 }
 
 /// The matrices of a tissue that has some of its own.
@@ -260,8 +262,9 @@ void NewtonMatrix::find_stiffness(std::size_t t, const Moment& now, const System
   work.own.K.set_zero();
   tissue.elements.add_stiffness(now.tissues[t].x, {}, activation_of(tissue, now.configuration),
                                 tangent, scale.stiffness, work.own.K);
-  add_beside_elements(t, now, scale, work.own.K);
+  add_sheets(t, now, scale, work.own.K);
   add_dashpots(t, now, scale, tangent);
+  add_fibre_drag(t, now, scale);
   add_relaxation(t, now, scale, tangent);
 }
 
@@ -273,7 +276,7 @@ void NewtonMatrix::find_smoothed_stiffness(std::size_t t, const Moment& now,
   const double activation = activation_of(tissue, now.configuration);
   const Positions& x = now.tissues[t].x;
   work.beside.set_zero();
-  add_beside_elements(t, now, scale, work.beside);
+  add_sheets(t, now, scale, work.beside);
   work.own.K.set_zero();
   smoothed.add_stiffness(x, now.tissues[t].pressure, tangent, scale.stiffness, work.own.K,
                          activation);
@@ -284,6 +287,7 @@ void NewtonMatrix::find_smoothed_stiffness(std::size_t t, const Moment& now,
                                activation);
   if (for_multigrid_) smoothed.add_compressible_stiffness(x, scale.stiffness, work.plain.K);
   add_dashpots(t, now, scale, tangent);
+  add_fibre_drag(t, now, scale);
   set_pressure_gradient(t, now);
 }
 
@@ -316,7 +320,7 @@ void NewtonMatrix::add_tissue(std::size_t t, const Moment& now, const SystemScal
     return;
   }
   const bool smoothed = tissue.elements.smoothed() != nullptr;
-  if (smoothed && !has_more_than_elements(tissue)) return;
+  if (smoothed && tissue.sheets.empty()) return;
   const fem::BlockMatrix& K = smoothed ? work.beside : work.own.K;
   const TissueMatrix& places = smoothed ? work.plain : work.own;
   add_free(K, places, A);

@@ -68,7 +68,7 @@ class NewtonMatrix {
     std::optional<fem::StiffnessSlots> direct;  // tissues that need no matrix of their own
     TissueMatrix own;                           // the others
     TissueMatrix plain;                         // smoothed: couplings of the elements alone
-    fem::BlockMatrix beside;                    // smoothed: the same couplings
+    fem::BlockMatrix beside;                    // smoothed, with sheets: the same couplings
     fem::PressureGradient node_G, G;            // smoothed: by nodes, and by blocks of unknowns
     fem::FibreDrag::Lines fibre_lines;          // of the last matrix
   };
@@ -83,10 +83,10 @@ class NewtonMatrix {
                       fem::Tangent tangent);
   void find_smoothed_stiffness(std::size_t t, const Moment& now, const SystemScale& scale,
                                fem::Tangent tangent);
-  void add_beside_elements(std::size_t t, const Moment& now, const SystemScale& scale,
-                           fem::BlockMatrix& K);
+  void add_sheets(std::size_t t, const Moment& now, const SystemScale& scale, fem::BlockMatrix& K);
   void add_dashpots(std::size_t t, const Moment& now, const SystemScale& scale,
                     fem::Tangent tangent);
+  void add_fibre_drag(std::size_t t, const Moment& now, const SystemScale& scale);
   void add_relaxation(std::size_t t, const Moment& now, const SystemScale& scale,
                       fem::Tangent tangent);
   void add_tissue(std::size_t t, const Moment& now, const SystemScale& scale, fem::Tangent tangent,

@@ -41,6 +41,12 @@ fem::Dashpots make_dashpots(const TissueMaterial& material, const Tissue& tissue
           tissue.elements.make_matrix()};
 }
 
+fem::FibreDrag make_fibre_drag(const fem::MuscleFibre& fibre, const Tissue& tissue) {
+  if (const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed())
+    return {*smoothed, fibre};
+  return {tissue.X, tissue.elements.tets(), tissue.fibres, fibre, tissue.elements.make_matrix()};
+}
+
 /// As it is around a fibre, on average: of fibres that lie evenly 1.
 double density_around_fibres(const FibreDirections& fibres, const MeshData& mesh) {
   double fibre = 0, around = 0;
@@ -95,8 +101,7 @@ Tissue make_tissue(const Scenario& scenario, const Model& model,
       tissue.dashpots = make_dashpots(material, tissue);
     const std::optional<fem::MuscleFibre> fibre = fem::muscle_fibre(*material.law);
     if (fibre && fibre->has_drag() && !model.is_static)
-      tissue.fibre_drag.emplace(mesh.X, mesh.tets, fibres, *fibre,
-                                tissue.elements.make_plain_matrix());
+      tissue.fibre_drag = make_fibre_drag(*fibre, tissue);
     if (!material.relaxation.empty())
       tissue.relaxation.emplace(material.relaxation, *material.law,
                                 tissue.elements.distortion_points(mesh.X),

@@ -83,21 +83,26 @@ struct Snap {
   double loss = 0;      // [J]
 };
 
+/// The element whose volume was least or largest by that at rest.
+struct ExtremeVolume {
+  double ratio = 1;
+  int tissue = -1;
+  std::int64_t element = -1;
+  double at = 0;  // [s]
+};
+
 /// Extreme values at the start or the end of any step, for warnings.
 struct RunExtrema {
-  double volume_ratio = 1;  // least of any element
-  int tissue = -1;          // that has it
-  std::int64_t element = -1;
-  double squeezed_at = 0;  // [s]
-  WorstContact overlap;    // by the depth that their contact can follow
-  WorstContact layer;      // by the thickness of the layers between them
-  WorstContact driven;     // [m] of rigid bodies that the scenario moves, with no layer between
-  WorstLigament strain;    // [-] of its slack length; of those that are not linear
-  Snap snap;               // the first one
-  double kinetic = 0;      // [J], largest
-  double work = 0;         // [J], largest sum of what muscles, loads and driven motions had done
-  double moved_at = 0;     // [s], last with kinetic energy that counts beside what was turned over
-  double made = 0;         // [J], most that had come from nowhere when a frame was written
+  ExtremeVolume least, largest;
+  WorstContact overlap;  // by the depth that their contact can follow
+  WorstContact layer;    // by the thickness of the layers between them
+  WorstContact driven;   // [m] of rigid bodies that the scenario moves, with no layer between
+  WorstLigament strain;  // [-] of its slack length; of those that are not linear
+  Snap snap;             // the first one
+  double kinetic = 0;    // [J], largest
+  double work = 0;       // [J], largest sum of what muscles, loads and driven motions had done
+  double moved_at = 0;   // [s], last with kinetic energy that counts beside what was turned over
+  double made = 0;       // [J], most that had come from nowhere when a frame was written
   double gravity_low = std::numeric_limits<double>::infinity();  // [J]
   double gravity_high = -std::numeric_limits<double>::infinity();
 };

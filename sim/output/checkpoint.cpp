@@ -13,7 +13,7 @@
 namespace articular::sim {
 namespace {
 
-constexpr char kMagic[] = "articular checkpoint 15\n";
+constexpr char kMagic[] = "articular checkpoint 16\n";
 
 constexpr const char *kNewest = "state.bin", *kBefore = "previous.bin";
 
@@ -93,12 +93,18 @@ void each_of_snap(AnySnap& snap, const Visit& visit) {
   visit(snap.loss);
 }
 
+template <class AnyVolume, class Visit>
+void each_of_volume(AnyVolume& volume, const Visit& visit) {
+  visit(volume.ratio);
+  visit(volume.tissue);
+  visit(volume.element);
+  visit(volume.at);
+}
+
 template <class Extrema, class Visit>
 void each_of_extrema(Extrema& extrema, const Visit& visit) {
-  visit(extrema.volume_ratio);
-  visit(extrema.tissue);
-  visit(extrema.element);
-  visit(extrema.squeezed_at);
+  each_of_volume(extrema.least, visit);
+  each_of_volume(extrema.largest, visit);
   each_of_worst(extrema.overlap, visit);
   each_of_worst(extrema.layer, visit);
   each_of_worst(extrema.driven, visit);

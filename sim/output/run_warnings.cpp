@@ -27,6 +27,9 @@ constexpr double kDrivenDepth = 1e-6;
 /// Of the volume at rest: the law "neo-hookean" stays crushed below 0.16 at ν = 0, and below 0.02
 /// at ν = 0.3 (fem/THEORY.md).
 constexpr double kCrushed = 0.1;
+/// Of the volume at rest: elements of shipped scenarios, which resist growth next to others that
+/// shrink, stay below 2.
+constexpr double kSwollen = 3;
 /// Of the slack length: most ligaments tear at a fifth to two fifths, and their law knows no end.
 constexpr double kTorn = 0.5;
 /// Of |F − I|: a beam whose end is turned by 20 degrees is off by some per cent.
@@ -168,17 +171,31 @@ void warn_of_unresolved_contacts(const Model& model, const Stepper& stepper,
         fmt::format("{} more contacts are not resolved at the end either", count - kMostNamed));
 }
 
-void warn_of_squeezed_elements(const Model& model, const RunExtrema& extrema,
+std::string element_of(const Model& model, const ExtremeVolume& volume) {
+  return fmt::format(
+      "element {} of tissue `{}`", volume.element,
+      name_of_body(model, model.tissues[static_cast<std::size_t>(volume.tissue)].body));
+}
+
+void warn_of_swollen_elements(const Model& model, const ExtremeVolume& largest,
+                              std::vector<std::string>& warnings) {
+  if (largest.ratio <= kSwollen) return;
+  warnings.push_back(fmt::format(
+      "{} grew to {:.2g} times its volume at t = {:.4g} s: soft tissue is mostly water and hardly "
+      "grows; expected a larger bulk modulus or Poisson's ratio, smaller elements, or less of a "
+      "load or motion",
+      element_of(model, largest), largest.ratio, largest.at));
+}
+
+void warn_of_squeezed_elements(const Model& model, const ExtremeVolume& least,
                                std::vector<std::string>& warnings) {
-  if (extrema.volume_ratio >= kCrushed) return;
-  const std::string element = fmt::format(
-      "element {} of tissue `{}`", extrema.element,
-      name_of_body(model, model.tissues[static_cast<std::size_t>(extrema.tissue)].body));
-  if (extrema.volume_ratio <= 0)
+  if (least.ratio >= kCrushed) return;
+  const std::string element = element_of(model, least);
+  if (least.ratio <= 0)
     warnings.push_back(
         fmt::format("{} was inside out at t = {:.4g} s (volume ratio {:.3g}): it was "
                     "driven or pressed harder than its law can bear",
-                    element, extrema.squeezed_at, extrema.volume_ratio));
+                    element, least.at, least.ratio));
   else
     warnings.push_back(
         fmt::format("{} was crushed to {:.2g} of its volume at t = {:.4g} s: some laws "
@@ -186,7 +203,7 @@ void warn_of_squeezed_elements(const Model& model, const RunExtrema& extrema,
                     "stiffer tissue, "
                     "a smaller motion or load, or another law (for what is pressed far: "
                     "coupled-neo-hookean)",
-                    element, extrema.volume_ratio, extrema.squeezed_at));
+                    element, least.ratio, least.at));
 }
 
 void warn_of_deep_contacts(const Model& model, const RunExtrema& extrema,
@@ -242,7 +259,8 @@ std::vector<std::string> run_warnings(const Model& model, const State& state,
                                       const Stepper& stepper) {
   std::vector<std::string> warnings;
   const RunExtrema& extrema = state.extrema;
-  warn_of_squeezed_elements(model, extrema, warnings);
+  warn_of_squeezed_elements(model, extrema.least, warnings);
+  warn_of_swollen_elements(model, extrema.largest, warnings);
   warn_of_deep_contacts(model, extrema, warnings);
   warn_of_torn_ligaments(model, extrema.strain, warnings);
   warn_of_snap(model, extrema.snap, warnings);

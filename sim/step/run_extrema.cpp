@@ -61,6 +61,14 @@ double work_done(const EnergyLedger& l) {
   return std::abs(l.muscle_work) + std::abs(l.load_work) + std::abs(l.motion_work);
 }
 
+void note_volumes(const Eigen::VectorXd& ratios, int tissue, double t, RunExtrema& extrema) {
+  Eigen::Index e = 0;
+  if (const double ratio = ratios.minCoeff(&e); ratio < extrema.least.ratio)
+    extrema.least = {ratio, tissue, e, t};
+  if (const double ratio = ratios.maxCoeff(&e); ratio > extrema.largest.ratio)
+    extrema.largest = {ratio, tissue, e, t};
+}
+
 }  // namespace
 
 void note_balance(double numerical_loss, State& state) {
@@ -73,13 +81,7 @@ void note_extrema(const Moment& now, State& state) {
   Positions x;
   for (std::size_t t = 0; t < model.tissues.size(); ++t) {
     positions_of(now.configuration, model.tissues[t].nodes, x);
-    Eigen::Index element = 0;
-    const double least = model.tissues[t].elements.volume_ratio(x).minCoeff(&element);
-    if (!(least < extrema.volume_ratio)) continue;
-    extrema.volume_ratio = least;
-    extrema.tissue = static_cast<int>(t);
-    extrema.element = element;
-    extrema.squeezed_at = state.t;
+    note_volumes(model.tissues[t].elements.volume_ratio(x), static_cast<int>(t), state.t, extrema);
   }
   note_strains(now, state.t, extrema.strain);
   const ContactDepths depths = now.contact.node_depths();

@@ -17,9 +17,9 @@ std::vector<double> numbers(const EnergyLedger& l) {
 }
 
 std::vector<double> numbers(const RunExtrema& e) {
-  std::vector<double> all{e.volume_ratio, double(e.tissue), double(e.element), e.squeezed_at,
-                          e.kinetic,      e.work,           e.moved_at,        e.made,
-                          e.gravity_low,  e.gravity_high};
+  std::vector<double> all{e.kinetic, e.work, e.moved_at, e.made, e.gravity_low, e.gravity_high};
+  for (const ExtremeVolume& volume : {e.least, e.largest})
+    all.insert(all.end(), {volume.ratio, double(volume.tissue), double(volume.element), volume.at});
   for (const WorstContact& worst : {e.overlap, e.layer, e.driven})
     all.insert(all.end(), {worst.value, double(worst.of), worst.at});
   all.insert(all.end(), {e.strain.value, double(e.strain.of), e.strain.at});

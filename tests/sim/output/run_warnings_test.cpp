@@ -110,7 +110,7 @@ TEST(RunWarnings, ElementsInsideOutAreNamed) {
   run.stepper.restart(run.state);
   run.state.energy.start = run.stepper.stored_energy().total();
   run.advance(2e-3);
-  EXPECT_LT(run.state.extrema.volume_ratio, 0);
+  EXPECT_LT(run.state.extrema.least.ratio, 0);
   EXPECT_TRUE(has(all_warnings(run), "of tissue `block` was inside out")) << all_warnings(run);
 }
 
@@ -124,6 +124,20 @@ TEST(RunWarnings, ElementsThatAreCrushedAreNamed) {
     run.state.energy.start = run.stepper.stored_energy().total();
     run.advance(1e-5);
     EXPECT_EQ(has(all_warnings(run), "of tissue `block` was crushed to 0.00"), size == 0.2)
+        << all_warnings(run);
+  }
+}
+
+TEST(RunWarnings, ElementsThatGrowFarAreNamed) {
+  for (const double size : {1.1, 1.6}) {
+    Scenario s = scene(1e-5);
+    s.bodies = {box_body("block", Body::Kind::Tissue, {0.01, 0.01, 0.01}, Vec3::Zero(), {2, 2, 2})};
+    Simulation run(s);
+    run.state.y.head(3 * run.model.layout.num_free_nodes) *= size;
+    run.stepper.restart(run.state);
+    run.state.energy.start = run.stepper.stored_energy().total();
+    run.advance(1e-5);
+    EXPECT_EQ(has(all_warnings(run), "of tissue `block` grew to 4.1 times its volume"), size == 1.6)
         << all_warnings(run);
   }
 }
