@@ -224,6 +224,10 @@ struct Resolver {
     return ObservedStretch{body(fibres.tissue).tissue};
   }
 
+  Observed operator()(const VolumeProbe& volume) const {
+    return ObservedVolume{body(volume.tissue).tissue};
+  }
+
   Observed operator()(const SheetProbe& probed) const {
     for (std::size_t t = 0; t < model.tissues.size(); ++t) {
       const std::vector<SheetModel>& sheets = model.tissues[t].sheets;

@@ -318,6 +318,10 @@ struct ObservedStretch {
   int tissue = 0;  // index into Model::tissues; it has fibres
 };
 
+struct ObservedVolume {
+  int tissue = 0;  // index into Model::tissues
+};
+
 struct ObservedSheet {
   int tissue = 0;  // index into Model::tissues
   int sheet = 0;   // index into its sheets
@@ -348,7 +352,8 @@ using Observed =
                  ObservedContacts, ObservedMuscle, ObservedFibres, ObservedLigament, ObservedBolus,
                  ObservedMomentArm, ObservedMuscleMoment, ObservedWrap, ObservedEnergy,
                  ObservedReaction, ObservedSupport, ObservedAttachment, ObservedStretch,
-                 ObservedSheet, ObservedStress, ObservedExtent, ObservedShare, ObservedJoint>;
+                 ObservedVolume, ObservedSheet, ObservedStress, ObservedExtent, ObservedShare,
+                 ObservedJoint>;
 
 struct ProbeModel {
   std::string name;

@@ -34,6 +34,7 @@ class Columns {
   explicit Columns(const LengthUnit& unit)
       : length_(unit.name),
         area_(unit.name + "^2"),
+        volume_(unit.name + "^3"),
         speed_(unit.name + "/s"),
         per_metre_(1 / unit.metres) {}
   virtual ~Columns() = default;
@@ -50,6 +51,9 @@ class Columns {
     number(what, length_, x);
   }
   void area(std::string_view what, double A) { number(what, area_, A * per_metre_ * per_metre_); }
+  void volume(std::string_view what, double V) {
+    number(what, volume_, V * per_metre_ * per_metre_ * per_metre_);
+  }
   void place(std::string_view what, std::optional<Vec3> x) {
     if (x) *x *= per_metre_;
     vector(what, length_, x);
@@ -61,7 +65,7 @@ class Columns {
   void velocity(std::string_view what, const Vec3& v) { vector(what, speed_, v * per_metre_); }
 
  private:
-  std::string length_, area_, speed_;  // names
+  std::string length_, area_, volume_, speed_;  // names
   double per_metre_;
 };
 
@@ -347,22 +351,56 @@ struct FibreReading {
   double stretch = 0;  // mean over the volume at rest
 };
 
-struct Stretch {
-  double mean = 0, largest = 0;  // over the volume at rest
+/// Of a number that each element of a tissue has.
+struct OverElements {
+  double mean = 0, least = 0, largest = 0;  // the mean over the volume at rest
 };
+
+Eigen::Map<const Eigen::VectorXd> rest_volume(const TissueElements& elements) {
+  return {elements.rest_volume().data(), static_cast<Eigen::Index>(elements.rest_volume().size())};
+}
+
+OverElements over_elements(const TissueElements& elements, const Eigen::VectorXd& value) {
+  const auto volume = rest_volume(elements);
+  return {value.dot(volume) / volume.sum(), value.minCoeff(), value.maxCoeff()};
+}
+
+struct Stretch : OverElements {};
 
 Stretch measure(const ObservedStretch& observed, const Now& now) {
   const auto t = static_cast<std::size_t>(observed.tissue);
   const TissueElements& elements = now.model.tissues[t].elements;
-  const Eigen::Map<const Eigen::VectorXd> volume(
-      elements.rest_volume().data(), static_cast<Eigen::Index>(elements.rest_volume().size()));
-  const Eigen::VectorXd stretch = elements.fibre_stretch(now.moment().tissues[t].x);
-  return {stretch.dot(volume) / volume.sum(), stretch.maxCoeff()};
+  return {over_elements(elements, elements.fibre_stretch(now.moment().tissues[t].x))};
 }
 
 void list(const Stretch& stretch, Columns& columns) {
   columns.number("stretch", "-", stretch.mean);
   columns.number("largest_stretch", "-", stretch.largest);
+  columns.number("least_stretch", "-", stretch.least);
+}
+
+struct VolumeReading {
+  double volume = 0;  // [m³]
+  OverElements ratio;
+  double spread = 0;  // standard deviation of the ratio over the volume at rest
+};
+
+VolumeReading measure(const ObservedVolume& observed, const Now& now) {
+  const auto t = static_cast<std::size_t>(observed.tissue);
+  const TissueElements& elements = now.model.tissues[t].elements;
+  const Eigen::VectorXd ratios = elements.volume_ratio(now.moment().tissues[t].x);
+  const OverElements ratio = over_elements(elements, ratios);
+  const double variance =
+      over_elements(elements, (ratios.array() - ratio.mean).square().matrix()).mean;
+  return {ratio.mean * rest_volume(elements).sum(), ratio, std::sqrt(variance)};
+}
+
+void list(const VolumeReading& reading, Columns& columns) {
+  columns.volume("volume", reading.volume);
+  columns.number("ratio", "-", reading.ratio.mean);
+  columns.number("least_ratio", "-", reading.ratio.least);
+  columns.number("largest_ratio", "-", reading.ratio.largest);
+  columns.number("ratio_spread", "-", reading.spread);
 }
 
 struct SheetReading {

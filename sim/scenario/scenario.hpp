@@ -441,6 +441,11 @@ struct FibresProbe {
   std::string tissue;
 };
 
+/// How large a tissue is, and how far its elements grow and shrink.
+struct VolumeProbe {
+  std::string tissue;
+};
+
 /// How far the fibres of a sheet are drawn out, and how they pull.
 struct SheetProbe {
   std::string sheet;
@@ -482,8 +487,8 @@ struct Probe {
   std::string name;
   std::variant<PointProbe, WayProbe, AngleProbe, HelicalAxisProbe, ContactProbe, ContactsProbe,
                LineProbe, MomentArmProbe, MuscleMomentProbe, WrapProbe, EnergyProbe, ReactionProbe,
-               SupportProbe, AttachmentProbe, FibresProbe, SheetProbe, StressProbe, ExtentProbe,
-               ShareProbe, JointProbe>
+               SupportProbe, AttachmentProbe, FibresProbe, VolumeProbe, SheetProbe, StressProbe,
+               ExtentProbe, ShareProbe, JointProbe>
       what;
   Location where = {};
 };

@@ -226,6 +226,10 @@ Target read_fibres_probe(const TableReader& table, const Context& context, const
   return FibresProbe{body.name};
 }
 
+Target read_volume_probe(const TableReader& table, const Context& context, const Named&) {
+  return VolumeProbe{read_body_of_kind(table.at("body"), context, Body::Kind::Tissue, "tissue")};
+}
+
 Target read_sheet_probe(const TableReader& table, const Context& context, const Named& named) {
   const Node& node = table.at("sheet");
   const std::string sheet = context.name(read_text(node));
@@ -302,6 +306,7 @@ constexpr ProbeKind kProbeKinds[] = {
     {"reaction", read_reaction, true, "force and moment on what holds a body or tissue"},
     {"attachment", read_attachment, true, "force and moment of a tissue on a bone at tied nodes"},
     {"fibres", read_fibres_probe, true, "stretch of a tissue's fibres from their free length"},
+    {"volume", read_volume_probe, true, "volume of a tissue, and by that at rest of its elements"},
     {"sheet", read_sheet_probe, true,
      "stretch of a sheet's fibres, and their pull by the sheet's width"},
     {"stress", read_stress, true, "stress in a tissue or a part of it"},
@@ -337,6 +342,8 @@ std::vector<Key> own_keys(std::string_view kind) {
              kRequired,
              "of the body, at the start: the axis is shown where it is nearest to it"}};
   if (kind == "fibres") return {body};
+  if (kind == "volume")
+    return {{"body", {form::Text{"name of a tissue"}}, kRequired, "the tissue"}};
   if (kind == "sheet") return {{"sheet", {form::Text{"name of a sheet"}}, kRequired, "the sheet"}};
   if (kind == "angle")
     return {body, {"axis", {form::Direction{}}, standard({1, 0, 0}), "about which it turns"}};

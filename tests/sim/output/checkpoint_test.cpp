@@ -68,10 +68,8 @@ State some_state() {
   s.counts.reported_pairs = 12;
   s.counts.deep_pairs = 13;
   s.overlap_resolution = {{{1, 0.2, 0.3}, {2, 0.4, 0.5}}, 3, 7, 0.6};
-  s.extrema = {0.1,
-               2,
-               3,
-               0.4,
+  s.extrema = {{0.1, 2, 3, 0.4},
+               {3.1, 1, 4, 0.3},
                {0.5, 6, 0.7},
                {0.8, 9, 1.0},
                {1.1, 12, 1.3},

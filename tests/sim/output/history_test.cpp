@@ -160,8 +160,8 @@ kind = "fixed"
 )";
 }
 
-// Half of a bar is drawn out by 2, the other half by 1.1.
-TEST(FibresProbe, HasTheMeanOverTheVolumeAndTheLargestStretch) {
+// Half of a bar is drawn out by 2, the other half not at all, and none becomes narrower.
+TEST(TissueProbes, HaveTheMeanOverTheVolumeAndTheExtremesOfFibresAndVolumes) {
   const TemporaryFolder folder;
   const std::string material =
       R"({ law = "transversely-isotropic", c10 = "1 kPa", c3 = "1 kPa", c4 = 1, c5 = "1 kPa", toe_end = 1.1, bulk_modulus = "10 kPa", prestretch = 1.1, fibres = { direction = [0, 0, 1] } })";
@@ -183,12 +183,24 @@ translation = ["0 0 0 mm", "0 0 2 mm"]
 name = "fibres"
 kind = "fibres"
 body = "bar"
+[[probe]]
+name = "bar"
+kind = "volume"
+body = "bar"
+[output]
+length_unit = "mm"
 )";
   Simulation run(read_scenario(folder.file("bar.toml", text)));
   run.advance(1);
   const Probes probes(run);
   EXPECT_NEAR(probes("fibres.stretch [-]"), 1.1 * 1.5, 1e-9);
   EXPECT_NEAR(probes("fibres.largest_stretch [-]"), 1.1 * 2, 1e-9);
+  EXPECT_NEAR(probes("fibres.least_stretch [-]"), 1.1, 1e-9);
+  EXPECT_NEAR(probes("bar.volume [mm^3]"), 6, 1e-9);
+  EXPECT_NEAR(probes("bar.ratio [-]"), 1.5, 1e-9);
+  EXPECT_NEAR(probes("bar.largest_ratio [-]"), 2, 1e-9);
+  EXPECT_NEAR(probes("bar.least_ratio [-]"), 1, 1e-9);
+  EXPECT_NEAR(probes("bar.ratio_spread [-]"), 0.5, 1e-9);
 }
 
 // A bar of 4 mm in a plate that turns by a right angle and moves: the bar goes along, and reaches

@@ -313,6 +313,11 @@ kind = "attachment"
 bodies = ["tissue", "skull"]
 mirror = "x"
 [[probe]]
+name = "volume"
+kind = "volume"
+body = "of transversely-isotropic"
+mirror = "x"
+[[probe]]
 name = "fibres"
 kind = "fibres"
 body = "of transversely-isotropic"

@@ -447,6 +447,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"FibresProbeOfTissueWithout",
                 kStart + "[[probe]]\nname = \"p\"\nkind = \"fibres\"\nbody = @\"disc_left\"\n",
                 "`body`: expected a tissue with fibres, body `disc_left` has none"},
+        Mistake{"VolumeProbeOfBone",
+                kStart + "[[probe]]\nname = \"p\"\nkind = \"volume\"\nbody = @\"skull\"\n",
+                "`body`: expected a tissue body, body `skull` is none"},
         Mistake{"SheetOnBone",
                 kStart + "[[sheet]]\nname = \"s\"\nbody = @\"skull\"\nregion = {}\nthickness = \"1 "
                          "mm\"\nyoung_modulus = \"1 MPa\"\nfibres = { direction = [1, 0, 0] }\n",
