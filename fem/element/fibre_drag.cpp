@@ -43,10 +43,19 @@ FibreDrag::Line line_at(double w, const FibreDrag::Line* before) {
   return {w, factor, force_velocity_slope(w, before != nullptr ? on_line(*before, w) : factor)};
 }
 
-/// C = Σ stiffness g ⊗ g of one point
-void set_tangent(double stiffness, const Vec9& g, int lane, Eight* C) {
-  for (int n = 0; n < 9; ++n)
-    for (int m = 0; m < 9; ++m) C[m + 9 * n].lane[lane] = stiffness * g[m] * g[n];
+/// ∂P/∂Ḟ = damping ∂λ/∂F ⊗ ∂λ/∂F
+/// @param fibre_at  fibre_at(octet, lane)
+/// @param slope     slope(point, w): that of f_v
+template <class FibreAt, class Slope>
+auto tangent(FibreAt fibre_at, double scale, Slope slope) {
+  return [=](const MovingStencils::Octet& octet, Eight* C) {
+    for (int lane = 0; lane < kBatchSize; ++lane) {
+      const auto f = fibre_at(octet, lane);
+      const double damping = scale * f.damping(slope(point(octet, lane), f.speed));
+      for (int n = 0; n < 9; ++n)
+        for (int m = 0; m < 9; ++m) C[m + 9 * n].lane[lane] = damping * f.slope[m] * f.slope[n];
+    }
+  };
 }
 
 }  // namespace
@@ -57,6 +66,10 @@ struct FibreDrag::Fibre {
   double share;  // density times the share of the point
   MuscleFibre::Drag drag;
   double speed;  // w [-]
+
+  double damping(double slope_of_factor) const {
+    return share * drag.pull * drag.per_rate * slope_of_factor;
+  }
 };
 
 FibreDrag::FibreDrag(const Positions& X, const Tetrahedra& tets, const FibreDirections& fibres,
@@ -105,33 +118,21 @@ void FibreDrag::add_damping(const Positions& x, const Positions& v, double activ
   if (activation == 0) return;
   const bool had_lines = !lines.empty();
   lines.resize(static_cast<std::size_t>(fibres_.cols()));
-  stencils_.add_tangent(
-      x, v,
-      [&](const Octet& octet, Eight* C) {
-        for (int lane = 0; lane < kBatchSize; ++lane) {
-          const Fibre f = fibre(octet, lane, activation);
-          Line& line = lines[point(octet, lane)];
-          line = line_at(f.speed, had_lines ? &line : nullptr);
-          set_tangent(scale * f.share * f.drag.pull * f.drag.per_rate * line.slope, f.slope, lane,
-                      C);
-        }
-      },
-      D);
+  const auto slope = [&lines, had_lines](std::size_t point, double w) {
+    Line& line = lines[point];
+    line = line_at(w, had_lines ? &line : nullptr);
+    return line.slope;
+  };
+  const auto fibre_at = [&](const Octet& o, int lane) { return fibre(o, lane, activation); };
+  stencils_.add_tangent(x, v, tangent(fibre_at, scale, slope), D);
 }
 
 void FibreDrag::add_plain_damping(const Positions& x, const Positions& v, double activation,
                                   double scale, const Lines& lines, BlockMatrix& D) const {
   if (activation == 0) return;
-  stencils_.add_plain_tangent(
-      x, v,
-      [&](const Octet& octet, Eight* C) {
-        for (int lane = 0; lane < kBatchSize; ++lane) {
-          const Fibre f = fibre(octet, lane, activation);
-          const double slope = lines[point(octet, lane)].slope;
-          set_tangent(scale * f.share * f.drag.pull * f.drag.per_rate * slope, f.slope, lane, C);
-        }
-      },
-      D);
+  const auto slope = [&lines](std::size_t point, double) { return lines[point].slope; };
+  const auto fibre_at = [&](const Octet& o, int lane) { return fibre(o, lane, activation); };
+  stencils_.add_plain_tangent(x, v, tangent(fibre_at, scale, slope), D);
 }
 
 void FibreDrag::add_product(const Positions& x, const Positions& v, double activation,
@@ -143,8 +144,8 @@ void FibreDrag::add_product(const Positions& x, const Positions& v, double activ
     kernels.deformation_gradient(octet.batch, u.data(), change);
     for (int lane = 0; lane < kBatchSize; ++lane) {
       const Fibre f = fibre(octet, lane, activation);
-      const double pull = f.share * f.drag.pull * f.drag.per_rate * force_velocity(f.speed).slope *
-                          f.slope.dot(of_lane(change, lane));
+      const double pull =
+          f.damping(force_velocity(f.speed).slope) * f.slope.dot(of_lane(change, lane));
       for (int k = 0; k < 9; ++k) P[k].lane[lane] = pull * f.slope[k];
     }
   };

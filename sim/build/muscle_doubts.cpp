@@ -131,6 +131,22 @@ std::pair<std::string, Location> doubt_of_fibres(const Body& body, const Tissue&
   return {};
 }
 
+/// Of the substance between fibres that pull, which should give way to them and keep its volume;
+/// "" if none.
+std::string doubt_of_substance(const Body& body, const Tissue& tissue) {
+  const auto less = [&](const char* what, double modulus, const char* consequence) {
+    return fmt::format(
+        "the fibres of `{}` can pull with {:.3g} kPa, and its {} modulus is {:.3g} kPa: {}; are "
+        "units those that were meant?",
+        body.name, 1e-3 * tissue.active_stress, what, 1e-3 * modulus, consequence);
+  };
+  if (tissue.shear_modulus > tissue.active_stress)
+    return less("shear", tissue.shear_modulus, "it will hardly shorten");
+  if (tissue.bulk_modulus < tissue.active_stress)
+    return less("bulk", tissue.bulk_modulus, "it will not keep its volume");
+  return {};
+}
+
 /// Stress that relaxes is that of the whole law.
 std::string doubt_of_relaxation(const Body& body) {
   double sum = 0;
@@ -155,6 +171,10 @@ std::vector<std::string> muscle_doubts(const Scenario& scenario, const Model& mo
     if (!(model.tissues[static_cast<std::size_t>(t)].active_stress > 0)) continue;
     if (!body.material->relaxation.empty())
       doubts.push_back(prefix(body.material->where) + doubt_of_relaxation(body));
+    if (const std::string substance =
+            doubt_of_substance(body, model.tissues[static_cast<std::size_t>(t)]);
+        !substance.empty())
+      doubts.push_back(prefix(body.material->where) + substance);
     if (const std::string flux = doubt_of_flux(body, model, static_cast<std::size_t>(t));
         !flux.empty())
       doubts.push_back(prefix(body.material->fibres->where) + flux);

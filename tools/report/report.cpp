@@ -86,6 +86,10 @@ Json run_data(const fs::path& folder) {
 }  // namespace
 
 int report(const ReportOptions& options) {
+  if (const std::string ending = options.out.extension().string();
+      !options.out.empty() && ending != ".html" && ending != ".htm")
+    throw sim::InputError({sim::one_line(options.out.string())},
+                          "a report is a web page: expected a file name that ends in .html");
   const std::string page = empty_page();
   const bool is_run = is_folder(options.what);
   const fs::path scenario = is_run ? fs::path() : find_file_for("run", options.what);

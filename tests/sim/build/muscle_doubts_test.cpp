@@ -180,6 +180,22 @@ TEST(MuscleDoubts, AreOfActiveStressThatRelaxes) {
 }
 
 // In a scene with one that pulls, others are silent on purpose: openers while closers bite.
+TEST(MuscleDoubts, AreOfASubstanceThatHoldsItsFibresOrLosesItsVolume) {
+  for (const auto& [shear, bulk, words] :
+       {std::tuple(500.0, 1e7, ""), std::tuple(5e5, 1e7, "it will hardly shorten"),
+        std::tuple(500.0, 1e4, "it will not keep its volume")}) {
+    Scenario s = fibres(2e5);
+    s.bodies[0].material = material_of(
+        fem::BlemkerMuscle<>(fem::MuscleFibre({}), {.G1 = shear, .G2 = shear, .kappa = bulk}));
+    s.bodies[0].material->fibres = Fibres{Vec3::UnitZ()};
+    s.bodies[0].material->element = TissueMaterial::Element::Smoothed;
+    s.muscles = {of_fibres(kPull)};
+    const std::string told = doubt(s);
+    EXPECT_TRUE(says(told, words)) << told;
+    EXPECT_EQ(told.empty(), std::string_view(words).empty()) << told;
+  }
+}
+
 TEST(MuscleDoubts, AreOfLinesOfWhichNoneIsExcited) {
   Scenario s = fibres(0);
   s.muscles = {line("closer", kNone), line("opener", kNone)};

@@ -194,7 +194,7 @@ TEST(OverrideFiles, LinesStandForOverridesAndMistakesHaveTheirLine) {
   const TemporaryFolder folder;
   const std::string scenario =
       "'" ARTICULAR_SOURCE_DIR "/scenarios/verification/hanging_beam.toml'";
-  folder.file("good", "# a remark\n\n  duration=\"2 s\"\r\n");
+  folder.file("good", "\xEF\xBB\xBF# a remark\n\n  duration=\"2 s\"\r\n");
   EXPECT_NE(run_program(folder, "explain --json " + scenario + " --set @good").out.find("2.0"),
             std::string::npos);
   folder.file("bad", "# a remark\nduration\n");

@@ -53,6 +53,10 @@ TEST_F(Report, GoesWhereAsked) {
   EXPECT_TRUE(fs::exists(folder_ / "page.html"));
   EXPECT_FALSE(fs::exists(folder_ / "block/report.html"));
   EXPECT_EQ(run_program(folder_, "report block -o nowhere/page.html").exit_code, 4);
+  const ProgramResult pdf = run_program(folder_, "report block -o page.pdf");
+  EXPECT_EQ(pdf.exit_code, 2);
+  EXPECT_NE(pdf.err.find("page.pdf: a report is a web page: expected"), std::string::npos)
+      << pdf.err;
 }
 
 TEST_F(Report, HoldsTheSummaryAndAllProbes) {
