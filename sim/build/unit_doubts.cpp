@@ -69,6 +69,24 @@ const std::vector<double>& times_of(const Load& load) {
       load);
 }
 
+/// Activation follows in tens of milliseconds: an excitation that is over so soon [s], early in the
+/// run, was meant to be in other units.
+constexpr double kShortestExcitation = 2e-3, kEarly = 0.1;
+
+template <class Doubt>
+void doubt_short_excitations(const Scenario& scenario, const Doubt& doubt) {
+  if (scenario.analysis == Scenario::Analysis::Static) return;
+  for (const Muscle& muscle : scenario.muscles) {
+    const std::vector<double>& times = muscle.excitation.time;
+    if (times.size() > 1 && times.back() < kShortestExcitation &&
+        times.back() < kEarly * scenario.duration)
+      doubt(muscle.where,
+            fmt::format("the excitation of `{}` changes within {:.3g} ms and no more, in a run of "
+                        "{:.4g} s: are its times in seconds?",
+                        muscle.name, 1e3 * times.back(), scenario.duration));
+  }
+}
+
 /// Curves of which a run sees nothing but the first value: "10 s" for "10 ms".
 template <class Doubt>
 void doubt_times(const Scenario& scenario, const Doubt& doubt) {
@@ -396,6 +414,7 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
   for (const Load& load : scenario.loads) std::visit(DoubtLoad<decltype(doubt)>{doubt}, load);
   doubt_surface_loads(scenario, model, doubt);
   doubt_times(scenario, doubt);
+  doubt_short_excitations(scenario, doubt);
   doubt_ratios(scenario, doubt);
   doubt_collagen(scenario, doubt);
   return doubts;

@@ -187,6 +187,14 @@ void warn_of_swollen_elements(const Model& model, const ExtremeVolume& largest,
       element_of(model, largest), largest.ratio, largest.at));
 }
 
+/// Muscle presses itself, and what fits it is not what fits a pad.
+std::string remedy_of_crushing(const Model& model, const ExtremeVolume& least) {
+  return model.tissues[static_cast<std::size_t>(least.tissue)].active_stress > 0
+             ? "smaller elements, ends that are broader, or less of an excitation, motion or load"
+             : "a stiffer tissue, a smaller motion or load, or another law (for what is pressed "
+               "far: coupled-neo-hookean)";
+}
+
 void warn_of_squeezed_elements(const Model& model, const ExtremeVolume& least,
                                std::vector<std::string>& warnings) {
   if (least.ratio >= kCrushed) return;
@@ -199,11 +207,8 @@ void warn_of_squeezed_elements(const Model& model, const ExtremeVolume& least,
   else
     warnings.push_back(
         fmt::format("{} was crushed to {:.2g} of its volume at t = {:.4g} s: some laws "
-                    "do not spring back from there, and forces may be far too small; expected a "
-                    "stiffer tissue, "
-                    "a smaller motion or load, or another law (for what is pressed far: "
-                    "coupled-neo-hookean)",
-                    element, least.ratio, least.at));
+                    "do not spring back from there, and forces may be far too small; expected {}",
+                    element, least.ratio, least.at, remedy_of_crushing(model, least)));
 }
 
 void warn_of_deep_contacts(const Model& model, const RunExtrema& extrema,

@@ -83,15 +83,13 @@ void expect_hyoid_goes_along(const ScenarioResults& results, double least_way) {
   const std::string hyoid = "hyoid.position.z [mm]";
   EXPECT_LT(results.at(hyoid, 0.4), results.at(hyoid, 0) - least_way);
   EXPECT_NEAR(results.at("hyoid.position.x [mm]", 0.4), 0, 0.01);
-  EXPECT_LT(std::abs(opening(results, 0.9)), 2);
 }
 
-// Published for women: 44.3 ± 6.7 mm, 36.3 ± 4.3 degrees; the hyoid goes down. It comes back when
-// the mouth closes.
+// Published for women: 44.3 ± 6.7 mm, 36.3 ± 4.3 degrees; the hyoid goes down.
 TEST(JawOpening, WithAHyoidOnItsMusclesTheMouthOpensToThePublishedRange) {
   const ScenarioResults results = run_scenario(
-      "mandible/opening.toml",
-      {"choice.hyoid=moves", "choice.disc=rigid", "accuracy=fast", "integrator.step=6 ms"});
+      "mandible/opening.toml", {"choice.hyoid=moves", "choice.disc=rigid", "accuracy=fast",
+                                "integrator.step=6 ms", "duration=0.42 s"});
   expect_opens(results, 0.4, 37.6, 8, 0.2e-3);
   EXPECT_GT(results.at("jaw.angle [deg]", 0.4), 28);
   expect_hyoid_goes_along(results, 5);
@@ -109,6 +107,7 @@ TEST(JawOpening, TheMouthOpensAsWideAsInPeopleWithAllForceAndAHyoidOnItsMuscles)
   EXPECT_LT(translation(results, "left", 0.4), 18.1 + 2.5);
   EXPECT_NEAR(results.at("jaw.angle [deg]", 0.4), 36.3, 4.3);
   expect_hyoid_goes_along(results, 3);
+  EXPECT_LT(std::abs(opening(results, 0.9)), 2);
 }
 
 TEST(JawOpening, WithoutContactACondyleLeavesItsFossa) {

@@ -300,6 +300,20 @@ TEST(UnitDoubts, AreOfCurvesThatBeginWhenTheRunIsOver) {
   }
 }
 
+TEST(UnitDoubts, AreOfExcitationsThatAreOverAtOnce) {
+  for (const double end : {5e-4, 5e-3}) {
+    Scenario s = usual();
+    s.duration = 1;
+    s.muscles[0].excitation = {{0, end}, {0, 1}};
+    EXPECT_EQ(num_doubts(s), end < 1e-3 ? 1U : 0U) << end;
+    s.duration = 2 * end;
+    EXPECT_EQ(num_doubts(s), 0U) << end;
+    s.duration = 1;
+    s.analysis = Scenario::Analysis::Static;
+    EXPECT_EQ(num_doubts(s), 0U) << end;
+  }
+}
+
 TEST(UnitDoubts, AreOfFoodThatIsPutInWhenTheRunIsOver) {
   for (const double from : {0.9, 1.0}) {
     Scenario s = usual();

@@ -98,8 +98,11 @@ TEST_P(MuscleSize, EndsSitOnTheirBoneAndNothingElseIsNear) {
 // As muscles.toml ties them, to the surfaces that touch. These are facets: one too coarse, or cut
 // too short, leaves nodes of an end loose; and one that reaches beyond its bone holds others.
 TEST_P(MuscleSize, WhatScenariosTieIsTheEnds) {
-  Anatomy anatomy = mandible_anatomy(1.2);
-  add_muscle_bodies(kSize, anatomy);
+  static const Anatomy anatomy = [] {
+    Anatomy made = mandible_anatomy(1.2);
+    add_muscle_bodies(kSize, made);
+    return made;
+  }();
   using Surfaces = std::vector<std::unique_ptr<SurfaceDistance>>;
   const auto surfaces = [&](std::initializer_list<const char*> names) {
     Surfaces all;
