@@ -43,27 +43,24 @@ FibreDrag::Line line_at(double w, const FibreDrag::Line* before) {
   return {w, factor, force_velocity_slope(w, before != nullptr ? on_line(*before, w) : factor)};
 }
 
-/// ∂P/∂Ḟ = damping ∂λ/∂F ⊗ ∂λ/∂F
-/// @param fibre_at  fibre_at(octet, lane)
-/// @param slope     slope(point, w): that of f_v
-template <class FibreAt, class Slope>
-auto tangent(FibreAt fibre_at, double scale, Slope slope) {
-  return [=](const MovingStencils::Octet& octet, Eight* C) {
-    for (int lane = 0; lane < kBatchSize; ++lane) {
-      const auto f = fibre_at(octet, lane);
-      const double damping = scale * f.damping(slope(point(octet, lane), f.speed));
-      for (int n = 0; n < 9; ++n)
-        for (int m = 0; m < 9; ++m) C[m + 9 * n].lane[lane] = damping * f.slope[m] * f.slope[n];
-    }
-  };
+/// C = B ⊗ (a₀ ⊗ a₀) at one point: ∂P/∂F where P = p ⊗ a₀, and B = ∂p/∂(F a₀)
+void set_tangent(const Mat3& B, const Vec3& rest, int lane, Eight* C) {
+  for (int l = 0; l < 3; ++l)
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i)
+          C[(3 * j + i) + 9 * (3 * l + k)].lane[lane] = B(i, k) * rest[j] * rest[l];
 }
 
 }  // namespace
 
 /// One of a point, as it moves on.
 struct FibreDrag::Fibre {
-  Vec9 slope;    // ∂λ/∂F
-  double share;  // density times the share of the point
+  Vec3 rest, direction;  // a₀ and F a₀/λ
+  double stretch;        // λ
+  Vec3 turning;          // [1/s], of the direction: its derivative by time
+  Vec9 slope;            // ∂λ/∂F
+  double share;          // density times the share of the point
   MuscleFibre::Drag drag;
   double speed;  // w [-]
 
@@ -86,15 +83,18 @@ FibreDrag::FibreDrag(const SmoothedElasticity& smoothed, const MuscleFibre& law)
 FibreDrag::Fibre FibreDrag::fibre(const Octet& octet, int lane, double activation) const {
   const Vec3 fibre = fibres_.col(static_cast<Eigen::Index>(point(octet, lane)));
   const double density = fibre.norm();
-  const Vec3 rest = fibre / density;
-  const Vec3 now = of_lane(octet.F, lane).reshaped<Eigen::ColMajor>(3, 3) * rest;
-  const double stretch = now.norm();
-  Fibre result;
-  result.slope = (now / stretch * rest.transpose()).reshaped();
-  result.share = octet.share * density;
-  result.drag = law_->drag(stretch, activation);
-  result.speed = result.drag.per_rate * result.slope.dot(of_lane(octet.rate, lane));
-  return result;
+  Fibre f;
+  f.rest = fibre / density;
+  const Vec3 now = of_lane(octet.F, lane).reshaped<Eigen::ColMajor>(3, 3) * f.rest,
+             rate = of_lane(octet.rate, lane).reshaped<Eigen::ColMajor>(3, 3) * f.rest;
+  f.stretch = now.norm();
+  f.direction = now / f.stretch;
+  f.turning = (rate - f.direction.dot(rate) * f.direction) / f.stretch;
+  f.slope = (f.direction * f.rest.transpose()).reshaped();
+  f.share = octet.share * density;
+  f.drag = law_->drag(f.stretch, activation);
+  f.speed = f.drag.per_rate * f.direction.dot(rate);
+  return f;
 }
 
 /// P = pull (f_v − 1) ∂λ/∂F
@@ -113,26 +113,52 @@ void FibreDrag::add_force(const Positions& x, const Positions& v, double activat
   if (activation > 0) stencils_.add_force(x, v, stress(activation), f);
 }
 
-void FibreDrag::add_damping(const Positions& x, const Positions& v, double activation, double scale,
-                            Lines& lines, BlockMatrix& D) const {
+/// P = p ⊗ a₀ with p = pull (f_v − 1) d, at the rate λ̇ = d · Ḟ a₀:
+///
+///   ∂p/∂(Ḟ a₀) = pull f_v' w/λ̇ d ⊗ d
+///   ∂p/∂(F a₀) = (f_v − 1) (pull' d ⊗ d + pull/λ (1 − d ⊗ d)) + pull f_v' w/λ̇ d ⊗ ḋ
+///
+/// @param by_rate  pull f_v' w/λ̇ [Pa s]
+Mat3 FibreDrag::stiffness(const Fibre& f, double activation, double by_rate) const {
+  const double slope = law_->stiffness(f.stretch, activation) - law_->stiffness(f.stretch, 0),
+               across = f.drag.pull / f.stretch,
+               lacking = f.share * (force_velocity(f.speed).value - 1);
+  const Mat3 along = f.direction * f.direction.transpose(),
+             turning = 0.5 * by_rate * f.direction * f.turning.transpose();
+  return lacking * (slope * along + across * (Mat3::Identity() - along)) + turning +
+         turning.transpose();
+}
+
+void FibreDrag::add_tangent(const Positions& x, const Positions& v, double activation,
+                            double damping, double stiffness, Lines& lines, BlockMatrix& K) const {
   if (activation == 0) return;
   const bool had_lines = !lines.empty();
   lines.resize(static_cast<std::size_t>(fibres_.cols()));
-  const auto slope = [&lines, had_lines](std::size_t point, double w) {
-    Line& line = lines[point];
-    line = line_at(w, had_lines ? &line : nullptr);
-    return line.slope;
+  const auto tangent = [&](const Octet& octet, Eight* C) {
+    for (int lane = 0; lane < kBatchSize; ++lane) {
+      const Fibre f = fibre(octet, lane, activation);
+      Line& line = lines[point(octet, lane)];
+      line = line_at(f.speed, had_lines ? &line : nullptr);
+      const double by_rate = f.damping(line.slope);
+      Mat3 B = damping * by_rate * f.direction * f.direction.transpose();
+      if (stiffness != 0) B += stiffness * this->stiffness(f, activation, by_rate);
+      set_tangent(B, f.rest, lane, C);
+    }
   };
-  const auto fibre_at = [&](const Octet& o, int lane) { return fibre(o, lane, activation); };
-  stencils_.add_tangent(x, v, tangent(fibre_at, scale, slope), D);
+  stencils_.add_tangent(x, v, tangent, K);
 }
 
 void FibreDrag::add_plain_damping(const Positions& x, const Positions& v, double activation,
-                                  double scale, const Lines& lines, BlockMatrix& D) const {
+                                  double damping, const Lines& lines, BlockMatrix& K) const {
   if (activation == 0) return;
-  const auto slope = [&lines](std::size_t point, double) { return lines[point].slope; };
-  const auto fibre_at = [&](const Octet& o, int lane) { return fibre(o, lane, activation); };
-  stencils_.add_plain_tangent(x, v, tangent(fibre_at, scale, slope), D);
+  const auto tangent = [&](const Octet& octet, Eight* C) {
+    for (int lane = 0; lane < kBatchSize; ++lane) {
+      const Fibre f = fibre(octet, lane, activation);
+      const double by_rate = damping * f.damping(lines[point(octet, lane)].slope);
+      set_tangent(by_rate * f.direction * f.direction.transpose(), f.rest, lane, C);
+    }
+  };
+  stencils_.add_plain_tangent(x, v, tangent, K);
 }
 
 void FibreDrag::add_product(const Positions& x, const Positions& v, double activation,

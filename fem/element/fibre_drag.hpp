@@ -20,7 +20,7 @@ class MuscleFibre;  // muscle_fibre.hpp
 class FibreDrag {
  public:
   /// @param fibres  one an element, none of them 0
-  /// @param matrix  what add_damping() will add to: see MovingStencils, which also throws
+  /// @param matrix  what add_tangent() will add to: see MovingStencils, which also throws
   FibreDrag(const Positions& X, const Tetrahedra& tets, const FibreDirections& fibres,
             const MuscleFibre& law, const BlockMatrix& matrix);
   /// For matrices of make_matrix(), and of make_plain_matrix().
@@ -35,19 +35,23 @@ class FibreDrag {
   };
   using Lines = std::vector<Line>;  // one a point; empty: none
 
-  /// D += scale * ∂f/∂v [N s/m]: symmetric, positive semidefinite.
+  /// K += damping * ∂f/∂v + stiffness * the symmetric part of ∂f/∂x. The first is symmetric and
+  /// positive semidefinite. The second is not: fibres that shorten pull with less than the elastic
+  /// law has, whose stiffness it takes back.
+  /// @param damping, stiffness  [1/s], [-] for a K in [N/m]
   ///
   /// Hill's curve is steep where fibres hardly move and flat where they are fast: with its slope
   /// there Newton's iteration is thrown back and forth. So the factor is an unknown beside the
   /// velocities, which goes along the line of the matrix before: see force_velocity_slope(). What
   /// is solved stays the same, and where the iteration ends both slopes are one.
   /// @param lines  of the matrix before; then of this one
-  void add_damping(const Positions& x, const Positions& v, double activation, double scale,
-                   Lines& lines, BlockMatrix& D) const;
-  /// For preconditioners of smoothed elements: the same as if all of it were in the elements.
-  /// @param lines  that add_damping() has set for this motion
-  void add_plain_damping(const Positions& x, const Positions& v, double activation, double scale,
-                         const Lines& lines, BlockMatrix& D) const;
+  void add_tangent(const Positions& x, const Positions& v, double activation, double damping,
+                   double stiffness, Lines& lines, BlockMatrix& K) const;
+  /// For preconditioners of smoothed elements: K += damping * ∂f/∂v, as if all of it were in the
+  /// elements.
+  /// @param lines  that add_tangent() has set for this motion
+  void add_plain_damping(const Positions& x, const Positions& v, double activation, double damping,
+                         const Lines& lines, BlockMatrix& K) const;
   /// f += ∂f/∂v u.
   void add_product(const Positions& x, const Positions& v, double activation, const Positions& u,
                    Positions& f) const;
@@ -58,6 +62,7 @@ class FibreDrag {
   using Octet = MovingStencils::Octet;
   struct Fibre;
   Fibre fibre(const Octet& octet, int lane, double activation) const;
+  Mat3 stiffness(const Fibre& fibre, double activation, double by_rate) const;
   auto stress(double activation) const;
 
   std::shared_ptr<const MuscleFibre> law_;

@@ -229,13 +229,15 @@ void NewtonMatrix::add_dashpots(std::size_t t, const Moment& now, const SystemSc
     tissue.dashpots->add_plain_damping(moment.x, scale.damping, tissues_[t].plain.K);
 }
 
-void NewtonMatrix::add_fibre_drag(std::size_t t, const Moment& now, const SystemScale& scale) {
+void NewtonMatrix::add_fibre_drag(std::size_t t, const Moment& now, const SystemScale& scale,
+                                  fem::Tangent tangent) {
   const Tissue& tissue = model_.tissues[t];
   if (!tissue.fibre_drag) return;
   const TissueMoment& moment = now.tissues[t];
   const double activation = activation_of(tissue, now.configuration);
   TissueWork& work = tissues_[t];
-  tissue.fibre_drag->add_damping(moment.x, moment.velocity, activation, scale.damping,
+  tissue.fibre_drag->add_tangent(moment.x, moment.velocity, activation, scale.damping,
+                                 tangent == fem::Tangent::Consistent ? scale.stiffness : 0,
                                  work.fibre_lines, work.own.K);
   if (tissue.elements.smoothed() != nullptr)
     tissue.fibre_drag->add_plain_damping(moment.x, moment.velocity, activation, scale.damping,
@@ -264,7 +266,7 @@ void NewtonMatrix::find_stiffness(std::size_t t, const Moment& now, const System
                                 tangent, scale.stiffness, work.own.K);
   add_sheets(t, now, scale, work.own.K);
   add_dashpots(t, now, scale, tangent);
-  add_fibre_drag(t, now, scale);
+  add_fibre_drag(t, now, scale, tangent);
   add_relaxation(t, now, scale, tangent);
 }
 
@@ -287,7 +289,7 @@ void NewtonMatrix::find_smoothed_stiffness(std::size_t t, const Moment& now,
                                activation);
   if (for_multigrid_) smoothed.add_compressible_stiffness(x, scale.stiffness, work.plain.K);
   add_dashpots(t, now, scale, tangent);
-  add_fibre_drag(t, now, scale);
+  add_fibre_drag(t, now, scale, tangent);
   set_pressure_gradient(t, now);
 }
 

@@ -30,7 +30,7 @@ class NewtonMatrix {
   /// Candidates of the coming step: their couplings enter the pattern as soon as one is needed that
   /// is not in it, and stay in it. They are referred to.
   void set_candidates(std::span<const CandidateList> candidates) { candidates_ = candidates; }
-  /// See fem::FibreDrag::add_damping.
+  /// See fem::FibreDrag::add_tangent.
   void forget_fibre_rates();
   /// Drops the couplings of all candidates so far.
   void forget();
@@ -86,7 +86,8 @@ class NewtonMatrix {
   void add_sheets(std::size_t t, const Moment& now, const SystemScale& scale, fem::BlockMatrix& K);
   void add_dashpots(std::size_t t, const Moment& now, const SystemScale& scale,
                     fem::Tangent tangent);
-  void add_fibre_drag(std::size_t t, const Moment& now, const SystemScale& scale);
+  void add_fibre_drag(std::size_t t, const Moment& now, const SystemScale& scale,
+                      fem::Tangent tangent);
   void add_relaxation(std::size_t t, const Moment& now, const SystemScale& scale,
                       fem::Tangent tangent);
   void add_tissue(std::size_t t, const Moment& now, const SystemScale& scale, fem::Tangent tangent,

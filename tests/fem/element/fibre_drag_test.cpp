@@ -103,9 +103,26 @@ TEST_P(MovingFibres, DampingIsTheSlopeOfTheForce) {
   m.block.drag.add_product(m.x, m.v, 0.7, m.u, product);
   EXPECT_LT((product - slope).norm(), 1e-6 * slope.norm());
   FibreDrag::Lines lines;
-  m.block.drag.add_damping(m.x, m.v, 0.7, kScale, lines, m.block.matrix);
+  m.block.drag.add_tangent(m.x, m.v, 0.7, kScale, 0, lines, m.block.matrix);
   const Eigen::VectorXd by_matrix = dense(m.block.matrix) * m.u.reshaped();
   EXPECT_LT((by_matrix - kScale * product.reshaped()).norm(), 1e-12 * by_matrix.norm());
+}
+
+// The same, by positions, of which the matrix has the symmetric part.
+TEST_P(MovingFibres, StiffnessIsTheSymmetricPartOfTheSlopeByPositions) {
+  constexpr double kStep = 1e-8;
+  const auto dot = [](const Positions& a, const Positions& b) { return a.cwiseProduct(b).sum(); };
+  const auto change = [&](const Positions& by) -> Positions {
+    return (m.block.force(m.x + kStep * by, m.v, 0.7) - m.block.force(m.x - kStep * by, m.v, 0.7)) /
+           (2 * kStep);
+  };
+  const Positions w = m.random.matrix<Positions>(3, m.x.cols());
+  FibreDrag::Lines lines;
+  m.block.drag.add_tangent(m.x, m.v, 0.7, 0, 2, lines, m.block.matrix);
+  const double of_u = dot(w, change(m.u)), of_w = dot(m.u, change(w));
+  const double found = w.reshaped().dot(dense(m.block.matrix) * m.u.reshaped());
+  EXPECT_GT(std::abs(of_u - of_w), 1e-4 * std::abs(of_u));  // it is not symmetric
+  EXPECT_NEAR(found, of_u + of_w, 1e-6 * (std::abs(of_u) + std::abs(of_w)));
 }
 
 // Where all fibres shorten faster than they can, their pull is gone, at each point where the law
@@ -127,10 +144,10 @@ TEST(FibreDrag, OfSmoothedElementsHasAPlainMatrixThatIsThatOfPlainOnes) {
   const Moving m(Block{muscle});
   BlockMatrix all = muscle.make_matrix(), found = muscle.make_plain_matrix(), expected = found;
   FibreDrag::Lines lines, of_plain;
-  m.block.drag.add_damping(m.x, m.v, 0.7, 3, lines, all);
+  m.block.drag.add_tangent(m.x, m.v, 0.7, 3, 0, lines, all);
   m.block.drag.add_plain_damping(m.x, m.v, 0.7, 3, lines, found);
   FibreDrag(m.block.mesh.X, m.block.mesh.tets, muscle.fibres(), kFibre, expected)
-      .add_damping(m.x, m.v, 0.7, 3, of_plain, expected);
+      .add_tangent(m.x, m.v, 0.7, 3, 0, of_plain, expected);
   EXPECT_GT(dense(expected).norm(), 0);
   EXPECT_LT((dense(found) - dense(expected)).norm(), 1e-12 * dense(expected).norm());
 }
@@ -151,7 +168,7 @@ int iterations_to_rest(bool keeps_lines) {
     BlockMatrix D = block.matrix;
     D.set_zero();
     if (!keeps_lines) lines.clear();
-    block.drag.add_damping(X, rate * along, 1, 1, lines, D);
+    block.drag.add_tangent(X, rate * along, 1, 1, 0, lines, D);
     const double slope = along.reshaped().dot(dense(D) * along.reshaped()) + kPull;
     const double change = -residual / slope;
     if (std::abs(change) < 1e-10) return k;
@@ -169,14 +186,14 @@ TEST(FibreDrag, LinesEndTheCyclesOfNewtonsIteration) {
 TEST_P(MovingFibres, OfTheSameMotionHaveTheSameMatrix) {
   FibreDrag::Lines lines;
   BlockMatrix first = m.block.matrix, again = first;
-  m.block.drag.add_damping(m.x, -3 * m.v, 0.7, 1, lines, m.block.matrix);
-  m.block.drag.add_damping(m.x, m.v, 0.7, 1, lines, first);
-  m.block.drag.add_damping(m.x, m.v, 0.7, 1, lines, again);
+  m.block.drag.add_tangent(m.x, -3 * m.v, 0.7, 1, 0, lines, m.block.matrix);
+  m.block.drag.add_tangent(m.x, m.v, 0.7, 1, 0, lines, first);
+  m.block.drag.add_tangent(m.x, m.v, 0.7, 1, 0, lines, again);
   EXPECT_EQ(dense(first), dense(again));
   FibreDrag::Lines none;
   BlockMatrix own = m.block.matrix;
   own.set_zero();
-  m.block.drag.add_damping(m.x, m.v, 0.7, 1, none, own);
+  m.block.drag.add_tangent(m.x, m.v, 0.7, 1, 0, none, own);
   EXPECT_GT((dense(own) - dense(first)).norm(), 1e-3 * dense(own).norm());
 }
 
