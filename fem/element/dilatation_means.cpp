@@ -1,7 +1,6 @@
 #include "fem/element/dilatation_means.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
 
 namespace articular::fem {

@@ -166,21 +166,18 @@ std::string doubt_of_relaxation(const Body& body) {
 std::vector<std::string> muscle_doubts(const Scenario& scenario, const Model& model) {
   std::vector<std::string> doubts;
   for (std::size_t b = 0; b < scenario.bodies.size(); ++b) {
-    const int t = model.bodies[b].tissue;
-    if (t < 0) continue;
-    const auto [what, where] =
-        doubt_of_fibres(scenario.bodies[b], model.tissues[static_cast<std::size_t>(t)], model);
-    if (!what.empty()) doubts.push_back(prefix(where) + what);
+    if (model.bodies[b].tissue < 0) continue;
     const Body& body = scenario.bodies[b];
-    if (!(model.tissues[static_cast<std::size_t>(t)].active_stress > 0)) continue;
+    const auto t = static_cast<std::size_t>(model.bodies[b].tissue);
+    const Tissue& tissue = model.tissues[t];
+    const auto [what, where] = doubt_of_fibres(body, tissue, model);
+    if (!what.empty()) doubts.push_back(prefix(where) + what);
+    if (!(tissue.active_stress > 0)) continue;
     if (!body.material->relaxation.empty())
       doubts.push_back(prefix(body.material->where) + doubt_of_relaxation(body));
-    if (const std::string substance =
-            doubt_of_substance(body, model.tissues[static_cast<std::size_t>(t)]);
-        !substance.empty())
+    if (const std::string substance = doubt_of_substance(body, tissue); !substance.empty())
       doubts.push_back(prefix(body.material->where) + substance);
-    if (const std::string flux = doubt_of_flux(body, model, static_cast<std::size_t>(t));
-        !flux.empty())
+    if (const std::string flux = doubt_of_flux(body, model, t); !flux.empty())
       doubts.push_back(prefix(body.material->fibres->where) + flux);
   }
   const std::vector<Muscle>& muscles = scenario.muscles;

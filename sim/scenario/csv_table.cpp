@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "sim/base/byte_order_mark.hpp"
 #include "sim/base/message_text.hpp"
 
 namespace articular::sim {
@@ -65,7 +66,7 @@ CsvTable read_csv(const std::filesystem::path& file, std::string_view what,
   for (std::string line; std::getline(stream, line);) {
     ++where.line;
     if (line.ends_with('\r')) line.pop_back();
-    if (where.line == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark
+    if (where.line == 1) line = without_byte_order_mark(line);
     if (trimmed(line).empty()) continue;
     std::vector<std::string> fields = split_fields(line, where);
     if (table.columns.fields.empty()) {

@@ -318,6 +318,7 @@ constexpr ProbeKind kProbeKinds[] = {
 /// Those of a kind alone.
 std::vector<Key> own_keys(std::string_view kind) {
   const Key body{"body", {form::Text{"name of a body"}}, kRequired, "the body"};
+  const Key tissue{"body", {form::Text{"name of a tissue"}}, kRequired, "the tissue"};
   const Key line{"line", {form::Text{"name of a muscle or ligament"}}, kRequired, "the line"};
   const Key point{"point", {form::Vector{kLength}}, kRequired, "where it is at the start"};
   const KeyType names = {list_of({form::Text{"name of a probe with forces"}})};
@@ -342,8 +343,7 @@ std::vector<Key> own_keys(std::string_view kind) {
              kRequired,
              "of the body, at the start: the axis is shown where it is nearest to it"}};
   if (kind == "fibres") return {body};
-  if (kind == "volume")
-    return {{"body", {form::Text{"name of a tissue"}}, kRequired, "the tissue"}};
+  if (kind == "volume") return {tissue};
   if (kind == "sheet") return {{"sheet", {form::Text{"name of a sheet"}}, kRequired, "the sheet"}};
   if (kind == "angle")
     return {body, {"axis", {form::Direction{}}, standard({1, 0, 0}), "about which it turns"}};
@@ -375,7 +375,7 @@ std::vector<Key> own_keys(std::string_view kind) {
             point,
             {"axis", {form::Direction{}}, kRequired, "the axis"}};
   if (kind == "stress")
-    return {{"body", {form::Text{"name of a tissue"}}, kRequired, "the tissue"},
+    return {tissue,
             {"region",
              {form::Table{region_keys}},
              otherwise("all"),
@@ -384,7 +384,7 @@ std::vector<Key> own_keys(std::string_view kind) {
   if (kind == "moment_arm")
     return {line, body, point, {"axis", {form::Direction{}}, kRequired, "the axis"}};
   if (kind == "extent")
-    return {{"body", {form::Text{"name of a tissue"}}, kRequired, "the tissue"},
+    return {tissue,
             {"frame",
              {form::Text{"name of a fixed or rigid body"}},
              kRequired,

@@ -11,6 +11,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "sim/base/byte_order_mark.hpp"
 #include "sim/base/error.hpp"
 #include "sim/base/file_bytes.hpp"
 #include "sim/base/message_text.hpp"
@@ -53,7 +54,7 @@ Line next_line(std::ifstream& stream, std::string& line, const fs::path& file) {
 }
 
 std::vector<sim::HistoryColumn> columns_of(std::string_view line) {
-  if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // byte order mark
+  line = sim::without_byte_order_mark(line);
   std::vector<sim::HistoryColumn> columns;
   for (;;) {
     const std::size_t comma = line.find(',');

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "sim/base/byte_order_mark.hpp"
 #include "sim/base/error.hpp"
 
 namespace articular::tools {
@@ -12,7 +13,7 @@ void append_lines(const std::string& file, std::vector<std::string>& overrides) 
   if (!stream) throw sim::InputError({file}, "can't be read (from --set @" + file + ")");
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
-    if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark
+    if (++number == 1) line = sim::without_byte_order_mark(line);
     const std::size_t begin = line.find_first_not_of(" \t\r"), end = line.find_last_not_of(" \t\r");
     if (begin == std::string::npos || line[begin] == '#') continue;
     if (line.find('=') == std::string::npos)
