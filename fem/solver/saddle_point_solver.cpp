@@ -123,10 +123,14 @@ class SaddlePointSolver final : public LinearSolver {
       saddle_.take_pattern(plain, part.terms);
       precision_ = Precision::Unknown;
     }
-    saddle_.take_values(plain, part.terms);
+    pool_->run(2, [&](int k, int) {
+      if (k == 0)
+        saddle_.take_values(plain, part.terms);
+      else
+        A_.take(A);
+    });
     if (factorize(fits_single(part.terms)) != Pivots::Right)
       return FactorStatus::NotPositiveDefinite;
-    A_.take(A);
     pressure_.set(part.terms);
     memory_.resize(3 * Eigen::Index{A.num_blocks()});
     extended_.resize(saddle_.matrix().size());

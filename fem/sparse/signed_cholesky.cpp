@@ -24,6 +24,9 @@ constexpr int kFewColumns = 6;
 // Columns and rows of a supernode that are one task.
 constexpr int kPiece = 96;
 
+// Unknowns that are one task where each takes little.
+constexpr int kUnknownsPerPiece = 1024;
+
 /// What round-off may make of a pivot in single precision, where the diagonal was about 1. A knee
 /// under load has pivots from 1e-3, with round-off of 2e-7.
 constexpr double kUnclear = 1e-5;
@@ -125,25 +128,35 @@ struct SignedCholesky<Real>::Factor {
   std::vector<char> is_positive;          // all signs of a supernode are +
   std::vector<int> head, next, progress;  // descendants that wait for their next supernode
   mutable std::vector<Work> scratch;      // by worker
-  ThreadPool alone{1};                    // of whoever factors a subtree
-  mutable Vector<Real> ordered;           // work of solve(): the unknowns, the rows above subtrees
+  struct Piece {
+    int s, begin, end;
+  };
+  std::vector<Piece> pieces;     // of supernodes of a level: columns, or rows below
+  ThreadPool alone{1};           // of whoever factors a subtree
+  mutable Vector<Real> ordered;  // work of solve(): the unknowns, the rows above subtrees
 
+  void take_memory(std::vector<Real> memory);
   void allocate_work(int num_threads);
   void start(const SymmetricMatrix& A, int s, int from, int to);
   void locate_rows(int s, Work& work) const;
   void subtract(int d, int first, int last, int s, Work& work);
   int rows_before(int d, int first, int column) const;
   void enqueue(int d, int end);
-  void set_scale(const SymmetricMatrix& A);
+  void set_scale(const SymmetricMatrix& A, ThreadPool& pool);
   Pivots factorize_subtree(const SymmetricMatrix& A, const Supernodes::Subtree& subtree,
                            Work& work);
-  Pivots factorize_top(const SymmetricMatrix& A, int s, ThreadPool& pool);
+  template <class SizeOf>
+  void find_pieces(std::span<const int> level, const SizeOf& size_of);
+  void collect(const SymmetricMatrix& A, std::span<const int> level, ThreadPool& pool);
+  Pivots factorize_blocks(std::span<const int> level, ThreadPool& pool);
+  Pivots factorize_level(const SymmetricMatrix& A, std::span<const int> level, ThreadPool& pool);
   void solve_forward(int s, std::span<const int> rows, Vector<Real>& y, Work& work) const;
   void solve_backward(int s, Vector<Real>& y, Work& work) const;
 };
 
 template <class Real>
-SignedCholesky<Real>::SignedCholesky(std::shared_ptr<ThreadPool> pool) : pool_(std::move(pool)) {
+SignedCholesky<Real>::SignedCholesky(std::shared_ptr<ThreadPool> pool, std::size_t fewest_to_share)
+    : pool_(std::move(pool)), fewest_to_share_(fewest_to_share) {
   set_up_blas();
 }
 template <class Real>
@@ -153,9 +166,22 @@ SignedCholesky<Real>::SignedCholesky(SignedCholesky&&) noexcept = default;
 template <class Real>
 SignedCholesky<Real>& SignedCholesky<Real>::operator=(SignedCholesky&&) noexcept = default;
 
+/// That of the factor before: what stood there is overwritten. Patterns in which contact changes
+/// get a little larger each time: to ask for new pages then took half as long as to find the order.
+template <class Real>
+void SignedCholesky<Real>::Factor::take_memory(std::vector<Real> memory) {
+  const auto size = static_cast<std::size_t>(nodes.value_begin.back());
+  if (memory.capacity() < size) {
+    const bool grows = memory.capacity() > 0;
+    memory = {};
+    memory.reserve(grows ? size + size / 16 : size);
+  }
+  memory.resize(size);
+  value = std::move(memory);
+}
+
 template <class Real>
 void SignedCholesky<Real>::Factor::allocate_work(int num_threads) {
-  value.resize(static_cast<std::size_t>(nodes.value_begin.back()));
   head.resize(static_cast<std::size_t>(nodes.count()));
   next.resize(head.size());
   progress.resize(head.size());
@@ -189,9 +215,12 @@ template <class Real>
 void SignedCholesky<Real>::analyze(const SymmetricMatrix& A, std::span<const int> signs,
                                    std::span<const int> group) {
   assert(signs.size() == static_cast<std::size_t>(A.size()));
+  std::vector<Real> memory;
+  if (factor_) memory = std::move(factor_->value);
   factor_ = std::make_unique<Factor>();
   Factor& L = *factor_;
   L.nodes = find_supernodes(A, group);
+  L.take_memory(std::move(memory));
   L.allocate_work(pool_->num_threads());
   for (const int given : L.nodes.order) L.sign.push_back(static_cast<Real>(signs[given]));
   for (int s = 0; s < L.nodes.count(); ++s)
@@ -201,12 +230,14 @@ void SignedCholesky<Real>::analyze(const SymmetricMatrix& A, std::span<const int
 }
 
 template <class Real>
-void SignedCholesky<Real>::Factor::set_scale(const SymmetricMatrix& A) {
-  for (int i = 0; i < nodes.size(); ++i) {
-    const int last = A.begin[nodes.order[i] + 1] - 1;  // of its column: the diagonal, if it has one
-    const bool has_diagonal = last >= A.begin[nodes.order[i]] && A.row[last] == nodes.order[i];
-    scale[i] = has_diagonal ? power_for_unit(A.value[last]) : 1;
-  }
+void SignedCholesky<Real>::Factor::set_scale(const SymmetricMatrix& A, ThreadPool& pool) {
+  pool.run_pieces(nodes.size(), kUnknownsPerPiece, [&](int begin, int end, int) {
+    for (int i = begin; i < end; ++i) {
+      const int last = A.begin[nodes.order[i] + 1] - 1;  // of its column: the diagonal, if any
+      const bool has_diagonal = last >= A.begin[nodes.order[i]] && A.row[last] == nodes.order[i];
+      scale[i] = has_diagonal ? power_for_unit(A.value[last]) : 1;
+    }
+  });
 }
 
 /// Columns from .. to of a supernode become those of A, scaled.
@@ -326,34 +357,90 @@ Pivots SignedCholesky<Real>::Factor::factorize_subtree(const SymmetricMatrix& A,
   return Pivots::Right;
 }
 
-/// The same by pieces of the columns, and of the rows below.
+/// Of each supernode of a level what those before it leave of its columns, piece by piece.
 template <class Real>
-Pivots SignedCholesky<Real>::Factor::factorize_top(const SymmetricMatrix& A, int s,
-                                                   ThreadPool& pool) {
-  const int n = nodes.num_columns(s), ld = nodes.num_rows(s), column = nodes.first_column[s];
-  Real* block = value.data() + nodes.value_begin[s];
-  const Real* signs = sign.data() + column;
-  pool.run_pieces(n, kPiece, [&](int from, int to, int worker) {
+void SignedCholesky<Real>::Factor::collect(const SymmetricMatrix& A, std::span<const int> level,
+                                           ThreadPool& pool) {
+  find_pieces(level, [this](int s) { return nodes.num_columns(s); });
+  pool.run(static_cast<int>(pieces.size()), [&](int k, int worker) {
+    const auto [s, from, to] = pieces[static_cast<std::size_t>(k)];
     Work& work = scratch[static_cast<std::size_t>(worker)];
     start(A, s, from, to);
     locate_rows(s, work);
+    const int column = nodes.first_column[s];
     for (int d = head[s]; d >= 0; d = next[d])
       subtract(d, rows_before(d, progress[d], column + from),
                rows_before(d, progress[d], column + to), s, work);
   });
-  for (int d = std::exchange(head[s], -1), following; d >= 0; d = following) {
-    following = next[d];
-    progress[d] = rows_before(d, progress[d], nodes.first_column[s + 1]);
-    enqueue(d, nodes.count());
-  }
-  const Pivots verdict = factorize_dense(n, block, ld, signs, scratch[0].scaled.data(), pool);
+  for (const int s : level)
+    for (int d = std::exchange(head[s], -1), following; d >= 0; d = following) {
+      following = next[d];
+      progress[d] = rows_before(d, progress[d], nodes.first_column[s + 1]);
+      enqueue(d, nodes.count());
+    }
+}
+
+/// The dense blocks of a level side by side, but for those that would keep a thread from sharing:
+/// all threads work on each of these.
+template <class Real>
+Pivots SignedCholesky<Real>::Factor::factorize_blocks(std::span<const int> level,
+                                                      ThreadPool& pool) {
+  const auto work_of = [this](int s) { return std::pow(nodes.num_columns(s), 3); };
+  double total = 0;
+  for (const int s : level) total += work_of(s);
+  const auto is_large = [&](int s) { return work_of(s) * pool.num_threads() > total; };
+  const auto factorize = [&](int s, ThreadPool& by, int worker) {
+    return factorize_dense(nodes.num_columns(s), value.data() + nodes.value_begin[s],
+                           nodes.num_rows(s), sign.data() + nodes.first_column[s],
+                           scratch[static_cast<std::size_t>(worker)].scaled.data(), by);
+  };
+  Pivots verdict = Pivots::Right;
+  for (const int s : level)
+    if (verdict == Pivots::Right && is_large(s)) verdict = factorize(s, pool, 0);
   if (verdict != Pivots::Right) return verdict;
-  pool.run_pieces(ld - n, kPiece, [&](int begin, int end, int) {
-    factorize_below(n, end - begin, block, block + n + begin, ld, signs);
+  std::atomic<bool> is_wrong = false, is_unclear = false;
+  pool.run(static_cast<int>(level.size()), [&](int k, int worker) {
+    const int s = level[static_cast<std::size_t>(k)];
+    if (is_large(s)) return;
+    const Pivots found = factorize(s, alone, worker);
+    if (found == Pivots::Wrong) is_wrong = true;
+    if (found == Pivots::Unclear) is_unclear = true;
   });
-  progress[s] = n;
-  enqueue(s, nodes.count());
+  if (is_wrong) return Pivots::Wrong;
+  return is_unclear ? Pivots::Unclear : Pivots::Right;
+}
+
+/// Supernodes of one level of the top.
+template <class Real>
+Pivots SignedCholesky<Real>::Factor::factorize_level(const SymmetricMatrix& A,
+                                                     std::span<const int> level, ThreadPool& pool) {
+  collect(A, level, pool);
+  if (const Pivots verdict = factorize_blocks(level, pool); verdict != Pivots::Right)
+    return verdict;
+  find_pieces(level, [this](int s) { return nodes.num_rows(s) - nodes.num_columns(s); });
+  pool.run(static_cast<int>(pieces.size()), [&](int k, int) {
+    const auto [s, begin, end] = pieces[static_cast<std::size_t>(k)];
+    const int n = nodes.num_columns(s), ld = nodes.num_rows(s);
+    Real* block = value.data() + nodes.value_begin[s];
+    factorize_below(n, end - begin, block, block + n + begin, ld,
+                    sign.data() + nodes.first_column[s]);
+  });
+  for (const int s : level) {
+    progress[s] = nodes.num_columns(s);
+    enqueue(s, nodes.count());
+  }
   return Pivots::Right;
+}
+
+/// What a level shares among threads.
+/// @param size_of  columns or rows of a supernode
+template <class Real>
+template <class SizeOf>
+void SignedCholesky<Real>::Factor::find_pieces(std::span<const int> level, const SizeOf& size_of) {
+  pieces.clear();
+  for (const int s : level)
+    for (int begin = 0, size = size_of(s); begin < size; begin += kPiece)
+      pieces.push_back({s, begin, std::min(size, begin + kPiece)});
 }
 
 // Left-looking over supernodes [Ng 1993]: each collects the products of those before it that reach
@@ -366,7 +453,7 @@ Pivots SignedCholesky<Real>::factorize(const SymmetricMatrix& A) {
   Factor& L = *factor_;
   const Supernodes& nodes = L.nodes;
   std::fill(L.head.begin(), L.head.end(), -1);
-  L.set_scale(A);
+  L.set_scale(A, *pool_);
   // Only a wrong sign stops the others: with any number of threads it is found if there is one.
   std::atomic<bool> is_wrong = false, is_unclear = false;
   pool_->run(static_cast<int>(nodes.subtrees.size()), [&](int k, int worker) {
@@ -380,8 +467,8 @@ Pivots SignedCholesky<Real>::factorize(const SymmetricMatrix& A) {
   if (is_unclear) return Pivots::Unclear;
   for (const Supernodes::Subtree& subtree : nodes.subtrees)
     for (int d = subtree.begin; d < subtree.end; ++d) L.enqueue(d, nodes.count());
-  for (const int s : nodes.top) {
-    const Pivots verdict = L.factorize_top(A, s, *pool_);
+  for (const std::vector<int>& level : nodes.levels) {
+    const Pivots verdict = L.factorize_level(A, level, *pool_);
     if (verdict != Pivots::Right) return verdict;
   }
   return Pivots::Right;
@@ -434,10 +521,11 @@ void SignedCholesky<Real>::Factor::solve_backward(int s, Vector<Real>& y, Work& 
 template <class Real>
 void SignedCholesky<Real>::solve(Eigen::VectorXd& x) const {
   assert(factor_ && x.size() == factor_->nodes.size());
-  const Factor& L = *factor_;
+  Factor& L = *factor_;
   const Supernodes& nodes = L.nodes;
   const int n = nodes.size(), num_subtrees = static_cast<int>(nodes.subtrees.size());
   Vector<Real>& y = L.ordered;
+  ThreadPool& pool = L.value.size() < fewest_to_share_ ? L.alone : *pool_;
   // Single precision has no room for very small numbers: the largest becomes about 1.
   const double power = power_for_unit(x.template lpNorm<Eigen::Infinity>());
   const double unit = power * power;
@@ -447,7 +535,7 @@ void SignedCholesky<Real>::solve(Eigen::VectorXd& x) const {
     return std::span(of).subspan(static_cast<std::size_t>(nodes.row_begin[s]),
                                  static_cast<std::size_t>(nodes.num_rows(s)));
   };
-  pool_->run(num_subtrees, [&](int k, int worker) {
+  pool.run(num_subtrees, [&](int k, int worker) {
     const auto [begin, end, above] = nodes.subtrees[static_cast<std::size_t>(k)];
     for (int s = begin; s < end; ++s)
       L.solve_forward(s, rows(nodes.forward_row, s), y,
@@ -463,7 +551,7 @@ void SignedCholesky<Real>::solve(Eigen::VectorXd& x) const {
   for (int i = 0; i < n; ++i) y[i] *= L.sign[static_cast<std::size_t>(i)];
   for (auto s = nodes.top.rbegin(); s != nodes.top.rend(); ++s)
     L.solve_backward(*s, y, L.scratch[0]);
-  pool_->run(num_subtrees, [&](int k, int worker) {
+  pool.run(num_subtrees, [&](int k, int worker) {
     const auto [begin, end, above] = nodes.subtrees[static_cast<std::size_t>(k)];
     for (int s = end - 1; s >= begin; --s)
       L.solve_backward(s, y, L.scratch[static_cast<std::size_t>(worker)]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <span>
 
@@ -19,7 +20,7 @@ enum class Pivots { Right, Unclear, Wrong };
 /// order and the dense blocks (BLAS) of a Cholesky factorization serve. With all signs + it is one.
 ///
 /// Subtrees of the elimination tree are factored and solved side by side, then what lies above them
-/// by pieces of its columns; the answer has the same bits with any number of threads.
+/// by levels and pieces of columns; the answer has the same bits with any number of threads.
 ///
 /// @tparam Real  of L, float or double. The matrix is scaled first: the numbers of its diagonal
 ///               become 1/2 to 2, by powers of two. So any units of the unknowns will do.
@@ -28,7 +29,13 @@ enum class Pivots { Right, Unclear, Wrong };
 template <class Real>
 class SignedCholesky {
  public:
-  explicit SignedCholesky(std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1));
+  /// A solution with fewer entries of L is no work for several threads: they wait longer for what
+  /// the others wrote than they compute (fem/RESULTS.md).
+  static constexpr std::size_t kFewestToShare = 4'000'000;
+
+  /// @param fewest_to_share  entries of L from which on solutions are shared by threads
+  explicit SignedCholesky(std::shared_ptr<ThreadPool> pool = std::make_shared<ThreadPool>(1),
+                          std::size_t fewest_to_share = kFewestToShare);
   ~SignedCholesky();
   SignedCholesky(SignedCholesky&&) noexcept;
   SignedCholesky& operator=(SignedCholesky&&) noexcept;
@@ -49,6 +56,7 @@ class SignedCholesky {
   struct Factor;
   std::unique_ptr<Factor> factor_;
   std::shared_ptr<ThreadPool> pool_;
+  std::size_t fewest_to_share_;
 };
 
 extern template class SignedCholesky<float>;

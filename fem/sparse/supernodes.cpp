@@ -159,6 +159,18 @@ void find_subtrees(Supernodes& nodes) {
                    [&](const auto& a, const auto& b) { return work[a.end - 1] > work[b.end - 1]; });
 }
 
+void find_levels(Supernodes& nodes) {
+  std::vector<std::size_t> distance(static_cast<std::size_t>(nodes.count()), 0);
+  std::size_t farthest = 0;
+  for (auto s = nodes.top.rbegin(); s != nodes.top.rend(); ++s) {
+    const int parent = nodes.parent(*s);
+    if (parent >= 0) distance[*s] = distance[parent] + 1;
+    farthest = std::max(farthest, distance[*s]);
+  }
+  nodes.levels.resize(nodes.top.empty() ? 0 : farthest + 1);
+  for (const int s : nodes.top) nodes.levels[farthest - distance[s]].push_back(s);
+}
+
 /// What lies above a subtree are the rows of its root below the root's columns.
 void number_rows_above(Supernodes& nodes) {
   nodes.forward_row = nodes.row;
@@ -190,6 +202,7 @@ Supernodes find_supernodes(const SymmetricMatrix& A, std::span<const int> group)
   find_columns(A, order, common, nodes);
   find_entries(A, nodes);
   find_subtrees(nodes);
+  find_levels(nodes);
   number_rows_above(nodes);
   return nodes;
 }

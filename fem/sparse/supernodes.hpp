@@ -36,6 +36,9 @@ struct Supernodes {
   };
   std::vector<Subtree> subtrees;  // largest first
   std::vector<int> top;           // supernodes in no subtree, ascending
+  /// The same by their distance from the roots, farthest first: those of one level meet no columns
+  /// of each other.
+  std::vector<std::vector<int>> levels;
   int num_above = 0;
   /// Rows as the forward solution of a subtree writes them: those above the subtree are
   /// size() + first_above + their number, as they are every subtree's own until all are done.

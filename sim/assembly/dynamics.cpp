@@ -84,6 +84,7 @@ void Dynamics::place(const DrivenPlaces& driven) {
 
 const Moment& Dynamics::evaluate(const double* y, double t, const Conditions& conditions) {
   assembled_.reset();
+  ++moment_.number;
   Configuration& configuration = moment_.configuration;
   read_state(model_, y, t, configuration);
   if (conditions.driven != nullptr) place(*conditions.driven);

@@ -1,5 +1,9 @@
 #include "sim/assembly/energies.hpp"
 
+#include <numeric>
+#include <vector>
+
+#include "sim/assembly/side_by_side.hpp"
 #include "sim/loads/gravity.hpp"
 #include "sim/model/carried_tissue.hpp"
 
@@ -37,9 +41,11 @@ double elastic_energy(const Moment& now) {
   const auto activation = [&](std::size_t t) {
     return activation_of(model.tissues[t], now.configuration);
   };
-  double energy = 0;
-  for (std::size_t t = 0; t < now.tissues.size(); ++t)
-    energy += model.tissues[t].elements.energy(now.tissues[t].x, activation(t));
+  std::vector<double> of_elements(now.tissues.size());
+  for_each_tissue(model, [&](std::size_t t) {
+    of_elements[t] = model.tissues[t].elements.energy(now.tissues[t].x, activation(t));
+  });
+  double energy = std::accumulate(of_elements.begin(), of_elements.end(), 0.0);
   for (std::size_t t = 0; t < now.tissues.size(); ++t)
     for (const SheetModel& sheet : model.tissues[t].sheets)
       energy += sheet.fibres.energy(now.tissues[t].x);

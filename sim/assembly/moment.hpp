@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "sim/contact/contact_response.hpp"
@@ -40,7 +41,8 @@ struct Moment {
   double largest_force = 0;
   /// A step begins here: accelerations that jump are those after it, elsewhere those before it.
   bool begins_step = false;
-  double step_start = 0;  // of the step that it is in [s]
+  double step_start = 0;    // of the step that it is in [s]
+  std::int64_t number = 0;  // of the evaluation that found it: there is one more each time
 };
 
 /// The points of a line now.

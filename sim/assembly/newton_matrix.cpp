@@ -330,20 +330,27 @@ void NewtonMatrix::add_tissue(std::size_t t, const Moment& now, const SystemScal
 }
 
 /// What the two matrices do not share: the stiffness of the domains, and that of the elements.
+/// Then both keep their free part.
 void NewtonMatrix::add_smoothed(const Moment& now, const SystemScale& scale) {
   for_each_smoothed(model_, [&](std::size_t t) {
     add_free(tissues_[t].own.K, tissues_[t].own, A_);
     add_free(tissues_[t].plain.K, tissues_[t].plain, plain_);
   });
-  for (std::size_t t = 0; t < tissues_.size(); ++t) {
-    const Tissue& tissue = model_.tissues[t];
-    const TissueWork& work = tissues_[t];
-    const fem::SmoothedElasticity* smoothed = tissue.elements.smoothed();
-    if (smoothed == nullptr) continue;
-    add_carried(work.own.K, work.own, tissue, now.configuration, A_);
-    add_carried(work.plain.K, work.plain, tissue, now.configuration, plain_);
-    pressure_terms_.push_back({&work.G, &smoothed->nodal_pressure(), scale.stiffness});
-  }
+  const auto add_all_carried = [&](TissueMatrix TissueWork::*part, fem::BlockMatrix& A) {
+    for (std::size_t t = 0; t < tissues_.size(); ++t)
+      if (const TissueMatrix& matrix = tissues_[t].*part; is_smoothed(model_.tissues[t]))
+        add_carried(matrix.K, matrix, model_.tissues[t], now.configuration, A);
+    keep_free_part(model_, A);
+  };
+  model_.pool->run(2, [&](int k, int) {
+    if (k == 0)
+      add_all_carried(&TissueWork::own, A_);
+    else
+      add_all_carried(&TissueWork::plain, plain_);
+  });
+  for (std::size_t t = 0; t < tissues_.size(); ++t)
+    if (const fem::SmoothedElasticity* smoothed = model_.tissues[t].elements.smoothed())
+      pressure_terms_.push_back({&tissues_[t].G, &smoothed->nodal_pressure(), scale.stiffness});
 }
 
 void NewtonMatrix::add_masses(const Configuration& now, const SystemScale& scale,
@@ -370,13 +377,10 @@ void NewtonMatrix::add_masses(const Configuration& now, const SystemScale& scale
   }
 }
 
-NewtonEquations NewtonMatrix::assemble(const Moment& now, const SystemScale& scale,
-                                       fem::Tangent tangent) {
-  couple_contacts(now);
-  for_each_tissue(model_, [&](std::size_t t) { find_stiffness(t, now, scale, tangent); });
-  fem::BlockMatrix& common = smoothed_ ? plain_ : A_;
+/// Writes nothing that a tissue's own matrices need, and wakes no threads.
+void NewtonMatrix::set_all_but_tissue(const Moment& now, const SystemScale& scale,
+                                      fem::Tangent tangent, fem::BlockMatrix& common) {
   common.set_zero();
-  for (std::size_t t = 0; t < tissues_.size(); ++t) add_tissue(t, now, scale, tangent, common);
   add_masses(now.configuration, scale, common);
   for (std::size_t l = 0; l < model_.lines.size(); ++l)
     if (model_.lines[l].wrap.strings.empty())
@@ -395,6 +399,17 @@ NewtonEquations NewtonMatrix::assemble(const Moment& now, const SystemScale& sca
     ++evaluations_[Term::ContactStiffness];
     contact_.add(*direction, now.configuration, tangent, scale, common, friction_);
   }
+}
+
+NewtonEquations NewtonMatrix::assemble(const Moment& now, const SystemScale& scale,
+                                       fem::Tangent tangent) {
+  couple_contacts(now);
+  fem::BlockMatrix& common = smoothed_ ? plain_ : A_;
+  const auto stiffness = [&](std::size_t t) { find_stiffness(t, now, scale, tangent); };
+  for_each_smoothed_beside(model_, stiffness,
+                           [&] { set_all_but_tissue(now, scale, tangent, common); });
+  for_each_plain(model_, stiffness);
+  for (std::size_t t = 0; t < tissues_.size(); ++t) add_tissue(t, now, scale, tangent, common);
   pressure_terms_.clear();
   if (!smoothed_) {
     keep_free_part(model_, A_);
@@ -404,8 +419,6 @@ NewtonEquations NewtonMatrix::assemble(const Moment& now, const SystemScale& sca
   for (std::size_t s = 0; s < slot_of_plain_.size(); ++s)
     A_.block(slot_of_plain_[s]) = plain_.block(static_cast<int>(s));
   add_smoothed(now, scale);
-  keep_free_part(model_, A_);
-  keep_free_part(model_, plain_);
   return equations();
 }
 

@@ -97,6 +97,8 @@ class NewtonMatrix {
   static void add_carried(const fem::BlockMatrix& K, const TissueMatrix& places,
                           const Tissue& tissue, const Configuration& now, fem::BlockMatrix& A);
   void add_masses(const Configuration& now, const SystemScale& scale, fem::BlockMatrix& A);
+  void set_all_but_tissue(const Moment& now, const SystemScale& scale, fem::Tangent tangent,
+                          fem::BlockMatrix& common);
 
   const Model& model_;
   bool smoothed_ = false;       // some tissue is

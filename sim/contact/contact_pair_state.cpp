@@ -106,6 +106,8 @@ PatchSum pressure_sum(const ContactPairState& pair_state, const ContactPairState
   return sum;
 }
 
+namespace {
+
 Vec18 forces_on_nodes(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
                       const Eigen::Matrix3Xi& groups) {
   Vec18 forces = -patch_gradient(entry.patch, energy_sum(pair_state, entry, groups));
@@ -115,6 +117,16 @@ Vec18 forces_on_nodes(const ContactPairState& pair_state, const ContactPairState
     t.col(i) = pair_state.drag[static_cast<std::size_t>(groups(i, entry.triangle))].traction;
   return forces - patch_gradient(entry.patch, damping_sum(pair_state, entry, groups)) +
          slip_gradient(entry.patch, t);
+}
+
+}  // namespace
+
+void find_forces(const Eigen::Matrix3Xi& groups, ContactPairState& pair_state) {
+  for (std::size_t k = 0; k < pair_state.num_patches; ++k) {
+    ContactPairState::Patch& entry = pair_state.stored[k];
+    if (carries(pair_state, entry.triangle, groups))
+      entry.forces = forces_on_nodes(pair_state, entry, groups);
+  }
 }
 
 }  // namespace articular::sim

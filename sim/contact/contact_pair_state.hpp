@@ -18,6 +18,7 @@ struct ContactPairState {
   struct Patch {
     ContactPatch patch;
     int triangle = 0, face = 0;
+    Vec18 forces;  // on its six nodes [N]; of a patch that carries, see find_forces()
   };
   ContactId contact = 0;
   ContactModel pair;          // made once, see ContactPairs
@@ -118,9 +119,8 @@ PatchSum pressure_sum(const ContactPairState& pair_state, const ContactPairState
 /// What a pair stores in all [J].
 double stored_energy(const ContactPairState& pair_state, const Eigen::Matrix3Xi& groups);
 
-/// Forces on a patch's six nodes [N].
-Vec18 forces_on_nodes(const ContactPairState& pair_state, const ContactPairState::Patch& entry,
-                      const Eigen::Matrix3Xi& groups);
+/// Forces on the six nodes of each patch that carries, by the pressures.
+void find_forces(const Eigen::Matrix3Xi& groups, ContactPairState& pair_state);
 
 /// Calls use(nodes, forces) for every patch that carries, with its six nodes and the forces on
 /// them.
@@ -131,8 +131,7 @@ void for_each_patch_that_carries(const Model& model, const ContactPairState& pai
   const auto& groups = side.triangles.groups;
   for (const ContactPairState::Patch& entry : pair_state.patches())
     if (carries(pair_state, entry.triangle, groups))
-      use(nodes_of(side.triangles, side.faces, entry.triangle, entry.face),
-          forces_on_nodes(pair_state, entry, groups));
+      use(nodes_of(side.triangles, side.faces, entry.triangle, entry.face), entry.forces);
 }
 
 }  // namespace articular::sim

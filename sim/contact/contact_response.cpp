@@ -174,6 +174,7 @@ void ContactResponse::evaluate(const Configuration& configuration,
     find_patches(model_, list, configuration, allowance, met_[static_cast<std::size_t>(worker)],
                  pair_state);
     find_pressures(configuration, conditions.soft, pair_state);
+    find_forces(sides_of(model_, pair_state).triangles.groups, pair_state);
   });
   for (const ContactPairState* pair_state : near_) count(pair_state->pair);
 }

@@ -116,6 +116,7 @@ DepthRange depth_range(const Collider& triangles, const Collider& faces, bool av
 ContactSearch::ContactSearch(const Model& model, const StepSettings& settings)
     : model_(model), moving_of_body_(model.bodies.size(), -1), boxes_(model.bodies.size()) {
   std::vector<const Collider*> colliders;
+  std::size_t most_faces = 0;
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body) {
     if (!model.contacts.touches(body)) continue;
     const Collider& collider = *model.bodies[static_cast<std::size_t>(body)].collider;
@@ -127,8 +128,10 @@ ContactSearch::ContactSearch(const Model& model, const StepSettings& settings)
       moving.part = fem::parts_of_nodes(static_cast<int>(collider.X.cols()), collider.tets);
     moving_.push_back(std::move(moving));
     colliders.push_back(&collider);
-    seen_.resize(std::max(seen_.size(), collider.face_area.size()), 0);
+    most_faces = std::max(most_faces, collider.face_area.size());
   }
+  scratch_.resize(static_cast<std::size_t>(model.pool->num_threads()));
+  for (Scratch& scratch : scratch_) scratch.seen.resize(most_faces, 0);
   open_depth_ = largest_open_depth(model);
   penetrations_ = make_penetration_search(colliders, settings.tree, model.pool);
 }
@@ -174,16 +177,18 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
 
   const auto query_start = Clock::now();
   PenetrationCost cost;
+  num_questions_ = 0;
   num_lists_ = 0;
   for (const Moving& moving : moving_)
     boxes_[static_cast<std::size_t>(moving.body)] = penetrations_->bounds(moving.index);
-  for (const ContactId contact : near_.find(model_.contacts, boxes_)) {
-    const ContactModel pair = model_.contacts[contact];
-    if (pair.a == pair.b)
-      search_itself(contact, pair, margin, cost);
-    else
-      search(contact, pair, margin, cost);
-  }
+  for (const ContactId contact : near_.find(model_.contacts, boxes_)) ask(contact, cost);
+  model_.pool->run(2 * static_cast<int>(num_questions_), [&](int k, int worker) {
+    Question& question = questions_[static_cast<std::size_t>(k / 2)];
+    const bool of_b = k % 2 == 1;
+    if (!(of_b && question.is_self()))
+      collect(question, of_b, scratch_[static_cast<std::size_t>(worker)]);
+  });
+  for (std::size_t q = 0; q < num_questions_; ++q) answer(questions_[q]);
   counts_.evaluations[Term::BoxTest] += near_.num_tests();
   counts_.narrow_tests += cost.narrow_tests;
   counts_.reported_pairs += cost.pairs;
@@ -191,42 +196,41 @@ void ContactSearch::find(const Configuration& configuration, double margin) {
   counts_.traversal_seconds += seconds_since(query_start) - cost.narrow_seconds;
 }
 
-/// Stays out of the candidates until num_lists_ counts it.
-CandidateList& ContactSearch::next_list(ContactId contact) {
-  if (num_lists_ == lists_.size()) lists_.emplace_back();
-  CandidateList& list = lists_[num_lists_];
-  list.contact = contact;
-  return list;
-}
-
-void ContactSearch::search_itself(ContactId contact, const ContactModel& pair, double margin,
-                                  PenetrationCost& cost) {
-  Moving& a = moving_of(pair.a);
+/// Which triangles lie in which tetrahedra of the other.
+void ContactSearch::ask(ContactId contact, PenetrationCost& cost) {
+  if (num_questions_ == questions_.size()) questions_.emplace_back();
+  Question& question = questions_[num_questions_++];
+  question.contact = contact;
+  question.pair = model_.contacts[contact];
+  Moving &a = moving_of(question.pair.a), &b = moving_of(question.pair.b);
+  question.a.body = question.b.other = &a;
+  question.b.body = question.a.other = &b;
   fit(a);
-  ++counts_.evaluations[Term::SelfQuery];
-  penetrations_->within(a.index, found_of_a_, cost);
-  collect(found_of_a_, found_of_a_, a, a, pair.averaged, margin, of_a_);
-  CandidateList& list = next_list(contact);
-  list.pairs = of_a_.near;
-  merge(of_a_.deep, list.pairs);
-  num_lists_ += list.pairs.empty() ? 0 : 1;
-}
-
-void ContactSearch::search(ContactId contact, const ContactModel& pair, double margin,
-                           PenetrationCost& cost) {
-  Moving &a = moving_of(pair.a), &b = moving_of(pair.b);
-  fit(a);
+  if (question.is_self()) {
+    ++counts_.evaluations[Term::SelfQuery];
+    penetrations_->within(a.index, question.a.found, cost);
+    return;
+  }
   fit(b);
   ++counts_.evaluations[Term::PairQuery];
-  penetrations_->between(a.index, b.index, found_of_a_, found_of_b_, cost);
-  // In both directions, though one side alone looks for the other: what lies deep shows in either.
-  collect(found_of_a_, found_of_b_, a, b, pair.averaged, margin, of_a_);
-  collect(found_of_b_, found_of_a_, b, a, pair.averaged, margin, of_b_);
-  const SideCandidates &own = pair.reversed ? of_b_ : of_a_, &other = pair.reversed ? of_a_ : of_b_;
-  CandidateList& list = next_list(contact);
+  penetrations_->between(a.index, b.index, question.a.found, question.b.found, cost);
+}
+
+/// The list of a contact, if it has candidates. In both directions, though one side alone looks for
+/// the other: what lies deep shows in either.
+void ContactSearch::answer(const Question& question) {
+  const bool reversed = question.pair.reversed;
+  const Side &own = reversed ? question.b : question.a, &other = reversed ? question.a : question.b;
+  if (num_lists_ == lists_.size()) lists_.emplace_back();
+  CandidateList& list = lists_[num_lists_];
+  list.contact = question.contact;
   list.pairs = own.near;
   merge(own.deep, list.pairs);
-  merge(swapped(other.deep), list.pairs);
+  counts_.deep_pairs += std::ssize(own.deep);
+  if (!question.is_self()) {
+    merge(swapped(other.deep), list.pairs);
+    counts_.deep_pairs += std::ssize(other.deep);
+  }
   num_lists_ += list.pairs.empty() ? 0 : 1;
 }
 
@@ -236,65 +240,69 @@ bool ContactSearch::may_touch(const Moving& a, int triangle, const Moving& b, in
   return !are_tied(A, triangle, B, face) && !(&a == &b && are_two_sides(A, a.part, triangle, face));
 }
 
-void ContactSearch::collect(const Penetrations& found, const Penetrations& reverse, const Moving& a,
-                            const Moving& b, bool averaged, double margin, SideCandidates& side) {
+/// One side's candidates.
+void ContactSearch::collect(Question& question, bool of_b, Scratch& scratch) const {
+  Side& side = of_b ? question.b : question.a;
+  const Side& reverse = of_b || question.is_self() ? question.a : question.b;
+  const Moving &a = *side.body, &b = *side.other;
   const Collider& A = *model_.bodies[static_cast<std::size_t>(a.body)].collider;
   const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
-  const DepthRange range = depth_range(A, B, averaged);
-  std::vector<ContactCandidate>& pairs = side.near;
-  pairs.clear();
+  const DepthRange range = depth_range(A, B, question.pair.averaged);
+  const Penetrations& found = side.found;
+  side.near.clear();
   side.deep.clear();
-  deep_.clear();
+  scratch.deep.clear();
   for (std::size_t first = 0, end = 0; first < found.size(); first = end) {
     const int triangle = found[first].face;
     const FaceBounds& s = a.faces[static_cast<std::size_t>(triangle)];
     bool deep = false;
-    ++now_;
+    ++scratch.now;
     for (end = first; end < found.size() && found[end].face == triangle; ++end) {
       const auto tetrahedron = static_cast<std::size_t>(found[end].tetrahedron);
       deep = deep || B.is_inner[tetrahedron] != 0;
       for (int k = B.nearby_begin[tetrahedron]; k < B.nearby_begin[tetrahedron + 1]; ++k) {
         const int f = B.nearby[static_cast<std::size_t>(k)];
-        if (std::exchange(seen_[static_cast<std::size_t>(f)], now_) == now_) continue;
+        std::int64_t& seen = scratch.seen[static_cast<std::size_t>(f)];
+        if (std::exchange(seen, scratch.now) == scratch.now) continue;
         const FaceBounds& face = b.faces[static_cast<std::size_t>(f)];
         if (!may_face(s, face)) continue;
-        const FaceProximity what = face_proximity(s, face, range, margin);
+        const FaceProximity what = face_proximity(s, face, range, margin_);
         deep = deep || what.deeper;
-        if (what.may && may_touch(a, triangle, b, f)) pairs.push_back({triangle, f, range.reach});
+        if (what.may && may_touch(a, triangle, b, f))
+          side.near.push_back({triangle, f, range.reach});
       }
     }
-    if (deep) deep_.push_back({first, end});
+    if (deep) scratch.deep.push_back({first, end});
   }
-  drop_far_faces(reverse, B.face_area.size(), pairs);
-  add_deep_pairs(found, a, b, range, margin, side.deep);
+  drop_far_faces(reverse.found, B.face_area.size(), side.near);
+  add_deep_pairs(range, scratch, side);
 }
 
 /// For triangles that lie deeper below the other surface than the range reaches: the faces behind
 /// them up to about that depth. Faces farther off are seen from beyond an edge.
-void ContactSearch::add_deep_pairs(const Penetrations& found, const Moving& a, const Moving& b,
-                                   const DepthRange& range, double margin,
-                                   std::vector<ContactCandidate>& pairs) {
+void ContactSearch::add_deep_pairs(const DepthRange& range, const Scratch& scratch,
+                                   Side& side) const {
   constexpr double kOfDepth = 1.5;  // along a triangle's normal it is farther than straight up
+  const Moving &a = *side.body, &b = *side.other;
   const Collider& B = *model_.bodies[static_cast<std::size_t>(b.body)].collider;
-  for (const DeepTriangle& deep : deep_) {
-    const int triangle = found[deep.begin].face;
+  for (const Scratch::DeepTriangle& deep : scratch.deep) {
+    const int triangle = side.found[deep.begin].face;
     const FaceBounds& s = a.faces[static_cast<std::size_t>(triangle)];
     const bool inside =
-        std::any_of(found.begin() + static_cast<std::ptrdiff_t>(deep.begin),
-                    found.begin() + static_cast<std::ptrdiff_t>(deep.end),
+        std::any_of(side.found.begin() + static_cast<std::ptrdiff_t>(deep.begin),
+                    side.found.begin() + static_cast<std::ptrdiff_t>(deep.end),
                     [&](const collision::Penetration& p) {
                       return has_corner_in(s, b.x(Eigen::all, B.tets.col(p.tetrahedron)));
                     });
     if (!inside) continue;
     const double depth = depth_below(s, b.faces);
     if (!(kOfDepth * depth > range.reach)) continue;
-    const DepthRange deeper{range.open, kOfDepth * depth + margin};
+    const DepthRange deeper{range.open, kOfDepth * depth + margin_};
     for (std::size_t f = 0; f < b.faces.size(); ++f) {
       const auto face = static_cast<int>(f);
       if (!may_face(s, b.faces[f]) || !may_touch(a, triangle, b, face)) continue;
-      if (!face_proximity(s, b.faces[f], deeper, margin).may) continue;
-      pairs.push_back({triangle, face, deeper.reach});
-      ++counts_.deep_pairs;
+      if (face_proximity(s, b.faces[f], deeper, margin_).may)
+        side.deep.push_back({triangle, face, deeper.reach});
     }
   }
 }

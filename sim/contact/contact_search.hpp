@@ -92,21 +92,36 @@ class ContactSearch {
   void fit(Moving& moving);
   bool needs_update(const Moving& moving, double margin) const;
   bool moves(const Moving& moving) const;
-  /// Candidates among triangles of one body and faces of another.
-  struct SideCandidates {
+  /// One of the two bodies of a contact, whose triangles look for the other's faces.
+  struct Side {
+    const Moving *body = nullptr, *other = nullptr;
+    Penetrations found;  // triangles of the body in tetrahedra of the other
     std::vector<ContactCandidate> near, deep;
   };
-  void search(ContactId contact, const ContactModel& pair, double margin, PenetrationCost& cost);
-  void search_itself(ContactId contact, const ContactModel& pair, double margin,
-                     PenetrationCost& cost);
-  CandidateList& next_list(ContactId contact);
+  /// What near bodies are asked: both sides, or the one of a body and itself.
+  struct Question {
+    ContactId contact = 0;
+    ContactModel pair;
+    Side a, b;
+    bool is_self() const { return pair.a == pair.b; }
+  };
+  /// Of one thread.
+  struct Scratch {
+    /// Per face: when it was paired last; of each triangle of each side there is another time.
+    std::vector<std::int64_t> seen;
+    std::int64_t now = 0;
+    /// Triangles that may lie deeper in the other body than the range reaches, with what was found
+    /// of each: found[begin .. end).
+    struct DeepTriangle {
+      std::size_t begin = 0, end = 0;
+    };
+    std::vector<DeepTriangle> deep;
+  };
+  void ask(ContactId contact, PenetrationCost& cost);
+  void answer(const Question& question);
+  void collect(Question& question, bool of_b, Scratch& scratch) const;
   bool may_touch(const Moving& a, int triangle, const Moving& b, int face) const;
-  /// @param found    triangles of a in tetrahedra of b
-  /// @param reverse  of b in a
-  void collect(const Penetrations& found, const Penetrations& reverse, const Moving& a,
-               const Moving& b, bool averaged, double margin, SideCandidates& side);
-  void add_deep_pairs(const Penetrations& found, const Moving& a, const Moving& b,
-                      const DepthRange& range, double margin, std::vector<ContactCandidate>& pairs);
+  void add_deep_pairs(const DepthRange& range, const Scratch& scratch, Side& side) const;
 
   const Model& model_;
   std::vector<Moving> moving_;                       // one a collider
@@ -121,20 +136,11 @@ class ContactSearch {
   std::vector<BodySweep> sweeps_;
   std::vector<CandidateList> lists_;  // never shrinks: the first ones are candidates
   std::size_t num_lists_ = 0;
-  double margin_ = 0;      // [m]
-  double open_depth_ = 0;  // [m] largest of all sides that are averaged over
-  Penetrations found_of_a_, found_of_b_;
-  SideCandidates of_a_, of_b_;
-  /// Per face: when it was paired last; of each triangle of each pair of bodies there is another
-  /// time.
-  std::vector<std::int64_t> seen_;
-  std::int64_t now_ = 0;
-  /// Triangles that may lie deeper in the other body than the range reaches, with what was found of
-  /// each: found[begin .. end).
-  struct DeepTriangle {
-    std::size_t begin = 0, end = 0;
-  };
-  std::vector<DeepTriangle> deep_;
+  double margin_ = 0;                // [m]
+  double open_depth_ = 0;            // [m] largest of all sides that are averaged over
+  std::vector<Question> questions_;  // never shrinks: the first ones are of this find()
+  std::size_t num_questions_ = 0;
+  std::vector<Scratch> scratch_;  // by worker
   SearchCounts counts_;
 };
 

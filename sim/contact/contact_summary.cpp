@@ -94,7 +94,7 @@ void add_to_summary(const Model& model, const ContactPairState& pair_state,
     const Vec3 q = pressure_integrals(pair_state, entry, groups);
     sum.normal_force += q.sum();
     sum.center += x * q;
-    const Vec18 on_nodes = forces_on_nodes(pair_state, entry, groups);
+    const Vec18& on_nodes = entry.forces;
     (contact.reversed ? sum.center_on_b : sum.center_on_a) +=
         corners_at_start(side.triangles, entry.triangle) * q;
     if (!is_self)
@@ -199,7 +199,7 @@ std::vector<Positions> nodal_contact_forces(const Model& model, const ContactRes
     const auto& groups = side.triangles.groups;
     for (const ContactPairState::Patch& entry : pair_state->patches()) {
       if (!carries(*pair_state, entry.triangle, groups)) continue;
-      const Vec18 on_nodes = forces_on_nodes(*pair_state, entry, groups);
+      const Vec18& on_nodes = entry.forces;
       for (int i = 0; i < 3; ++i) {
         forces[static_cast<std::size_t>(side.triangle_body)].col(triangles(i, entry.triangle)) +=
             on_nodes.segment<3>(3 * i);

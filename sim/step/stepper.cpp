@@ -211,7 +211,7 @@ void Stepper::remember_start(const State& state) {
   start_ = dynamics_->now().configuration;
   t_before_ = state.t;
   if (equilibrium_) {
-    const StoredEnergy stored = stored_energy();
+    const StoredEnergy& stored = stored_energy();
     stored_before_ = stored.total();
     loss_before_ = numerical_loss(state, stored);
   }
@@ -249,7 +249,7 @@ bool Stepper::try_step(State& state, double h) {
 void Stepper::note_snap(State& after) const {
   constexpr double kMuchLost = 0.25;
   if (snap_.body < 0 || after.extrema.snap.body >= 0) return;
-  const StoredEnergy stored = stored_energy();
+  const StoredEnergy& stored = stored_energy();
   const double loss = numerical_loss(after, stored) - loss_before_;
   const double gained = stored.total() - stored_before_;
   if (!(loss > kMuchLost * std::max(std::abs(gained), std::abs(gained + loss)))) return;
@@ -526,14 +526,17 @@ void Stepper::fail(const State& state, double h) {
                   state.t, words_for(why_), h, why.cause, why.details));
 }
 
-StoredEnergy Stepper::stored_energy() const {
-  StoredEnergy energy;
-  energy.kinetic = kinetic_energy(dynamics_->now());
-  energy.elastic = elastic_energy(dynamics_->now());
-  energy.gravity = gravity_energy(dynamics_->now());
-  energy.contact = dynamics_->now().contact.stored_energy();
-  for (const LineState& line : dynamics_->now().lines) energy.lines += line.stored;
-  return energy;
+/// Several ask for that of one moment.
+const StoredEnergy& Stepper::stored_energy() const {
+  const Moment& now = dynamics_->now();
+  if (std::exchange(stored_moment_, now.number) == now.number) return stored_;
+  stored_ = {};
+  stored_.kinetic = kinetic_energy(now);
+  stored_.elastic = elastic_energy(now);
+  stored_.gravity = gravity_energy(now);
+  stored_.contact = now.contact.stored_energy();
+  for (const LineState& line : now.lines) stored_.lines += line.stored;
+  return stored_;
 }
 
 std::vector<Positions> Stepper::contact_forces() const {

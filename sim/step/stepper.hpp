@@ -77,7 +77,7 @@ class Stepper {
   /// Forces, lines and contacts at the state of the last step() or restart().
   const Dynamics& dynamics() const { return *dynamics_; }
   const Moment& now() const { return dynamics_->now(); }
-  StoredEnergy stored_energy() const;
+  const StoredEnergy& stored_energy() const;
   std::vector<Positions> contact_forces() const;  // at colliders' nodes, by body [N]
   PhaseTimes times();
   /// Since it was made; those of State::counts are of the steps alone.
@@ -148,6 +148,8 @@ class Stepper {
   ContactDepths depths_before_;         // of any point
   double t_before_ = 0;
   double stored_before_ = 0, loss_before_ = 0;  // [J] of a load step
+  mutable StoredEnergy stored_;                 // of the moment with that number
+  mutable std::int64_t stored_moment_ = 0;      // none yet
   double damping_before_ = 0;                   // [W]
   double contact_power_before_ = 0;             // [W]
   std::vector<double> fibre_energy_before_;     // [J] per activation, of each tissue

@@ -84,6 +84,27 @@ TEST(SignedCholesky, FollowsNewValuesOfOnePattern) {
   }
 }
 
+// The memory of the factor before serves: none of its entries may stay.
+template <class Real>
+void expect_new_patterns_are_followed(double error) {
+  SignedCholesky<Real> factor;
+  for (const int n : {6, 8, 5, 7, 9}) {
+    const QuasiDefinite problem(n, 0.3);
+    factor.analyze(problem.A, problem.signs);
+    ASSERT_EQ(factor.factorize(problem.A), Pivots::Right);
+    const Eigen::VectorXd x = Random().matrix<Eigen::VectorXd>(problem.A.size(), 1);
+    Eigen::VectorXd y;
+    problem.A.multiply(x, y);
+    factor.solve(y);
+    EXPECT_LT((y - x).norm(), error * x.norm()) << n;
+  }
+}
+
+TEST(SignedCholesky, FollowsNewPatterns) {
+  expect_new_patterns_are_followed<float>(1e-5);
+  expect_new_patterns_are_followed<double>(1e-13);
+}
+
 // Large enough that what lies above the subtrees is done in pieces, and subtrees differ in depth.
 TEST(SignedCholesky, HasTheSameBitsWithAnyNumberOfThreads) {
   for (const double share_negative : {0.0, 0.3}) {
@@ -91,7 +112,7 @@ TEST(SignedCholesky, HasTheSameBitsWithAnyNumberOfThreads) {
     const Eigen::VectorXd b = Random().matrix<Eigen::VectorXd>(problem.A.size(), 1);
     Eigen::VectorXd first;
     for (const int num_threads : {1, 2, 5}) {
-      SignedCholesky<double> factor(std::make_shared<ThreadPool>(num_threads));
+      SignedCholesky<double> factor(std::make_shared<ThreadPool>(num_threads), 0);
       factor.analyze(problem.A, problem.signs);
       for (int again = 0; again < 2; ++again) {
         ASSERT_EQ(factor.factorize(problem.A), Pivots::Right);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <utility>
 
 namespace articular::fem::supernodes_test {
 
@@ -119,6 +120,28 @@ TEST_F(SupernodesTest, SubtreesMeetOnlyAbove) {
   }
   EXPECT_EQ(static_cast<int>(in_subtrees.size() + nodes.top.size()), nodes.count());
   EXPECT_EQ(static_cast<int>(own_places.size()), nodes.num_above);
+}
+
+// What is above the subtrees is factored level by level, those of one level side by side.
+TEST_F(SupernodesTest, LevelsComeBeforeWhatTheyChange) {
+  std::vector<int> level_of(static_cast<std::size_t>(nodes.count()), -1);
+  int num_side_by_side = 0;
+  for (std::size_t level = 0; level < nodes.levels.size(); ++level)
+    for (const int s : nodes.levels[level]) {
+      EXPECT_EQ(std::exchange(level_of[static_cast<std::size_t>(s)], static_cast<int>(level)), -1);
+      num_side_by_side += nodes.levels[level].size() > 1;
+    }
+  EXPECT_GT(num_side_by_side, 0);
+  for (int s = 0; s < nodes.count(); ++s) {
+    const bool above = std::binary_search(nodes.top.begin(), nodes.top.end(), s);
+    const int level = level_of[static_cast<std::size_t>(s)];
+    EXPECT_EQ(level >= 0, above);
+    for (const int row : rows_of(nodes, s)) {
+      const int other = nodes.of_column[row];
+      if (!above || other == s) continue;
+      EXPECT_GT(level_of[static_cast<std::size_t>(other)], level);
+    }
+  }
 }
 
 TEST(Supernodes, AreThereForOneUnknownAndForUnknownsThatDoNotMeet) {
