@@ -24,9 +24,6 @@ constexpr int kFewColumns = 6;
 // Columns and rows of a supernode that are one task.
 constexpr int kPiece = 96;
 
-// Unknowns that are one task where each takes little.
-constexpr int kUnknownsPerPiece = 1024;
-
 /// What round-off may make of a pivot in single precision, where the diagonal was about 1. A knee
 /// under load has pivots from 1e-3, with round-off of 2e-7.
 constexpr double kUnclear = 1e-5;
@@ -38,6 +35,22 @@ Pivots judge(Real pivot) {
     if (std::abs(pivot) <= kUnclear || !std::isfinite(pivot)) return Pivots::Unclear;
   }
   return pivot > 0 && std::isfinite(pivot) ? Pivots::Right : Pivots::Wrong;
+}
+
+/// The worst that the tasks find. Only a wrong sign stops those that have not begun: with any
+/// number of threads it is found if there is one.
+/// @param task  (index, worker) -> Pivots
+template <class Task>
+Pivots worst_of(int num_tasks, ThreadPool& pool, const Task& task) {
+  std::atomic<bool> is_wrong = false, is_unclear = false;
+  pool.run(num_tasks, [&](int k, int worker) {
+    if (is_wrong) return;
+    const Pivots verdict = task(k, worker);
+    if (verdict == Pivots::Wrong) is_wrong = true;
+    if (verdict == Pivots::Unclear) is_unclear = true;
+  });
+  if (is_wrong) return Pivots::Wrong;
+  return is_unclear ? Pivots::Unclear : Pivots::Right;
 }
 
 /// The dense block A = L S Lᵀ in place (lower half, column-major, n columns of stride ld).
@@ -132,7 +145,7 @@ struct SignedCholesky<Real>::Factor {
     int s, begin, end;
   };
   std::vector<Piece> pieces;     // of supernodes of a level: columns, or rows below
-  ThreadPool alone{1};           // of whoever factors a subtree
+  mutable ThreadPool alone{1};   // of whoever factors a subtree
   mutable Vector<Real> ordered;  // work of solve(): the unknowns, the rows above subtrees
 
   void take_memory(std::vector<Real> memory);
@@ -142,7 +155,7 @@ struct SignedCholesky<Real>::Factor {
   void subtract(int d, int first, int last, int s, Work& work);
   int rows_before(int d, int first, int column) const;
   void enqueue(int d, int end);
-  void set_scale(const SymmetricMatrix& A, ThreadPool& pool);
+  void set_scale(const SymmetricMatrix& A);
   Pivots factorize_subtree(const SymmetricMatrix& A, const Supernodes::Subtree& subtree,
                            Work& work);
   template <class SizeOf>
@@ -172,9 +185,8 @@ template <class Real>
 void SignedCholesky<Real>::Factor::take_memory(std::vector<Real> memory) {
   const auto size = static_cast<std::size_t>(nodes.value_begin.back());
   if (memory.capacity() < size) {
-    const bool grows = memory.capacity() > 0;
     memory = {};
-    memory.reserve(grows ? size + size / 16 : size);
+    memory.reserve(size + size / 16);
   }
   memory.resize(size);
   value = std::move(memory);
@@ -230,14 +242,12 @@ void SignedCholesky<Real>::analyze(const SymmetricMatrix& A, std::span<const int
 }
 
 template <class Real>
-void SignedCholesky<Real>::Factor::set_scale(const SymmetricMatrix& A, ThreadPool& pool) {
-  pool.run_pieces(nodes.size(), kUnknownsPerPiece, [&](int begin, int end, int) {
-    for (int i = begin; i < end; ++i) {
-      const int last = A.begin[nodes.order[i] + 1] - 1;  // of its column: the diagonal, if any
-      const bool has_diagonal = last >= A.begin[nodes.order[i]] && A.row[last] == nodes.order[i];
-      scale[i] = has_diagonal ? power_for_unit(A.value[last]) : 1;
-    }
-  });
+void SignedCholesky<Real>::Factor::set_scale(const SymmetricMatrix& A) {
+  for (int i = 0; i < nodes.size(); ++i) {
+    const int last = A.begin[nodes.order[i] + 1] - 1;  // of its column: the diagonal, if any
+    const bool has_diagonal = last >= A.begin[nodes.order[i]] && A.row[last] == nodes.order[i];
+    scale[i] = has_diagonal ? power_for_unit(A.value[last]) : 1;
+  }
 }
 
 /// Columns from .. to of a supernode become those of A, scaled.
@@ -398,16 +408,10 @@ Pivots SignedCholesky<Real>::Factor::factorize_blocks(std::span<const int> level
   for (const int s : level)
     if (verdict == Pivots::Right && is_large(s)) verdict = factorize(s, pool, 0);
   if (verdict != Pivots::Right) return verdict;
-  std::atomic<bool> is_wrong = false, is_unclear = false;
-  pool.run(static_cast<int>(level.size()), [&](int k, int worker) {
+  return worst_of(static_cast<int>(level.size()), pool, [&](int k, int worker) {
     const int s = level[static_cast<std::size_t>(k)];
-    if (is_large(s)) return;
-    const Pivots found = factorize(s, alone, worker);
-    if (found == Pivots::Wrong) is_wrong = true;
-    if (found == Pivots::Unclear) is_unclear = true;
+    return is_large(s) ? Pivots::Right : factorize(s, alone, worker);
   });
-  if (is_wrong) return Pivots::Wrong;
-  return is_unclear ? Pivots::Unclear : Pivots::Right;
 }
 
 /// Supernodes of one level of the top.
@@ -453,25 +457,20 @@ Pivots SignedCholesky<Real>::factorize(const SymmetricMatrix& A) {
   Factor& L = *factor_;
   const Supernodes& nodes = L.nodes;
   std::fill(L.head.begin(), L.head.end(), -1);
-  L.set_scale(A, *pool_);
-  // Only a wrong sign stops the others: with any number of threads it is found if there is one.
-  std::atomic<bool> is_wrong = false, is_unclear = false;
-  pool_->run(static_cast<int>(nodes.subtrees.size()), [&](int k, int worker) {
-    if (is_wrong) return;
-    const Pivots verdict = L.factorize_subtree(A, nodes.subtrees[static_cast<std::size_t>(k)],
-                                               L.scratch[static_cast<std::size_t>(worker)]);
-    if (verdict == Pivots::Wrong) is_wrong = true;
-    if (verdict == Pivots::Unclear) is_unclear = true;
+  L.set_scale(A);
+  const int num_subtrees = static_cast<int>(nodes.subtrees.size());
+  Pivots verdict = worst_of(num_subtrees, *pool_, [&](int k, int worker) {
+    return L.factorize_subtree(A, nodes.subtrees[static_cast<std::size_t>(k)],
+                               L.scratch[static_cast<std::size_t>(worker)]);
   });
-  if (is_wrong) return Pivots::Wrong;
-  if (is_unclear) return Pivots::Unclear;
+  if (verdict != Pivots::Right) return verdict;
   for (const Supernodes::Subtree& subtree : nodes.subtrees)
     for (int d = subtree.begin; d < subtree.end; ++d) L.enqueue(d, nodes.count());
   for (const std::vector<int>& level : nodes.levels) {
-    const Pivots verdict = L.factorize_level(A, level, *pool_);
-    if (verdict != Pivots::Right) return verdict;
+    verdict = L.factorize_level(A, level, *pool_);
+    if (verdict != Pivots::Right) break;
   }
-  return Pivots::Right;
+  return verdict;
 }
 
 /// y ← L⁻¹ y in the columns of s, and what follows from it below.
@@ -521,7 +520,7 @@ void SignedCholesky<Real>::Factor::solve_backward(int s, Vector<Real>& y, Work& 
 template <class Real>
 void SignedCholesky<Real>::solve(Eigen::VectorXd& x) const {
   assert(factor_ && x.size() == factor_->nodes.size());
-  Factor& L = *factor_;
+  const Factor& L = *factor_;
   const Supernodes& nodes = L.nodes;
   const int n = nodes.size(), num_subtrees = static_cast<int>(nodes.subtrees.size());
   Vector<Real>& y = L.ordered;

@@ -330,7 +330,7 @@ void Dynamics::multiply_mass(const Eigen::VectorXd& b, Eigen::VectorXd& r) const
 void Dynamics::take_pressures(const PredictedPressures& pressures) {
   if (pressures.prediction == nullptr) return;
   for (std::size_t t = 0; t < moment_.tissues.size(); ++t)
-    if (model_.tissues[t].elements.smoothed() != nullptr) find_pressure(t, pressures);
+    if (is_smoothed(model_.tissues[t])) find_pressure(t, pressures);
 }
 
 NewtonEquations Dynamics::assemble(const SystemScale& scale, fem::Tangent tangent,

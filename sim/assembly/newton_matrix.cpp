@@ -66,8 +66,8 @@ NewtonMatrix::NewtonMatrix(const Model& model)
 /// Sheets, dashpots, fibres with a drag and relaxation need a matrix of the tissue, and so do nodes
 /// whose rigid body is an unknown, which the tissue pushes by levers.
 bool NewtonMatrix::adds_directly(const Tissue& tissue) const {
-  if (tissue.elements.smoothed() != nullptr || !tissue.sheets.empty() || tissue.dashpots ||
-      tissue.fibre_drag || tissue.relaxation)
+  if (is_smoothed(tissue) || !tissue.sheets.empty() || tissue.dashpots || tissue.fibre_drag ||
+      tissue.relaxation)
     return false;
   return std::none_of(tissue.nodes.begin(), tissue.nodes.end(), [this](const NodeRef& node) {
     return node.rigid >= 0 && node.rigid < model_.layout.num_rigid;
@@ -138,7 +138,7 @@ void NewtonMatrix::build_pattern() {
     fem::BlockMatrix& common = smoothed_ ? plain_ : A_;
     if (adds_directly(tissue)) {
       work.direct = tissue.elements.slots_in(common, free_block_of_node(tissue));
-    } else if (tissue.elements.smoothed() != nullptr) {
+    } else if (is_smoothed(tissue)) {
       find_slots(tissue, A_, work.own);
       find_slots(tissue, plain_, work.plain);
     } else {
@@ -225,7 +225,7 @@ void NewtonMatrix::add_dashpots(std::size_t t, const Moment& now, const SystemSc
   tissue.dashpots->add_tangent(moment.x, moment.velocity, scale.damping,
                                tangent == fem::Tangent::Consistent ? scale.stiffness : 0,
                                tissues_[t].own.K);
-  if (tissue.elements.smoothed() != nullptr)
+  if (is_smoothed(tissue))
     tissue.dashpots->add_plain_damping(moment.x, scale.damping, tissues_[t].plain.K);
 }
 
@@ -239,7 +239,7 @@ void NewtonMatrix::add_fibre_drag(std::size_t t, const Moment& now, const System
   tissue.fibre_drag->add_tangent(moment.x, moment.velocity, activation, scale.damping,
                                  tangent == fem::Tangent::Consistent ? scale.stiffness : 0,
                                  work.fibre_lines, work.own.K);
-  if (tissue.elements.smoothed() != nullptr)
+  if (is_smoothed(tissue))
     tissue.fibre_drag->add_plain_damping(moment.x, moment.velocity, activation, scale.damping,
                                          work.fibre_lines, work.plain.K);
 }
@@ -257,7 +257,7 @@ void NewtonMatrix::find_stiffness(std::size_t t, const Moment& now, const System
   const Tissue& tissue = model_.tissues[t];
   TissueWork& work = tissues_[t];
   if (work.direct) return;
-  if (tissue.elements.smoothed() != nullptr) {
+  if (is_smoothed(tissue)) {
     find_smoothed_stiffness(t, now, scale, tangent);
     return;
   }
@@ -321,7 +321,7 @@ void NewtonMatrix::add_tissue(std::size_t t, const Moment& now, const SystemScal
                                   tangent, scale.stiffness, *work.direct, A);
     return;
   }
-  const bool smoothed = tissue.elements.smoothed() != nullptr;
+  const bool smoothed = is_smoothed(tissue);
   if (smoothed && tissue.sheets.empty()) return;
   const fem::BlockMatrix& K = smoothed ? work.beside : work.own.K;
   const TissueMatrix& places = smoothed ? work.plain : work.own;

@@ -1,6 +1,7 @@
 #include "sim/contact/contact_forecast.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/model/model.hpp"
 
@@ -47,8 +48,9 @@ void ContactForecast::gather(const ContactPairState& pair_state, int group,
       });
 }
 
-/// @param measure  A [m²]
-void ContactForecast::note(double stiffness, double measure) {
+/// @param pressure  that is then, less the one that the matrix has [Pa]
+/// @param measure   A [m²]
+void ContactForecast::note(double stiffness, double pressure, double measure) {
   changes_.stiffness.push_back(stiffness * measure);
   for (const int block : gradient_.blocks()) {
     changes_.block.push_back(block);
@@ -56,6 +58,7 @@ void ContactForecast::note(double stiffness, double measure) {
     if (const int held = held_[static_cast<std::size_t>(block)]; held >= 0)
       gradient = (model_.held_blocks[static_cast<std::size_t>(held)].free * gradient).eval();
     changes_.gradient.push_back(gradient);
+    missed_.segment<3>(3 * block) += pressure * measure * gradient;
   }
   changes_.begin.push_back(static_cast<int>(changes_.block.size()));
 }
@@ -64,6 +67,7 @@ const GroupChanges& ContactForecast::foresee(ContactResponse& response,
                                              const Configuration& configuration,
                                              const Eigen::VectorXd& correction) {
   changes_.clear();
+  missed_.setZero(correction.size());
   for (ContactPairState* const pair_state : response.pair_states()) {
     if (!is_foreseeable(*pair_state) || pair_state->groups.empty()) continue;
     patches_.find(model_, *pair_state);
@@ -75,7 +79,9 @@ const GroupChanges& ContactForecast::foresee(ContactResponse& response,
         way += gradient_.at(block).dot(correction.segment<3>(3 * block));
       const double measure = pair_state->measure[a], k = pair_state->slope(a);
       const bool presses = pair_state->presses_after(a, way / measure);
-      if (presses != pair_state->presses_in_matrix(a)) note(presses ? k : -k, measure);
+      const double pressure = pair_state->signed_pressure(a) + k * way / measure;
+      if (presses != pair_state->presses_in_matrix(a))
+        note(presses ? k : -k, std::abs(pressure), measure);
       pair_state->foreseen[static_cast<std::size_t>(a)] =
           presses ? Foreseen::Presses : Foreseen::IsOpen;
       gradient_.clear();

@@ -43,6 +43,9 @@ class ContactForecast {
   /// @return the groups that were taken to be on the other side; valid until the next call
   const GroupChanges& foresee(ContactResponse& response, const Configuration& configuration,
                               const Eigen::VectorXd& correction);
+  /// The norm of the forces on free freedoms by which the linear ones that led to the correction
+  /// differ from those that are then, to first order [N, N m].
+  double missed() const { return missed_.norm(); }
   /// Whether any group is taken for something else than it is.
   static bool is_made(const ContactResponse& response);
   /// f += the linear forces of groups that are taken to press and do not, less the forces of those
@@ -52,13 +55,14 @@ class ContactForecast {
 
  private:
   void gather(const ContactPairState& pair_state, int group, const Configuration& configuration);
-  void note(double stiffness, double measure);
+  void note(double stiffness, double pressure, double measure);
 
   const Model& model_;
   PatchesOfGroups patches_;
   GroupGradient gradient_;
   std::vector<int> held_;  // of each unknown block its place in Model::held_blocks, or -1
   GroupChanges changes_;
+  Eigen::VectorXd missed_;  // of the unknown blocks
 };
 
 }  // namespace articular::sim

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/assembly/body_imbalance.hpp"
 #include "sim/assembly/line_search.hpp"
@@ -15,6 +16,10 @@ namespace {
 
 /// A residual that falls by less than this asks for a new matrix.
 constexpr double kSlowFall = 0.1;
+/// More solutions for what a correction opens and closes save no more, see RESULTS.md.
+constexpr int kMostForecasts = 2;
+
+SystemScale scale_of(double gamma) { return {1, gamma, gamma * gamma, gamma}; }
 
 Eigen::Quaterniond quaternion(const double* q) { return {q[0], q[1], q[2], q[3]}; }
 
@@ -43,7 +48,7 @@ double lengthening(std::span<const WeightedPoint> path, const Configuration& now
 }  // namespace
 
 NewtonSystem::NewtonSystem(const Model& model, Dynamics& dynamics)
-    : model_(model), dynamics_(dynamics), solver_(make_linear_solver(model)) {}
+    : model_(model), dynamics_(dynamics), solver_(make_linear_solver(model)), forecast_(model) {}
 
 void NewtonSystem::restart() {
   solver_ = make_linear_solver(model_);
@@ -85,17 +90,19 @@ bool NewtonSystem::has_parted() const {
 }
 
 bool NewtonSystem::prepare(double gamma, fem::Tangent tangent, SolverCounts& counts) {
-  const NewtonEquations equations =
-      dynamics_.assemble({1, gamma, gamma * gamma, gamma}, tangent, pressures_);
+  tangent_ = tangent;
+  if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
+  return prepare(dynamics_.assemble(scale_of(gamma), tangent, pressures_), gamma, counts);
+}
+
+bool NewtonSystem::prepare(const NewtonEquations& equations, double gamma, SolverCounts& counts) {
   const Stopwatch watch(solve_seconds_);
   ++counts.factorizations;
-  if (tangent == fem::Tangent::Projected) ++counts.projected_tangents;
   const bool ready = prepare_linear(*solver_, equations, dynamics_.now().configuration.x);
   friction_ = &equations.friction;
   gamma_ = ready ? gamma : 0;
   pattern_ = equations.A.pattern_id();
   touching_ = dynamics_.now().contact.force_on_bodies();
-  tangent_ = tangent;
   return ready;
 }
 
@@ -108,30 +115,69 @@ bool NewtonSystem::solve_symmetric(const Eigen::VectorXd& r, Eigen::VectorXd& w,
   return report.converged && w.allFinite();
 }
 
-bool NewtonSystem::solve_linear(SolverCounts& counts) {
+bool NewtonSystem::solve_linear(Eigen::VectorXd& r, SolverCounts& counts) {
   const Stopwatch watch(solve_seconds_);
-  const auto solve = [&](Eigen::VectorXd& r, Eigen::VectorXd& w) {
-    keep_free_part(model_, r);
-    return solve_symmetric(r, w, counts);
+  const auto solve = [&](Eigen::VectorXd& part, Eigen::VectorXd& w) {
+    keep_free_part(model_, part);
+    return solve_symmetric(part, w, counts);
   };
   const FrictionCoupling& coupling = *friction_;
   const bool solved =
-      solve_symmetric(mass_rhs_, w_, counts) &&
-      (coupling.num_groups() == 0 || solve_with_friction(coupling, solve, mass_rhs_, w_));
+      solve(r, w_) && (coupling.num_groups() == 0 || solve_with_friction(coupling, solve, r, w_));
   used_consistent_ |= solved && tangent_ == fem::Tangent::Consistent;
   return solved;
 }
 
 bool NewtonSystem::find_correction(double gamma, SolverCounts& counts) {
-  bool ready = !needs_matrix(gamma) || prepare(gamma, first_, counts);
+  is_new_ = needs_matrix(gamma);
+  bool ready = !is_new_ || prepare(gamma, first_, counts);
   ++iteration_;
-  if (ready && solve_linear(counts)) return true;
+  if (ready && solve_linear(mass_rhs_, counts)) return true;
   // Not positive definite: Cholesky says so at once, conjugate gradients when they meet it.
   if (tangent_ == fem::Tangent::Projected) return false;
   // Where the iteration is slow besides, the other one is not asked again in this step.
   if (anderson_.is_slow()) first_ = fem::Tangent::Projected;
+  is_new_ = true;
   ready = prepare(gamma, fem::Tangent::Projected, counts);
-  return ready && solve_linear(counts);
+  return ready && solve_linear(mass_rhs_, counts);
+}
+
+bool NewtonSystem::prepare_foreseen(double gamma, const GroupChanges& changes,
+                                    SolverCounts& counts) {
+  const bool may_project = first_ == fem::Tangent::Consistent;
+  if (!std::exchange(is_new_, true))
+    return prepare(gamma, first_, counts) ||
+           (may_project && prepare(gamma, fem::Tangent::Projected, counts));
+  const NewtonEquations equations =
+      dynamics_.assemble_again(changes, scale_of(gamma), tangent_, pressures_);
+  return prepare(equations, gamma, counts);
+}
+
+bool NewtonSystem::solve_foreseen(double gamma, const GroupChanges& changes, SolverCounts& counts) {
+  foreseen_rhs_.setZero(w_.size());
+  forecast_.add_force(dynamics_.contact(), dynamics_.now().configuration, foreseen_rhs_);
+  foreseen_rhs_ = mass_rhs_ + gamma * foreseen_rhs_;
+  return prepare_foreseen(gamma, changes, counts) && solve_linear(foreseen_rhs_, counts);
+}
+
+void NewtonSystem::correct_for_contact(double gamma, SolverCounts& counts) {
+  if (!dynamics_.now().contact.has_patches() || is_at_end(gamma)) return;
+  const auto foresee = [&]() -> const GroupChanges& {
+    way_ = gamma * w_;
+    return forecast_.foresee(dynamics_.contact(), dynamics_.now().configuration, way_);
+  };
+  const GroupChanges* changes = &foresee();
+  for (int round = 0; round < kMostForecasts && gamma * forecast_.missed() > residual_; ++round) {
+    const double missed = forecast_.missed();
+    plain_w_ = w_;
+    const bool solved = solve_foreseen(gamma, *changes, counts);
+    if (solved) changes = &foresee();
+    if (solved && forecast_.missed() < missed) continue;
+    w_ = plain_w_;
+    gamma_ = 0;
+    break;
+  }
+  dynamics_.contact().forget_foreseen();
 }
 
 void NewtonSystem::predict_pressures(double gamma) {
@@ -250,7 +296,11 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
   last_residual_ = residual_;
   residual_ = mass_rhs_.norm();
   w_.resize(num_velocities);
-  if (num_velocities > 0 && !find_correction(gamma, counts)) return false;
+  const bool searches = correction_++ >= searches_from_;
+  if (num_velocities > 0) {
+    if (!find_correction(gamma, counts)) return false;
+    if (!searches) correct_for_contact(gamma, counts);
+  }
   // The rows of held freedoms are δv = b_v. With w = 0 there instead, the round-off of axes that
   // are turned would be predicted on and on, twice as large in each step.
   for (const auto& [block, free] : model_.held_blocks) {
@@ -258,7 +308,6 @@ bool NewtonSystem::solve(const double* y, double gamma, const double* b, double*
     auto own = w_.segment<3>(3 * block);
     own = (free * own + given - free * given).eval();
   }
-  const bool searches = correction_++ >= searches_from_;
   const bool accelerated = !searches && accelerate(gamma);
 
   Eigen::Map<Eigen::VectorXd>(x, 3 * layout.num_free_nodes) =

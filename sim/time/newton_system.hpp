@@ -8,6 +8,7 @@
 #include "sim/assembly/relaxation_rows.hpp"
 #include "sim/assembly/solver_setup.hpp"
 #include "sim/assembly/tissue_damping.hpp"
+#include "sim/contact/contact_forecast.hpp"
 #include "sim/model/state.hpp"
 #include "sim/time/anderson.hpp"
 
@@ -73,29 +74,43 @@ class NewtonSystem {
   /// How far w moves a node or rigid body at most [m].
   double largest_motion(double gamma) const;
   [[nodiscard]] bool prepare(double gamma, fem::Tangent tangent, SolverCounts& counts);
-  [[nodiscard]] bool solve_linear(SolverCounts& counts);
+  [[nodiscard]] bool prepare(const NewtonEquations& equations, double gamma, SolverCounts& counts);
+  /// w for the right-hand side r, of which the free part is kept.
+  [[nodiscard]] bool solve_linear(Eigen::VectorXd& r, SolverCounts& counts);
   /// w = A⁻¹ r with the matrix that is factored.
   [[nodiscard]] bool solve_symmetric(const Eigen::VectorXd& r, Eigen::VectorXd& w,
                                      SolverCounts& counts);
   /// w, with the consistent matrix if it is positive definite, else with the projected one.
   [[nodiscard]] bool find_correction(double gamma, SolverCounts& counts);
+  /// Solves for w anew, with contact as it opens and closes on the way (contact_forecast.hpp),
+  /// where forces would else be off by more than what w corrects.
+  void correct_for_contact(double gamma, SolverCounts& counts);
+  /// w with contact as it is foreseen.
+  [[nodiscard]] bool solve_foreseen(double gamma, const GroupChanges& changes,
+                                    SolverCounts& counts);
+  /// Its matrix.
+  [[nodiscard]] bool prepare_foreseen(double gamma, const GroupChanges& changes,
+                                      SolverCounts& counts);
 
   const Model& model_;
   Dynamics& dynamics_;
   std::unique_ptr<fem::LinearSolver> solver_;
   const FrictionCoupling* friction_ = nullptr;  // of the matrix that is factored
+  ContactForecast forecast_;
   TissueDamping damping_;
   RelaxationRows relaxation_;
   std::optional<PressurePrediction> start_;  // at the step's start, where that is known
   PressurePrediction prediction_;            // along the last correction
   PredictedPressures pressures_;             // that the next matrix takes; none: of the positions
   Eigen::VectorXd velocity_rhs_, mass_rhs_, shift_, pull_, w_, velocity_change_;
+  Eigen::VectorXd way_, foreseen_rhs_, plain_w_;         // of correct_for_contact()
   Eigen::VectorXd weighted_, forces_, trial_;            // of the line search
   double gamma_ = 0;                                     // of the matrix that is factored; 0: none
   std::uint64_t pattern_ = 0;                            // of that matrix
   std::vector<double> touching_;                         // force on bodies then [N]
   fem::Tangent tangent_ = fem::Tangent::Consistent;      // of that matrix
   fem::Tangent first_ = fem::Tangent::Consistent;        // to try in this step
+  bool is_new_ = false;                                  // the matrix is of this iteration
   bool used_consistent_ = false;                         // in this step
   int iteration_ = 0;                                    // in this step
   bool changed_ = false;                                 // the last correction, see changed()

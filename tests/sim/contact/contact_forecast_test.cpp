@@ -72,6 +72,14 @@ struct UnevenBlocks {
     for (const NodeRef& node : model.tissues[1].nodes) w[3 * node.block + 2] = -way;
     return w;
   }
+  /// Of the upper block's nodes up and down at random: next to each other some open, some close.
+  Eigen::VectorXd shaken(double way) const {
+    Random random(3);
+    Eigen::VectorXd w = down(0);
+    for (const NodeRef& node : model.tissues[1].nodes)
+      w[3 * node.block + 2] = way * random.vector(1)[0];
+    return w;
+  }
   /// ∂g/∂w of all groups, by central differences.
   Eigen::VectorXd depth_rates(const Eigen::VectorXd& w) {
     constexpr double kPart = 1e-6;
@@ -134,6 +142,25 @@ TEST(ContactForecast, WhatIsForeseenAgainIsNoChange) {
   EXPECT_EQ(blocks.foresee(w).size(), 0U);
   EXPECT_GT(blocks.foresee(Eigen::VectorXd::Zero(w.size())).size(), 10U);
   EXPECT_FALSE(ContactForecast::is_made(blocks.dynamics.contact()));
+}
+
+// Contact is a hundred times as stiff as the blocks: what these do on the way hardly counts.
+TEST(ContactForecast, MissesTheForcesThatTheLinearOnesAreNot) {
+  UnevenBlocks blocks;
+  for (const Eigen::VectorXd& w :
+       {blocks.down(0.01 * kSide), blocks.down(-0.004 * kSide), blocks.shaken(0.01 * kSide)}) {
+    blocks.move(w, 0);
+    Eigen::VectorXd difference(w.size());
+    blocks.dynamics.assemble({0, 0, 1}, fem::Tangent::Consistent).A.multiply(w, difference);
+    difference -= blocks.dynamics.now().forces.head(w.size());
+    blocks.foresee(w);
+    const double missed = blocks.forecast.missed();
+    blocks.dynamics.contact().forget_foreseen();
+    blocks.move(w, 1);
+    difference += blocks.dynamics.now().forces.head(w.size());
+    EXPECT_NEAR(missed, difference.norm(), 0.1 * missed);
+    EXPECT_GT(missed, 1e-3);
+  }
 }
 
 // Against depths by differences: wᵀ ΔA w = Σ ± k A (∂g/∂w)², k the slope of the pressure.
