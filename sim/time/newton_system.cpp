@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "sim/assembly/body_imbalance.hpp"
 #include "sim/assembly/line_search.hpp"
@@ -101,6 +100,7 @@ bool NewtonSystem::prepare(const NewtonEquations& equations, double gamma, Solve
   const bool ready = prepare_linear(*solver_, equations, dynamics_.now().configuration.x);
   friction_ = &equations.friction;
   gamma_ = ready ? gamma : 0;
+  is_new_ = true;
   pattern_ = equations.A.pattern_id();
   touching_ = dynamics_.now().contact.force_on_bodies();
   return ready;
@@ -115,48 +115,46 @@ bool NewtonSystem::solve_symmetric(const Eigen::VectorXd& r, Eigen::VectorXd& w,
   return report.converged && w.allFinite();
 }
 
-bool NewtonSystem::solve_linear(Eigen::VectorXd& r, SolverCounts& counts) {
+bool NewtonSystem::solve_linear(const Eigen::VectorXd& r, SolverCounts& counts) {
   const Stopwatch watch(solve_seconds_);
   const auto solve = [&](Eigen::VectorXd& part, Eigen::VectorXd& w) {
     keep_free_part(model_, part);
     return solve_symmetric(part, w, counts);
   };
   const FrictionCoupling& coupling = *friction_;
-  const bool solved =
-      solve(r, w_) && (coupling.num_groups() == 0 || solve_with_friction(coupling, solve, r, w_));
+  const bool solved = solve_symmetric(r, w_, counts) &&
+                      (coupling.num_groups() == 0 || solve_with_friction(coupling, solve, r, w_));
   used_consistent_ |= solved && tangent_ == fem::Tangent::Consistent;
   return solved;
 }
 
 bool NewtonSystem::find_correction(double gamma, SolverCounts& counts) {
-  is_new_ = needs_matrix(gamma);
-  bool ready = !is_new_ || prepare(gamma, first_, counts);
+  is_new_ = false;
+  bool ready = !needs_matrix(gamma) || prepare(gamma, first_, counts);
   ++iteration_;
   if (ready && solve_linear(mass_rhs_, counts)) return true;
   // Not positive definite: Cholesky says so at once, conjugate gradients when they meet it.
   if (tangent_ == fem::Tangent::Projected) return false;
   // Where the iteration is slow besides, the other one is not asked again in this step.
   if (anderson_.is_slow()) first_ = fem::Tangent::Projected;
-  is_new_ = true;
   ready = prepare(gamma, fem::Tangent::Projected, counts);
   return ready && solve_linear(mass_rhs_, counts);
 }
 
 bool NewtonSystem::prepare_foreseen(double gamma, const GroupChanges& changes,
                                     SolverCounts& counts) {
-  const bool may_project = first_ == fem::Tangent::Consistent;
-  if (!std::exchange(is_new_, true))
-    return prepare(gamma, first_, counts) ||
-           (may_project && prepare(gamma, fem::Tangent::Projected, counts));
-  const NewtonEquations equations =
-      dynamics_.assemble_again(changes, scale_of(gamma), tangent_, pressures_);
-  return prepare(equations, gamma, counts);
+  if (is_new_)
+    return prepare(dynamics_.assemble_again(changes, scale_of(gamma), tangent_, pressures_), gamma,
+                   counts);
+  return prepare(gamma, first_, counts) ||
+         (first_ == fem::Tangent::Consistent && prepare(gamma, fem::Tangent::Projected, counts));
 }
 
 bool NewtonSystem::solve_foreseen(double gamma, const GroupChanges& changes, SolverCounts& counts) {
   foreseen_rhs_.setZero(w_.size());
   forecast_.add_force(dynamics_.contact(), dynamics_.now().configuration, foreseen_rhs_);
   foreseen_rhs_ = mass_rhs_ + gamma * foreseen_rhs_;
+  keep_free_part(model_, foreseen_rhs_);
   return prepare_foreseen(gamma, changes, counts) && solve_linear(foreseen_rhs_, counts);
 }
 

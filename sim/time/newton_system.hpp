@@ -75,8 +75,8 @@ class NewtonSystem {
   double largest_motion(double gamma) const;
   [[nodiscard]] bool prepare(double gamma, fem::Tangent tangent, SolverCounts& counts);
   [[nodiscard]] bool prepare(const NewtonEquations& equations, double gamma, SolverCounts& counts);
-  /// w for the right-hand side r, of which the free part is kept.
-  [[nodiscard]] bool solve_linear(Eigen::VectorXd& r, SolverCounts& counts);
+  /// w for a right-hand side r, its free part.
+  [[nodiscard]] bool solve_linear(const Eigen::VectorXd& r, SolverCounts& counts);
   /// w = A⁻¹ r with the matrix that is factored.
   [[nodiscard]] bool solve_symmetric(const Eigen::VectorXd& r, Eigen::VectorXd& w,
                                      SolverCounts& counts);

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "sim/time/newton_system.hpp"
+#include "tests/sim/support/found_contacts.hpp"
 #include "tests/sim/support/scene.hpp"
 
 namespace articular::sim::dynamics_test {
@@ -93,10 +94,7 @@ struct Forces {
   Forces(const Scenario& scenario, double margin) : model(model_of(scenario)), dynamics(model) {
     if (model.contacts.empty()) return;
     search = std::make_unique<ContactSearch>(model, step_settings(scenario));
-    Configuration start;
-    read_state(model, initial_state(model).data(), 0, start);
-    search->find(start, margin);
-    dynamics.set_candidates(search->candidates());
+    find_contacts(model, initial_state(model), margin, *search, dynamics);
   }
   const Eigen::VectorXd& at(const Eigen::VectorXd& y) {
     dynamics.evaluate(y.data(), 0);

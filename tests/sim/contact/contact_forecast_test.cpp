@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/sim/support/contact_scene.hpp"
+#include "tests/sim/support/found_contacts.hpp"
 
 namespace articular::sim::contact_forecast_test {
 
@@ -28,10 +29,7 @@ struct UnevenBlocks {
     const int n = 3 * model.layout.num_free_nodes;
     y = initial_state(model);
     y.head(n) += 0.02 * kSide * random.vector(n);
-    Configuration configuration;
-    read_state(model, y.data(), 0, configuration);
-    search.find(configuration, 0.1 * kSide);
-    dynamics.set_candidates(search.candidates());
+    find_contacts(model, y, 0.1 * kSide, search, dynamics);
     dynamics.evaluate(y.data(), 0);
   }
 

@@ -13,6 +13,7 @@
 
 #include "sim/contact/contact_search.hpp"
 #include "tests/sim/support/contact_scene.hpp"
+#include "tests/sim/support/found_contacts.hpp"
 #include "tests/sim/support/patch_triangles.hpp"
 
 namespace articular::sim::contact_friction_test {
@@ -222,10 +223,7 @@ struct Forces {
     Random random(2);
     const int first = model.layout.velocities(), n = 3 * model.layout.num_unknown_blocks();
     y.segment(first, n) += jitter * random.vector(n);
-    Configuration start;
-    read_state(model, y.data(), 0, start);
-    search.find(start, 1e-4);
-    dynamics.set_candidates(search.candidates());
+    find_contacts(model, y, 1e-4, search, dynamics);
     dynamics.evaluate(y.data(), 0);
   }
   Dynamics dynamics;
