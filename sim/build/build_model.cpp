@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
 
 #include "sim/base/available_memory.hpp"
 #include "sim/base/mistakes.hpp"
@@ -11,6 +13,7 @@
 #include "sim/build/body_geometry.hpp"
 #include "sim/build/coincident_bodies.hpp"
 #include "sim/build/contact_model.hpp"
+#include "sim/build/law_doubts.hpp"
 #include "sim/build/linear_solver.hpp"
 #include "sim/build/make_probes.hpp"
 #include "sim/build/make_sheets.hpp"
@@ -72,11 +75,10 @@ class Builder {
     model_.position_tolerance = position_tolerance(scenario_.integrator, model_);
     model_.detection_margin = detection_margin(model_);
     model_.trusted_motion = trusted_motion(model_);
-    model_.warnings.insert(model_.warnings.end(), scenario_.doubts.begin(), scenario_.doubts.end());
-    for (std::string& doubt : unit_doubts(scenario_, model_))
-      model_.warnings.push_back(std::move(doubt));
-    for (std::string& doubt : scene_doubts(scenario_, model_, geometry_))
-      model_.warnings.push_back(std::move(doubt));
+    for (const auto& doubts :
+         {scenario_.doubts, unit_doubts(scenario_, model_), law_doubts(scenario_, model_),
+          scene_doubts(scenario_, model_, geometry_)})
+      model_.warnings.insert(model_.warnings.end(), doubts.begin(), doubts.end());
     model_.linear_solver = choose_linear_solver(scenario_, model_);
     return std::move(model_);
   }
@@ -305,8 +307,24 @@ class Builder {
     }
   }
 
+  /// The point of a body that a force acts on.
   WeightedPoint resolve(const Anchor& anchor) {
-    return anchored_point(anchor, body_index(anchor.body), model_, surface_, model_.warnings);
+    WeightedPoint point =
+        anchored_point(anchor, body_index(anchor.body), model_, surface_, model_.warnings);
+    if (anchor.radius == 0) doubt_single_point(anchor, point);
+    return point;
+  }
+
+  /// Once a body. Of an elastic solid the point that a force acts on goes infinitely far.
+  void doubt_single_point(const Anchor& anchor, const WeightedPoint& point) {
+    const auto is_tied = [](const NodeRef& node) { return node.rigid >= 0; };
+    if (std::ranges::all_of(point.nodes, is_tied)) return;
+    if (!pulled_at_a_point_.insert(anchor.body).second) return;
+    model_.warnings.push_back(
+        prefix(anchor.where) +
+        fmt::format("a force acts on one point of `{}`: how far it takes that along depends on the "
+                    "size of elements; expected a `radius` over which it is spread",
+                    anchor.body));
   }
 
   Vec3 start_position(const WeightedPoint& point) const {
@@ -478,6 +496,7 @@ class Builder {
   Model model_;
   std::vector<BodyGeometry> geometry_;       // one a body
   std::vector<collision::Surface> surface_;  // one a tissue
+  std::set<std::string> pulled_at_a_point_;  // tissues
   mutable Positions free_start_;             // of the free tissue nodes, by block
 };
 

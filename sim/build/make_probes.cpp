@@ -11,6 +11,7 @@
 
 #include "sim/build/region.hpp"
 #include "sim/build/weighted_points.hpp"
+#include "sim/mesh/extent.hpp"
 #include "sim/model/tied_bodies.hpp"
 
 namespace articular::sim {
@@ -140,18 +141,35 @@ struct Resolver {
     return std::min(side(contact.a), side(contact.b));
   }
 
-  /// Faces resolve nothing finer than themselves, and smaller spots are very many to try.
+  /// Of that body of the two where it is shorter [m].
+  double shorter_extent(const ContactModel& contact) const {
+    const auto length = [&](int b) {
+      return extent(start_positions(model, model.bodies[static_cast<std::size_t>(b)]));
+    };
+    return std::min(length(contact.a), length(contact.b));
+  }
+
+  /// Faces resolve nothing finer than themselves, and smaller spots are very many to try. Over one
+  /// far wider than the bodies hardly any pressure is left.
   void check_spot(double spot, std::span<const ObservedContact> contacts) const {
+    constexpr double kOfFace = 0.25, kOfBody = 2;
     if (!(spot > 0)) return;
-    double face = std::numeric_limits<double>::infinity();
-    for (const ObservedContact& observed : contacts)
+    double face = std::numeric_limits<double>::infinity(), body = 0;
+    for (const ObservedContact& observed : contacts) {
       face = std::min(face, finest_face(model.contacts[observed.contact]));
-    if (spot < 0.25 * face)
+      body = std::max(body, shorter_extent(model.contacts[observed.contact]));
+    }
+    const auto refuse = [&](const char* what, const char* expected, double length) {
       throw InputError(
           probe.where,
-          fmt::format("spot of probe `{}` is {:.3g} mm wide, less than a quarter of a face of "
-                      "the surfaces that touch; expected at least {:.3g} mm",
-                      probe.name, 1e3 * spot, 1e3 * 0.25 * face));
+          fmt::format("spot of probe `{}` is {:.3g} mm wide, {}; expected {} {:.3g} mm", probe.name,
+                      1e3 * spot, what, expected, 1e3 * length));
+    };
+    if (spot < kOfFace * face)
+      refuse("less than a quarter of a face of the surfaces that touch", "at least",
+             kOfFace * face);
+    if (spot > kOfBody * body)
+      refuse("more than twice the length of what touches", "at most", kOfBody * body);
   }
 
   int line_called(const std::string& name) const {

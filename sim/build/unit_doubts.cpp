@@ -9,54 +9,28 @@
 #include <utility>
 #include <variant>
 
-#include "fem/material/any_material.hpp"
-#include "fem/material/point_law.hpp"
 #include "sim/base/error.hpp"
 #include "sim/base/whole_turn.hpp"
+#include "sim/build/usual.hpp"
 #include "sim/mesh/extent.hpp"
 #include "sim/model/tissue.hpp"
 
 namespace articular::sim {
 namespace {
 
-struct Usual {
-  double least, most;
-};
-
-// Of what moves or gives way. Lungs have 200 kg/m³, tungsten has 19300; brain has a shear modulus
-// of about 500 Pa, tendon and plastics have less than 4e8 Pa (Young's modulus 1 GPa), bone has
-// more; the strongest muscle of a man has some thousand newtons, fibres pull with up to 1 MPa. The
-// whole patellar tendon has 4000 N/mm at most, and 2e5 N per unit of strain. Rubber has a friction
-// coefficient of 1 to 2, and ligaments tear at a strain of 0.1 to 0.3. A basement membrane is less
-// than 1 um thick, fasciae and aponeuroses up to 2 mm; skin has 0.1 MPa and more along its fibres.
+// Of what moves or gives way. Lungs have 200 kg/m³, tungsten has 19300; the strongest muscle of a
+// man has some thousand newtons. The whole patellar tendon has 4000 N/mm at most, and 2e5 N per
+// unit of strain. Rubber has a friction coefficient of 1 to 2, and ligaments tear at a strain of
+// 0.1 to 0.3. A basement membrane is less than 1 um thick, fasciae and aponeuroses up to 2 mm; skin
+// has 0.1 MPa and more along its fibres.
 constexpr Usual kExtent{1e-4, 1}, kTissueDensity{100, 4000}, kRigidDensity{100, 25000},
-    kShearModulus{10, 4e8}, kUsualForce{0, 2e4}, kUsualMoment{0, 2e3}, kUsualMass{0, 100},
-    kFibreStress{1e3, 3e6}, kGravity{0.1, 50}, kSlackLength{0, 1}, kStiffness{1, 1e7},
-    kStiffnessPerStrain{1, 1e6}, kFriction{0, 2}, kToeStrain{0, 0.5}, kToeEnd{1, 1.5},
-    kLigamentPrestretch{1, 1.2}, kMuscleSpeed{0.5, 5000}, kPassiveFraction{0, 1}, kShift{0, 1},
+    kUsualForce{0, 2e4}, kUsualMoment{0, 2e3}, kUsualMass{0, 100}, kGravity{0.1, 50},
+    kSlackLength{0, 1}, kStiffness{1, 1e7}, kStiffnessPerStrain{1, 1e6}, kFriction{0, 2},
+    kToeStrain{0, 0.5}, kMuscleSpeed{0.5, 5000}, kPassiveFraction{0, 1}, kShift{0, 1},
     kSheetThickness{1e-7, 5e-3}, kSheetModulus{1e4, 2e10}, kLayerThickness{1e-6, 2e-2},
-    kLayerModulus{1e3, 2e11}, kActivationTime{1e-4, 1}, kLengthRatio{1, 3}, kSpeed{0, 20},
-    kDampingTime{0, 1};
+    kLayerModulus{1e3, 2e11}, kActivationTime{1e-4, 1}, kLengthRatio{1, 3}, kSpeed{0, 20};
 
 constexpr double kFarthest = 2;  // [m] of a line's end or a probe's point from its body's middle
-
-/// Whether tissue that is drawn out, along its fibres if it has some, pushes outwards where its
-/// width is held. Small bulk moduli let it swell, and fibres that count the stretch at constant
-/// volume then hardly stretch [Helfenstein 2010].
-/// [Helfenstein 2010] Helfenstein, Jabareen, Mazza, Govindjee. On non-physical response in models
-///                    for fiber-reinforced hyperelastic materials. Int. J. Solids Struct. 47.
-bool gets_wider(const fem::AnyMaterial& law) {
-  constexpr double kStretch = 1.1, kLeastPart = 0.1;  // of the pull along, that it pushes
-  const FibreDirections along = Vec3::UnitZ();
-  const fem::PointLaw point(law, along, 0, 0);
-  const Mat3 F = Vec3(1, 1, kStretch).asDiagonal();
-  const Mat3 more = point.first_piola(F) - point.first_piola(Mat3::Identity());
-  return more(0, 0) < -kLeastPart * more(2, 2);
-}
-
-bool is_usual(double value, const Usual& range) {
-  return value >= range.least && value <= range.most;
-}
 
 const std::vector<double>& times_of(const Load& load) {
   return std::visit(
@@ -82,7 +56,7 @@ void doubt_short_excitations(const Scenario& scenario, const Doubt& doubt) {
         times.back() < kEarly * scenario.duration)
       doubt(muscle.where,
             fmt::format("the excitation of `{}` changes within {:.3g} ms and no more, in a run of "
-                        "{:.4g} s: are its times in seconds?",
+                        "{:.4g} s",
                         muscle.name, 1e3 * times.back(), scenario.duration));
   }
 }
@@ -126,25 +100,6 @@ void doubt_ratios(const Scenario& scenario, const Doubt& doubt) {
     if (!is_usual(sheet.toe_strain, kToeStrain))
       doubt(sheet.where, fmt::format("sheet `{}` has a toe strain of {:.3g}, usual is up to {:g}",
                                      sheet.name, sheet.toe_strain, kToeStrain.most));
-}
-
-/// Stretches of collagen that were given as strains, or in per cent.
-template <class Doubt>
-void doubt_collagen(const Scenario& scenario, const Doubt& doubt) {
-  for (const Body& body : scenario.bodies) {
-    if (!body.material) continue;
-    if (const double stretch = fem::prestretch(*body.material->law);
-        !is_usual(stretch, kLigamentPrestretch))
-      doubt(
-          body.material->where,
-          fmt::format("the `prestretch` of `{}` is {:.3g}, usual is 1 to {:g}, as in 1.03 for 3 %",
-                      body.name, stretch, kLigamentPrestretch.most));
-    if (const auto toe = fem::toe_end(*body.material->law); toe && !is_usual(*toe, kToeEnd))
-      doubt(body.material->where, fmt::format("the toe of the fibres of `{}` ends at a stretch of "
-                                              "{:.3g}, usual is up to {:g}, as in 1.03 "
-                                              "for 3 %",
-                                              body.name, *toe, kToeEnd.most));
-  }
 }
 
 double largest_factor(const Curve& profile) {
@@ -369,10 +324,7 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
     if (body.layer) doubt_layer(body, doubt);
     const bool is_made = !std::holds_alternative<MeshFile>(body.geometry);
     if (body.kind == Body::Kind::Fixed && is_made) continue;  // a floor may have any size
-    const BodyModel& made = model.bodies[b];
-    const Tissue* const tissue =
-        is_tissue ? &model.tissues[static_cast<std::size_t>(made.tissue)] : nullptr;
-    const double size = extent(start_positions(model, made));
+    const double size = extent(start_positions(model, model.bodies[b]));
     if (size > 0 && !is_usual(size, kExtent))
       doubt(body.where, fmt::format("`{}` is {:.3g} mm long", body.name, 1e3 * size));
     if (body.density && !is_usual(*body.density, is_tissue ? kTissueDensity : kRigidDensity))
@@ -382,27 +334,6 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
     if (body.mass && !is_usual(*body.mass, kUsualMass))
       doubt(body.where, fmt::format("`{}` has a mass of {:.3g} kg, usual is up to {:.0f} kg",
                                     body.name, *body.mass, kUsualMass.most));
-    if (is_tissue && !is_usual(tissue->shear_modulus, kShearModulus))
-      doubt(body.material->where,
-            fmt::format("`{}` has a shear modulus of {:.3g} Pa, usual is {:g} Pa to {:g} MPa",
-                        body.name, tissue->shear_modulus, kShearModulus.least,
-                        1e-6 * kShearModulus.most));
-    if (is_tissue && tissue->active_stress > 0 && !is_usual(tissue->active_stress, kFibreStress))
-      doubt(body.material->where,
-            fmt::format("fibres of `{}` pull with {:.3g} MPa, usual is 0.01 to 1 MPa", body.name,
-                        1e-6 * tissue->active_stress));
-    if (is_tissue && gets_wider(*body.material->law))
-      doubt(body.material->where,
-            fmt::format("drawn out{} `{}` gets wider: its bulk modulus of {:.3g} kPa is too small "
-                        "beside what else holds it together",
-                        body.material->fibres ? " along its fibres" : "", body.name,
-                        1e-3 * tissue->bulk_modulus));
-    if (is_tissue && scenario.analysis == Scenario::Analysis::Dynamic &&
-        !is_usual(body.material->stiffness_damping, kDampingTime))
-      doubt(body.material->where,
-            fmt::format("the `stiffness_damping` of `{}` is {:.3g} s, usual is up to {:g} s: the "
-                        "time that it takes to give way",
-                        body.name, body.material->stiffness_damping, kDampingTime.most));
     if (!is_usual(body.velocity.norm(), kSpeed))
       doubt(body.where,
             fmt::format("`{}` starts with {:.3g} m/s", body.name, body.velocity.norm()));
@@ -416,7 +347,6 @@ std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& mode
   doubt_times(scenario, doubt);
   doubt_short_excitations(scenario, doubt);
   doubt_ratios(scenario, doubt);
-  doubt_collagen(scenario, doubt);
   return doubts;
 }
 

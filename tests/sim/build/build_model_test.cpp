@@ -177,4 +177,34 @@ TEST(BuildModel, ALineWithAllPointsOnOneBoneIsTold) {
   }
 }
 
+ForceLoad pull(const Anchor& at) {
+  ForceLoad load;
+  load.at = at;
+  load.force = {0, 0, 1};
+  return load;
+}
+
+// Two points of a tissue are told once; a bone, a patch, and what is tied to bone are not.
+TEST(BuildModel, AForceOnOnePointOfTissueIsTold) {
+  const double top = 0.5 * kSide;
+  const auto num_told = [&](const std::vector<Load>& loads) {
+    Scenario s = scene(1e-3);
+    s.contact = false;
+    s.bodies = {block(), box_body("bone", Body::Kind::Rigid, Vec3::Constant(kSide), {0, 0, kSide})};
+    s.attachments = {attach("block", "bone", Vec3::Constant(-1), {1, 1, -0.49 * kSide})};
+    s.loads = loads;
+    const Model model = build_model(s);
+    return std::ranges::count_if(model.warnings, [](const std::string& warning) {
+      return warning.find("one point of `block`") != std::string::npos;
+    });
+  };
+  const ForceLoad on_node = pull(anchor("block", {0, 0, top})),
+                  on_face = pull(anchor("block", {1e-3, 2e-3, top}));
+  EXPECT_EQ(num_told({on_node}), 1);
+  EXPECT_EQ(num_told({on_face, on_node}), 1);
+  EXPECT_EQ(num_told({pull(anchor("block", {0, 0, top}, 0.6 * kSide))}), 0);
+  EXPECT_EQ(num_told({pull(anchor("block", {0, 0, -top}))}), 0);
+  EXPECT_EQ(num_told({pull(anchor("bone", {0, 0, kSide}))}), 0);
+}
+
 }  // namespace articular::sim::build_model_test

@@ -120,4 +120,16 @@ TEST(MakeProbes, ASpotFarSmallerThanFacesIsRefused) {
   }
 }
 
+// "left" is 10 mm long.
+TEST(MakeProbes, ASpotFarLargerThanABodyIsRefused) {
+  for (const auto& [first, second] : {std::pair("left", "floor"), std::pair("floor", "left")}) {
+    Scenario s = balls(first, second);
+    double& spot = std::get<ContactProbe>(s.probes[0].what).sensor.spot;
+    spot = 19.9e-3;
+    EXPECT_NO_THROW(build_model(s));
+    spot = 20.1e-3;
+    EXPECT_THROW(build_model(s), InputError);
+  }
+}
+
 }  // namespace articular::sim::make_probes_test

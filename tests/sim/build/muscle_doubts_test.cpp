@@ -43,7 +43,7 @@ Muscle of_fibres(const Curve& excitation) {
 Muscle line(const std::string& name, const Curve& excitation) {
   Muscle muscle;
   muscle.name = name;
-  muscle.path = {anchor("block", {0, 0, 0.01}), anchor("floor", {0, 1e-4 * name[0], 0.1})};
+  muscle.path = {anchor("block", {0, 0, 0.01}, 0.015), anchor("floor", {0, 1e-4 * name[0], 0.1})};
   muscle.max_force = 100;
   muscle.excitation = excitation;
   muscle.where = {"scene.toml", 9, 1};

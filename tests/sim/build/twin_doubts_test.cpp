@@ -59,7 +59,7 @@ TEST(TwinDoubts, AreOfLinesFromTheSamePointsToTheSamePoints) {
   const auto line = [](const std::string& kind, const std::string& name, const std::string& z,
                        const std::string& more) {
     const std::string from = R"({ body = "wall", point = "-20 0 0 mm" })",
-                      to = R"({ body = "bar", point = "0 0 )" + z + " mm\" }";
+                      to = R"({ body = "bar", radius = "3 mm", point = "0 0 )" + z + " mm\" }";
     const bool turned = name == "turned";
     return "[[" + kind + "]]\nname = \"" + name + "\"\n" + more + "path = [" +
            (turned ? to : from) + ", " + (turned ? from : to) + "]\n";

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fem/material/any_material.hpp"
 #include "sim/build/build_model.hpp"
 #include "sim/mesh/shapes.hpp"
 #include "tests/sim/support/contact_scene.hpp"
@@ -54,40 +53,6 @@ TEST(UnitDoubts, AreOfDensityBothWays) {
       s.bodies[body].density = *s.bodies[body].density * factor;
       EXPECT_EQ(num_doubts(s), 1U) << body << " " << factor;
     }
-}
-
-TEST(UnitDoubts, AreOfStiffnessBothWays) {
-  for (const double young : {1.0, 2e9, 1e15}) {
-    Scenario s = usual();
-    s.bodies[0].material = linear(young, 0.3);
-    EXPECT_EQ(num_doubts(s), 1U) << young;
-  }
-}
-
-TEST(UnitDoubts, AreOfTheStressOfFibres) {
-  for (const double stress : {9e2, 1e6, 4e6}) {
-    Scenario s = usual();
-    s.bodies[0].material =
-        material_of(fem::BlemkerMuscle<>(fem::MuscleFibre({.max_stress = stress}), {}));
-    s.bodies[0].material->fibres = Fibres{.along = Vec3::UnitZ()};
-    s.bodies[0].material->element = TissueMaterial::Element::Smoothed;  // plain ones would lock
-    Muscle muscle;
-    muscle.name = "fibres";
-    muscle.tissue = "block";
-    muscle.excitation = {{0}, {1}};
-    s.muscles.push_back(muscle);
-    EXPECT_EQ(num_doubts(s), stress == 1e6 ? 0U : 1U) << stress;
-  }
-}
-
-TEST(UnitDoubts, AreOfDampingOfSeconds) {
-  Scenario s = usual();
-  s.bodies[0].material->stiffness_damping = 0.9;
-  EXPECT_EQ(num_doubts(s), 0U);
-  s.bodies[0].material->stiffness_damping = 5;
-  EXPECT_EQ(num_doubts(s), 1U);
-  s.analysis = Scenario::Analysis::Static;  // no damping there
-  EXPECT_EQ(num_doubts(s), 0U);
 }
 
 TEST(UnitDoubts, AreOfAMass) {
@@ -192,23 +157,6 @@ TEST(UnitDoubts, AreOfASpeedAtTheStart) {
 
 // Poisson's ratio is negative where the bulk modulus is less than 2/3 of the shear modulus, 20 kPa
 // here; and next to fibres of the modulus c5 where it is less than 2/9 of it.
-TEST(UnitDoubts, AreOfABulkModulusThatLetsTissueGetWider) {
-  for (const double bulk : {5e3, 1.4e4}) {
-    Scenario s = usual();
-    s.bodies[0].material = material_of(fem::MooneyRivlin<fem::VolumeChange>(1e4, 0, bulk));
-    EXPECT_EQ(num_doubts(s), bulk > 4e4 / 3 ? 0U : 1U) << bulk;
-  }
-  for (const double bulk : {1e6, 3e6}) {
-    Scenario s = usual();
-    s.bodies[0].material = material_of(fem::TransverselyIsotropic<fem::VolumeChange>(
-        1e4, 0, fem::ToeLinearFibre({.c3 = 1e3, .c4 = 20, .c5 = 1e7, .toe_end = 1.019}), bulk,
-        fem::ActiveFibre({.stress = 0, .force_length = {}})));
-    s.bodies[0].material->fibres = Fibres{.along = Vec3::UnitX()};
-    s.bodies[0].material->element = TissueMaterial::Element::Smoothed;
-    EXPECT_EQ(num_doubts(s), bulk > 2e6 ? 0U : 1U) << bulk;
-  }
-}
-
 // The middle of the bone lies at x = 1 m.
 TEST(UnitDoubts, AreOfAHoldFarFromItsBody) {
   for (const double apart : {1.9, 2.1}) {
@@ -274,18 +222,6 @@ TEST(UnitDoubts, AreOfAMusclesForceSpeedAndPassiveForce) {
   EXPECT_EQ(doubts_of(300, 10.0 / 60, 0.015), 1U);
   EXPECT_EQ(doubts_of(300, 1e4, 0.015), 1U);
   EXPECT_EQ(doubts_of(300, 10, 1.5), 1U);
-}
-
-TEST(UnitDoubts, AreOfAPrestretchThatIsNone) {
-  for (const double stretch : {0.97, 1.0, 1.03, 1.3}) {
-    Scenario s = usual();
-    s.bodies[0].material = material_of(fem::TransverselyIsotropic<fem::VolumeChange>(
-        1e4, 0, fem::ToeLinearFibre({.c3 = 1e3, .c4 = 20, .c5 = 1e5, .toe_end = 1.05}), 3e6,
-        fem::ActiveFibre({.stress = 0, .force_length = {}}), stretch));
-    s.bodies[0].material->fibres = Fibres{.along = Vec3::UnitX()};
-    s.bodies[0].material->element = TissueMaterial::Element::Smoothed;
-    EXPECT_EQ(num_doubts(s), stretch < 1 || stretch > 1.2 ? 1U : 0U) << stretch;
-  }
 }
 
 TEST(UnitDoubts, AreOfCurvesThatBeginWhenTheRunIsOver) {
@@ -376,18 +312,6 @@ TEST(UnitDoubts, AreOfAToeStrainInPerCent) {
     EXPECT_EQ(num_doubts(s), strain <= 0.5 ? 0U : 1U) << strain;
     s.ligaments[0].law = Ligament::Law::Linear;
     EXPECT_EQ(num_doubts(s), 0U) << strain;
-  }
-}
-
-TEST(UnitDoubts, AreOfAToeThatEndsWhereNoCollagenIsLeft) {
-  for (const double end : {1.03, 1.5, 1.9}) {
-    Scenario s = usual();
-    s.bodies[0].material = material_of(fem::TransverselyIsotropic<fem::VolumeChange>(
-        1e4, 0, fem::ToeLinearFibre({.c3 = 1e3, .c4 = 2, .c5 = 1e4, .toe_end = end}), 3e6,
-        fem::ActiveFibre({.stress = 0, .force_length = {}})));
-    s.bodies[0].material->fibres = Fibres{.along = Vec3::UnitX()};
-    s.bodies[0].material->element = TissueMaterial::Element::Smoothed;
-    EXPECT_EQ(num_doubts(s), end <= 1.5 ? 0U : 1U) << end;
   }
 }
 
