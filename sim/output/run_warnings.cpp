@@ -160,11 +160,17 @@ void warn_of_unresolved_contacts(const Model& model, const Stepper& stepper,
     const Carrying found = carrying(model, *contact);
     if (!is_unresolved(model, *contact, found) || ++count > kMostNamed) continue;
     const ContactModel& pair = contact->pair;
+    const std::string& carrier = name_of_body(model, pair.reversed ? pair.b : pair.a);
+    const std::string who =
+        found.num_nodes > 0
+            ? fmt::format("{} of the nodes of `{}` carry it", found.num_nodes, carrier)
+            : fmt::format(
+                  "no node of `{}` carries it, though points lie {:.2g} mm in the other body",
+                  carrier, 1e3 * found.deepest_point);
     warnings.push_back(fmt::format(
-        "the contact of `{}` and `{}` is not resolved at the end: {} of the nodes of `{}` carry "
-        "it, and the force may be far off; expected smaller elements where they touch",
-        name_of_body(model, pair.a), name_of_body(model, pair.b), found.num_nodes,
-        name_of_body(model, pair.reversed ? pair.b : pair.a)));
+        "the contact of `{}` and `{}` is not resolved at the end: {}, and the force may be far "
+        "off; expected smaller elements where they touch",
+        name_of_body(model, pair.a), name_of_body(model, pair.b), who));
   }
   if (count > kMostNamed)
     warnings.push_back(
