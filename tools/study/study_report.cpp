@@ -42,11 +42,14 @@ std::string reference_text(const Study& study, const Assessment& assessment, std
   return text + fmt::format("; an error of 100 % is {:.4g}{}\n", assessment.scales[o], unit);
 }
 
-/// By how much the time grows where the error is halved, between two points.
+/// By how much the time grows where the error is halved, between two points. Of points whose errors
+/// are nearly the same that is no number to tell.
 std::string halving(const CaseAssessment& cheap, const CaseAssessment& near) {
+  constexpr double kMost = 100;
   if (!(near.error > 0) || !(cheap.error > near.error)) return "";
   const double halvings = std::log2(cheap.error / near.error);
-  return fmt::format("{:.2g}", std::pow(near.time / cheap.time, 1 / halvings));
+  const double costs = std::pow(near.time / cheap.time, 1 / halvings);
+  return costs > kMost ? fmt::format("more than {:g}", kMost) : fmt::format("{:.2g}", costs);
 }
 
 std::string front_table(const std::vector<StudyCase>& cases, const Assessment& assessment) {
