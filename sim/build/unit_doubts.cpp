@@ -45,7 +45,7 @@ const std::vector<double>& times_of(const Load& load) {
 
 /// Activation follows in tens of milliseconds: an excitation that is over so soon [s], early in the
 /// run, was meant to be in other units.
-constexpr double kShortestExcitation = 2e-3, kEarly = 0.1;
+constexpr double kShortestExcitation = 1e-3, kEarly = 0.1;
 
 template <class Doubt>
 void doubt_short_excitations(const Scenario& scenario, const Doubt& doubt) {
