@@ -7,7 +7,6 @@
 
 #include "fem/material/any_material.hpp"
 #include "fem/material/point_law.hpp"
-#include "sim/base/error.hpp"
 #include "sim/build/usual.hpp"
 #include "sim/model/tissue.hpp"
 
@@ -84,8 +83,7 @@ std::vector<std::string> law_doubts(const Scenario& scenario, const Model& model
     const fem::AnyMaterial& law = *body.material->law;
     const Tissue& tissue = model.tissues[static_cast<std::size_t>(model.bodies[b].tissue)];
     const auto doubt = [&](const std::string& what) {
-      doubts.push_back(prefix(body.material->where) + what +
-                       "; is its unit the one that was meant?");
+      doubts.push_back(unit_doubt(body.material->where, what));
     };
     if (!is_usual(tissue.shear_modulus, kShearModulus))
       doubt(fmt::format("`{}` has a shear modulus of {:.3g} Pa, usual is {:g} Pa to {:g} MPa",

@@ -9,7 +9,6 @@
 #include <utility>
 #include <variant>
 
-#include "sim/base/error.hpp"
 #include "sim/base/whole_turn.hpp"
 #include "sim/build/usual.hpp"
 #include "sim/mesh/extent.hpp"
@@ -316,7 +315,7 @@ void doubt_sheets(const Scenario& scenario, const Doubt& doubt) {
 std::vector<std::string> unit_doubts(const Scenario& scenario, const Model& model) {
   std::vector<std::string> doubts;
   const auto doubt = [&](const Location& where, const std::string& what) {
-    doubts.push_back(prefix(where) + what + "; is its unit the one that was meant?");
+    doubts.push_back(unit_doubt(where, what));
   };
   for (std::size_t b = 0; b < scenario.bodies.size(); ++b) {
     const Body& body = scenario.bodies[b];

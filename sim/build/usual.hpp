@@ -1,5 +1,9 @@
 #pragma once
 
+#include <string>
+
+#include "sim/base/error.hpp"
+
 namespace articular::sim {
 
 /// What a quantity of tissue, bone or tool may be. Beyond it a unit was most often meant otherwise.
@@ -9,6 +13,11 @@ struct Usual {
 
 inline bool is_usual(double value, const Usual& range) {
   return value >= range.least && value <= range.most;
+}
+
+/// The warning of what is beyond it.
+inline std::string unit_doubt(const Location& where, const std::string& what) {
+  return prefix(where) + what + "; is its unit the one that was meant?";
 }
 
 }  // namespace articular::sim

@@ -10,6 +10,7 @@
 
 #include "sim/base/place_text.hpp"
 #include "sim/build/region.hpp"
+#include "sim/build/usual.hpp"
 #include "sim/mesh/triangle_tree.hpp"
 #include "sim/mesh/winding_number.hpp"
 #include "sim/model/tissue.hpp"
@@ -136,10 +137,9 @@ WeightedPoint anchored_point(const Anchor& anchor, int body, const Model& model,
                       patch.nodes.empty() ? "no node" : "one node", of.name, 1e3 * anchor.radius));
     if (static_cast<std::ptrdiff_t>(patch.nodes.size()) ==
         std::count(on_surface.begin(), on_surface.end(), char{1}))
-      warnings.push_back(prefix(anchor.where) +
-                         fmt::format("the whole surface of `{}` lies within the radius of {:g} mm; "
-                                     "is its unit the one that was meant?",
-                                     of.name, 1e3 * anchor.radius));
+      warnings.push_back(unit_doubt(
+          anchor.where, fmt::format("the whole surface of `{}` lies within the radius of {:g} mm",
+                                    of.name, 1e3 * anchor.radius)));
     if (!patch.nodes.empty()) return patch;
   }
   return point_of_tissue(anchor, of, model.tissues[t], surfaces[t]);
